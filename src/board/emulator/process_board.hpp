@@ -1,5 +1,5 @@
-// ProcessBoard: an emulated board whose chip is a program of its own. All but what the chip's pins mean: the line, the
-// time, the counts, and the plant.
+// ProcessBoard: an emulated board whose chip runs in a separate process. It handles the serial link, the time, the step
+// counts and the plant; derived classes define the meaning of the pins.
 #pragma once
 
 #include <algorithm>
@@ -44,11 +44,11 @@ class ProcessBoard : public EmulatedBoard {
   }
 
  protected:
-  // `clock_rate`: cycles a second.
+  // `clock_rate`: clock frequency in Hz.
   ProcessBoard(double clock_rate, std::size_t motors) : clock_rate_(clock_rate), positions_(motors, 0) {}
 
-  // The chip that is emulated from now on, and the pins that make steps. The first answer shows that the program is
-  // there and boots.
+  // Sets the emulated chip, and the pins that make steps. The first answer shows that the process is running and the
+  // firmware boots.
   void start(std::unique_ptr<EmulatorProcess> chip, std::uint32_t stepping) {
     chip_ = std::move(chip);
     stepping_ = stepping;
@@ -67,16 +67,16 @@ class ProcessBoard : public EmulatedBoard {
   }
 
  private:
-  // How long, in seconds, an endless run() waits for a silent board.
+  // The longest time, in seconds, for which an endless run() waits for a silent board.
   static constexpr double longest_silence = 10;
 
-  // Counts the steps of a change of the pins.
+  // Counts the steps in a change of the pins.
   virtual void count_steps(const PinChange& change, std::uint32_t before) = 0;
-  // What the spindle's pins ask for; below zero: backwards.
+  // Returns the speed that the spindle's pins command, in rpm; negative: reverse.
   virtual double commanded_rpm() const = 0;
-  // The plant's inputs have changed.
+  // Sets the input pins after the plant's inputs have changed.
   virtual void set_pins(std::uint16_t inputs) = 0;
-  // Where to stop at the latest on the way to the cycle `end`.
+  // Returns the latest cycle at which the run to cycle `end` must be interrupted.
   virtual std::uint64_t next_stop(std::uint64_t end) { return end; }
 
   void run_until(std::uint64_t cycle, const EmulatorProcess::Stops& stops) {
@@ -108,7 +108,7 @@ class ProcessBoard : public EmulatedBoard {
   std::uint32_t levels_ = 0;
   IdealPlant own_plant_;
   Plant* plant_ = &own_plant_;
-  std::uint16_t inputs_ = 0;  // the inputs that the plant told last
+  std::uint16_t inputs_ = 0;  // the inputs last reported by the plant
   double rpm_ = 0;
   std::vector<std::int64_t> positions_;
   MotorSteps pulses_{};  // the pulses of the current change

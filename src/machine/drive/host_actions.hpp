@@ -1,11 +1,11 @@
-// Which actions of a path the drive carries out at rest, before the path goes on. Private to drive/.
+// The actions of a path that the drive performs during a stop, before the path continues. Private to drive/.
 #pragma once
 
 #include "passo/drive/program_stop.hpp"
 
 namespace passo {
 
-// True: the action only changes outputs, which the board switches in passing.
+// True: the action only changes outputs, which the board switches during motion.
 constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {
   using Kind = Action::Kind;
   switch (action.kind) {

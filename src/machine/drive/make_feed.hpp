@@ -1,4 +1,4 @@
-// The feed that a drive's options ask for. Private to drive/.
+// Creates the feed for a drive's options. Private to drive/.
 #pragma once
 
 #include <memory>

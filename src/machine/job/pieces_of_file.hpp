@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// Hands the file to `take`, piece by piece, until `take` returns false. Returns false if the file cannot be read.
+// Passes the file to `take`, in pieces, until `take` returns false. Returns false if the file cannot be read.
 template <typename Take>
 bool read_pieces(const std::string& path, const Take& take) {
   std::ifstream file(path, std::ios::binary);

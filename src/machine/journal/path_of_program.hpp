@@ -1,4 +1,4 @@
-// PathOfProgram: the path of a program up to where a drive takes it over. Private to journal/.
+// PathOfProgram: the path of a program up to the drive. Private to journal/.
 //
 //   ProgramStages -> BacklashTaker -> RewindablePath
 #pragma once
@@ -20,22 +20,22 @@ namespace passo {
 
 class PathOfProgram {
  public:
-  // Takes probe moves to be touched at their ends, as a check does.
+  // Assumes that probe moves make contact at their ends, as a check does.
   PathOfProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options)
       : PathOfProgram(std::move(program), machine, options, no_answers(), {}) {}
-  // As of a run whose first probe moves have found `known`. Behind the first one that is not known, the path means
-  // nothing.
+  // Uses `known`, the results of a run's first probe moves. After the first probe move without a known result, the path
+  // is meaningless.
   PathOfProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const std::vector<ProbeOutcome>& known)
       : PathOfProgram(std::move(program), machine, options, nothing_found(), known) {}
 
-  // For watchers of the operations, and of the path before it is smoothed. Watchers are added before the first item.
+  // Taps for observers of the operations, and of the path before smoothing. Add observers before the first item.
   Tap<Operation>& operations() { return stages_.operations(); }
   Tap<PathItem>& programmed() { return stages_.path(); }
   RewindablePath& path() { return path_; }
   const StepOptions& steps() const { return steps_; }
   bool any_error() const { return diagnostics_.any_error(); }
-  // The probe move that began last has an outcome.
+  // True: the result of the newest probe move is known.
   bool knows_last_probe() const { return stages_.answers().knows_last(); }
 
  private:

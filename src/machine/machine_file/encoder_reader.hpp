@@ -1,4 +1,4 @@
-// Reads the table [axis.X.encoder] of a machine file: the encoder on an axis's motor, and what its drive does with it.
+// Reads the table [axis.X.encoder] of a machine file: the encoder on an axis' motor, and its use by the drive.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace passo {
 
-// Reads the table within that of the axis, if there is one. What is wrong is reported and left out. `finish` is called
-// with the table's reader when all is read.
+// Reads the table inside that of the axis, if there is one. Invalid values are reported and omitted. `finish` is called
+// with the table's reader at the end.
 std::optional<EncoderDescription> read_encoder_of(TableReader& axis, bool rotary, const TomlReporter& reporter,
                                                   const std::function<void(TableReader&)>& finish);
 

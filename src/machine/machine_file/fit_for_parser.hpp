@@ -1,4 +1,4 @@
-// What stands before and after a TOML parser, for each file in TOML that a user writes.
+// The work before and after TOML parsing, common to all TOML files written by users.
 #pragma once
 
 #include "toml_reporter.hpp"
@@ -7,13 +7,13 @@
 
 namespace passo {
 
-inline constexpr std::size_t most_sorted_errors = 1000;  // kept, so that they can be sorted
+inline constexpr std::size_t most_sorted_errors = 1000;  // kept for sorting
 
-// Refuses what a parser should not see. A text over several lines is refused too: without such texts a comment can be
+// Rejects input that a parser should not see. Multi-line strings are rejected too: without them, a comment can be
 // recognised from its line alone.
 bool is_fit_for_parser(const TomlReporter& reporter);
 
-// A file is checked by meaning, but a person corrects it from top to bottom: so sorts by line.
+// Sorts findings by line, because users correct a file from top to bottom, and adds them to `diagnostics`.
 void hand_over(const Diagnostics& found, Diagnostics& diagnostics);
 
 }  // namespace passo

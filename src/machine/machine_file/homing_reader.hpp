@@ -1,4 +1,4 @@
-// Reads what a machine file says of homing: [homing], and the table [axis.X.home] of each axis with a homing switch.
+// Reads the homing data of a machine file: [homing], and the table [axis.X.home] of each axis with a homing switch.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace passo {
 
-// Reads the table of one axis, whose travel and velocity must be known. Returns nothing where anything is wrong.
+// Reads the table of one axis, whose travel and velocity must be known. Returns nothing if any value is invalid.
 std::optional<HomeDescription> read_home(TableReader& reader, const AxisDescription& axis);
 
-// Reads the table of an axis's second motor. Returns nothing where anything is wrong.
+// Reads the table of an axis' second motor. Returns nothing if any value is invalid.
 std::optional<SecondMotor> read_second_motor(TableReader& reader, const AxisDescription& axis);
 
-// An order of homing. Of each axis: axes with the same number of turn seek their switches at once.
+// The homing order. `turns` has a number for each axis: axes with the same number seek their switches together.
 struct HomingOrder {
   std::vector<Axis> axes;
   std::vector<int> turns;
 };
 
-// The axes in the order in which they are homed. `homing` is the table, if there is one. `complete` means that no table
-// [axis.X.home] was wrong.
+// Returns the axes in homing order. `homing` is the table, if there is one. `complete`: all tables [axis.X.home] are
+// valid.
 HomingOrder read_homing_order(TableReader* homing, const std::vector<AxisDescription>& axes, bool complete);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Makes a MachineDescription of the tree of a TOML file. Checks the keys, their ranges, and how they fit together.
+// Creates a MachineDescription from a parsed TOML file. Checks the keys, their ranges, and their consistency.
 #pragma once
 
 #include "toml_document.hpp"
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// The result is whole and sound only if nothing was reported.
+// The result is complete and valid only if no error was reported.
 MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Reads what a machine file says of the board's pins: [inputs], [outputs], windings on pins, and [silence]; and [work].
+// Reads the board's pins in a machine file: [inputs], [outputs], windings on pins, and [silence]; and checks [work].
 #pragma once
 
 #include "table_reader.hpp"
@@ -8,7 +8,7 @@
 namespace passo {
 
 void read_inputs(TableReader& reader, PinsDescription& pins);
-// The input at which the drive of an axis gives its alarm. No axis may be homed by it.
+// Reads the alarm input of an axis' drive. That input must not be used for homing.
 std::optional<int> read_alarm_input(TableReader& reader);
 void check_alarm_input(const TomlReporter& reporter, const SourcePlace& place, const MachineDescription& machine,
                        std::size_t index);
@@ -17,7 +17,7 @@ void read_windings(TableReader& reader, BoardDescription& board);
 
 void read_silence(TableReader& reader, SilenceDescription& silence);
 
-// Usual values of the work, for the page. They are checked, and no motion depends on them.
+// Checks the default values for workpieces, which the web interface uses. No motion depends on them.
 void check_work(TableReader& reader);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Reads the table [axis.X.screw] of a machine file: the backlash and the errors of pitch of an axis's screw.
+// Reads the table [axis.X.screw] of a machine file: the backlash and pitch errors of an axis' screw.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace passo {
 
-// Reads the table within that of the axis, if there is one. What is wrong is reported and left out. `finish` is called
-// with the table's reader when all is read.
+// Reads the table inside that of the axis, if there is one. Invalid values are reported and omitted. `finish` is called
+// with the table's reader at the end.
 std::optional<ScrewDescription> read_screw_of(TableReader& axis, bool rotary, const TomlReporter& reporter,
                                               const std::function<void(TableReader&)>& finish);
 

@@ -1,8 +1,8 @@
 // TableReader: one table of a machine file, key by key.
 //
-// The caller asks for each key that the table may have. Any other key is a mistake and is reported with the nearest
-// known key. Required keys that are absent are reported together, in one diagnostic for the table. A value that is
-// absent or wrong is an empty optional.
+// The caller reads each key that the table may have. Any other key is an error and is reported with the nearest known
+// key. Missing required keys are reported together, in one diagnostic for the table. An absent or invalid value gives
+// an empty optional.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace passo {
 
-// A key whose value is a number: its range (both ends included), and an example for messages.
+// A key with a numeric value: its range (both ends included), and an example for messages.
 struct NumberKey {
   std::string_view name;
   double least = 0;
@@ -32,39 +32,40 @@ struct LowHigh {
 
 class TableReader {
  public:
-  // `path` names the table as the file does ("axis.X"; empty for the top of the file). An absent table is read as an
+  // `path` is the table's name in the file ("axis.X"; empty for the top of the file). An absent table is read as an
   // empty one.
   TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const TomlReporter& reporter);
 
   bool has(std::string_view key) const { return find(table_, key) != nullptr; }
-  SourcePlace place_of(std::string_view key) const;  // the place of its value; the table's where there is none
+  SourcePlace place_of(std::string_view key) const;  // the position of its value; that of the table if there is no
+                                                     // value
 
   std::optional<double> number(const NumberKey& key, Need need);
-  // A number without any report; another reader of this table reports on it.
+  // Reads a number without reporting errors; another reader of this table reports them.
   std::optional<double> peek(const NumberKey& key) const;
   std::optional<double> whole_number(const NumberKey& key, Need need);
-  // A list of two numbers in the key's range.
+  // Reads a list of two numbers in the key's range.
   std::optional<LowHigh> low_high(const NumberKey& key, Need need);
-  // A required list of such lists: [[a, b], [c, d]].
+  // Reads a required list of such lists: [[a, b], [c, d]].
   std::optional<std::vector<LowHigh>> pairs(const NumberKey& key);
-  // Allows a key that this reader does not ask for.
+  // Marks a key as known that this reader does not read.
   void know(std::string_view key) { known_.push_back(key); }
   std::optional<bool> flag(std::string_view key);
   std::optional<std::string> text(std::string_view key, std::string_view example, Need need);
-  // The value must be one of two words. An optional value that is absent counts as the first word.
+  // Reads a value that must be one of two words. An absent optional value counts as the first word.
   std::optional<bool> is_second_of(std::string_view code, std::string_view key, std::string_view first,
                                    std::string_view second, Need need);
-  // A list of at most `most` such words; true where it is the second.
+  // Reads a list of at most `most` such words; true for the second word.
   std::vector<bool> are_second_of(std::string_view code, std::string_view key, std::string_view first,
                                   std::string_view second, std::size_t most);
-  // A table inside this one. `what` describes it for messages.
+  // Returns a table inside this one. `what` describes it for messages.
   const TomlEntry* table(std::string_view key, std::string_view what, Need need);
 
   void error(std::string_view code, std::string_view key, std::string message, std::string expected) const;
   void missing(std::string_view key, std::string example);
 
-  // Reports unknown keys, and missing keys if `report_missing` (the whole file could be read). `top_keys` are keys of
-  // the top of the file that users often write below a [table] by mistake.
+  // Reports unknown keys, and missing keys if `report_missing` (the whole file could be read). `top_keys` are top-level
+  // keys that users often write below a [table] by mistake.
   void finish(bool report_missing, const std::vector<std::string_view>& top_keys);
 
   std::string full_name(std::string_view key) const;

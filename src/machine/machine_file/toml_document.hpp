@@ -1,7 +1,7 @@
-// TomlDocument: a TOML file as a plain tree, in the order of the file. Every key and value has its place.
+// TomlDocument: a TOML file as a plain tree, in the order of the file. Every key and value has its position.
 //
-// Only toml_document.cpp and toml_text.cpp see the TOML library: the library compiles slowly, and its exceptions stay
-// there.
+// Only toml_document.cpp and toml_text.cpp include the TOML library, because it compiles slowly and throws exceptions,
+// which stay inside these files.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct TomlTable {
   std::vector<TomlEntry> entries;  // in the order of the file
 };
 using TomlArray = std::vector<TomlValue>;
-// A date or a time. No key of a machine file takes one.
+// A date or a time. No key of a machine file accepts one.
 struct TomlDate {};
 
 struct TomlValue {
@@ -30,20 +30,20 @@ struct TomlValue {
 
 struct TomlEntry {
   std::string key;
-  SourcePlace place;  // of the key
+  SourcePlace place;  // position of the key
   TomlValue value;
 };
 
 const TomlEntry* find(const TomlTable& table, std::string_view key);
-// The kind of a value, for a message: "a number", "the text \"25 mm\"".
+// Returns the kind of a value, for a message: "a number", "the text \"25 mm\"".
 std::string kind_of(const TomlValue& value);
 
 struct TomlDocument {
   TomlTable root;
-  bool complete = true;  // false: lines with errors were left out, so a key that seems missing may be in one of them
+  bool complete = true;  // false: lines with errors were omitted, so a key that seems missing may be in one of them
 };
 
-// Every syntax error goes to the reporter. A wrong line is left out, and the rest is read again.
+// Passes every syntax error to the reporter. A line with an error is omitted, and the remaining lines are parsed again.
 TomlDocument parse_toml(std::string text, const TomlReporter& reporter);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// TomlReporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and
-// caret. The codes of another file in TOML begin with its own area: "tools.unknown-key" for "machine.unknown-key".
+// TomlReporter: converts a position in the text of a machine file into a diagnostic with line and caret. For other TOML
+// files, the codes begin with their own area: "tools.unknown-key" instead of "machine.unknown-key".
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class TomlReporter {
   std::size_t line_count() const { return lines_.size(); }
   // The line without its line end. Lines count from 1.
   std::string_view line(std::uint32_t number) const;
-  // Converts columns in characters, as a TOML parser counts, to columns in bytes.
+  // Converts columns in characters, as used by the TOML parser, to columns in bytes.
   SourcePlace place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const;
 
  private:

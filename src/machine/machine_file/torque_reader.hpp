@@ -1,4 +1,4 @@
-// Reads the table [axis.X.torque] of a machine file: an axis's motor, its drive and its load.
+// Reads the table [axis.X.torque] of a machine file: an axis' motor, its drive and its load.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// `unit_per_turn` is millimetres or degrees of the axis for one turn of the motor. Without it there is a diagnostic.
-// Returns nothing where anything is wrong.
+// `unit_per_turn` is the axis travel per motor revolution, in millimetres or degrees. Without it there is a diagnostic.
+// Returns nothing if any value is invalid.
 std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::optional<double> unit_per_turn);
 
 }  // namespace passo

@@ -1,5 +1,4 @@
-// JogLease: how long a jog may go on without being asked for again. A jog without a lease has no end of its own.
-// Private to session/.
+// JogLease: the keep-alive timeout of a jog. A jog without one continues until it is stopped. Private to session/.
 #pragma once
 
 #include <optional>
@@ -15,7 +14,7 @@ class JogLease {
     renew(now);
   }
   void renew(Seconds now) { end_ = now + length_; }
-  // Whether motion that is made until then would outlast the lease.
+  // Whether motion planned up to that time would outlast the keep-alive timeout.
   bool is_over_at(Seconds time) const { return end_ && time > *end_; }
 
  private:

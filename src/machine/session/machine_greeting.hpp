@@ -1,4 +1,4 @@
-// What the host says to a board about its machine in the handshake.
+// Adds the machine's data to the host's handshake with a board.
 #pragma once
 
 #include "passo/link/board_session.hpp"
@@ -6,8 +6,8 @@
 
 namespace passo {
 
-// `greeting` with the machine's motors, pins, pairs and times of silence. Without a line it sets no pulses: those of a
-// board within this process go nowhere.
+// Returns `greeting` with the machine's motors, pins, pairs and silence times. Without a link no pulse times are set,
+// because a board inside this process has no step pins.
 Greeting with_machine(Greeting greeting, const MachineDescription& machine, bool over_a_line);
 
 }  // namespace passo

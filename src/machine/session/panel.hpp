@@ -1,8 +1,8 @@
-// Panel: the buttons and the door of a board, and the requests that they stand for. Private to session/.
+// Panel: the buttons and the door of a board, and the corresponding requests. Private to session/.
 //
-// The board tells at once what is pressed. The panel also asks from time to time, because a message may be lost. Feed
-// hold brakes on the path; cycle start goes on. An open door is a hold too: the machine goes on when the door is closed
-// and somebody presses cycle start.
+// The board immediately reports a pressed button. The panel also queries the board from time to time, because a message
+// may be lost. Feed hold stops on the path; cycle start resumes. An open door is a hold too: the machine resumes when
+// the door is closed and the operator presses cycle start.
 #pragma once
 
 #include "passo/session/machine_session.hpp"
@@ -12,11 +12,11 @@ namespace passo {
 
 class MachineSession::Panel {
  public:
-  // In a hold somebody is near, so the panel asks more often, to hear a start soon.
+  // In a hold the operator is probably near, so the panel queries more often, to detect a start soon.
   static constexpr Seconds between_questions{0.2};
   static constexpr Seconds in_a_hold{0.05};
 
-  // The board outlives the panel.
+  // The board must outlive the panel.
   explicit Panel(BoardSession& board) : board_(board) {}
 
   void ask(bool holds) {
@@ -27,7 +27,7 @@ class MachineSession::Panel {
   struct Pressed {
     bool hold = false;
     bool door = false;
-    bool start = false;  // cycle start, while hold is not pressed and the door is closed
+    bool start = false;  // cycle start, unless hold is pressed or the door is open
   };
   Pressed take_pressed() {
     const unsigned pressed = board_.take_pressed();

@@ -1,6 +1,5 @@
-// PlannedAhead: what of a work's motion is planned and not made yet. Motion is planned before it is made, so what a
-// part of the plan means (its line, its share of the program) counts from the time at which the board makes it. Private
-// to session/.
+// PlannedAhead: the planned but not yet executed motion of a work item. The data of a planned part (its line, its share
+// of the program) take effect at the time at which the board executes that part. Private to session/.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 
 namespace passo {
 
-// The lines of the program whose motion is planned, and when their motion begins.
+// The program lines of the planned motion, with the start times of their motion.
 class LinesAhead {
  public:
   void plan(const OperationSource& line, Seconds begins, Seconds now) {
@@ -42,7 +41,7 @@ class LinesAhead {
 
 class PlannedAhead {
  public:
-  // `whole`: the nominal time of the program; 0: the work tells no progress.
+  // `whole`: the nominal time of the program; 0: no progress is reported.
   void begin(const Point& place, const std::vector<PathItem>& lead_in, const MotionLimits& limits, Seconds whole) {
     place_ = place;
     progress_.begin_with(lead_in, limits);
@@ -61,14 +60,14 @@ class PlannedAhead {
   // The end of the planned path.
   const Point& place() const { return place_; }
   const OperationSource& line_at(Seconds time) { return lines_.at(time); }
-  // The part of the program that is executed then, 0 to 1. `left_out`: the nominal time before the place where the
-  // motion began. Empty: the work tells no progress.
+  // Returns the fraction of the program executed at that time, 0 to 1. `left_out`: the nominal time before the point
+  // where the motion began. Empty: no progress is reported.
   std::optional<double> progress_at(Seconds time, Seconds left_out) {
     if (!(whole_ > Seconds(0))) return {};
     return std::min((left_out + std::max(progress_.at(time), Seconds(0))) / whole_, 1.0);
   }
   bool plans_program_end() const { return program_ends_.has_value(); }
-  // True, once: an M2 or M30 was planned, and the motion before it is made.
+  // True, once: an M2 or M30 was planned, and the motion before it is executed.
   bool take_program_end(Seconds time) {
     const bool has_ended = program_ends_ && time >= *program_ends_;
     if (has_ended) program_ends_.reset();

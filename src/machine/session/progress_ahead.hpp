@@ -1,5 +1,5 @@
-// ProgressAhead: how much of a program is executed, by its nominal time. Motion is planned before it is made, a short
-// program as a whole: so each planned part is noted with the time at which the board makes it. Private to session/.
+// ProgressAhead: the executed fraction of a program, by its nominal time. Motion is planned ahead, in a short program
+// as a whole, so each planned part is recorded with the time at which the board executes it. Private to session/.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace passo {
 
-// Passes a path on. Of all that is left out before the place where the motion begins, it adds up the nominal time.
+// Passes a path on, and adds up the nominal time of everything skipped before the point where the motion begins.
 class LeftOutTime final : public Source<PathItem> {
  public:
   LeftOutTime(Source<PathItem>& path, const MotionLimits& limits, const PathPlace& begin)
@@ -39,18 +39,18 @@ class LeftOutTime final : public Source<PathItem> {
  private:
   Source<PathItem>& path_;
   MotionLimits limits_;
-  std::uint64_t items_;  // that are still left out
-  Mm left_out_;          // of the item behind them
+  std::uint64_t items_;  // number of items still to be skipped
+  Mm left_out_;          // to be skipped of the item after them
   Seconds time_{0};
 };
 
 class ProgressAhead {
  public:
-  // What leads to the program's path is no part of the program.
+  // The lead-in to the program's path is not part of the program.
   void begin_with(const std::vector<PathItem>& lead_in, const MotionLimits& limits) {
     for (const PathItem& item : lead_in) done_ = done_ - nominal_time_of(item, limits);
   }
-  // What was planned to begin then or later is planned anew.
+  // Motion planned earlier to begin at that time or later is planned again, and replaced.
   void plan(Seconds nominal, Seconds begins, Seconds ends, Seconds now) {
     static_cast<void>(at(now));
     while (!ahead_.empty() && ahead_.back().begins >= begins) ahead_.pop_back();
@@ -58,7 +58,7 @@ class ProgressAhead {
     const Seconds before = ahead_.empty() ? done_ : ahead_.back().to;
     ahead_.push_back({.begins = begins, .ends = ends, .from = before, .to = before + nominal});
   }
-  // The nominal time of all that is executed then; negative in a lead-in.
+  // Returns the nominal time of the motion executed at that time; negative in a lead-in.
   Seconds at(Seconds time) {
     for (; !ahead_.empty() && ahead_.front().ends <= time; ahead_.pop_front()) done_ = ahead_.front().to;
     return ahead_.empty() || ahead_.front().begins > time ? done_ : ahead_.front().at(time);
@@ -68,7 +68,7 @@ class ProgressAhead {
   struct Part {
     Seconds begins{0};
     Seconds ends{0};
-    Seconds from{0};  // nominal
+    Seconds from{0};  // nominal time
     Seconds to{0};
     Seconds at(Seconds time) const { return from + (to - from) * ((time - begins) / (ends - begins)); }
     void end_at(Seconds time) {

@@ -1,4 +1,4 @@
-// Work: what a session is busy with: either an activity on its own drive, or a check. Private to session/.
+// Work: the current work of a session: either an activity on its own drive, or a check. Private to session/.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ namespace passo {
 
 class MachineSession::Work {
  public:
-  // asks_counts: the drive has ended, and the board is asked for its counts.
+  // asks_counts: the drive has ended, and the board is queried for its counts.
   enum class Stage : std::uint8_t { moves, asks_counts, ended };
 
   Work() = default;
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
-  // Whether this is a program, which may be held and goes on.
+  // Whether this is a program, which can be held and resumed.
   bool is_program() const { return program != nullptr || lines != nullptr; }
 
   WaitWords* wait_words() const {
@@ -40,26 +40,27 @@ class MachineSession::Work {
 
   Ticket ticket = 0;
   Stage stage = Stage::moves;
-  std::uint64_t stops_before = 0;  // of the program, where it was taken up amid its path
-  bool stopped = false;            // somebody asked to stop
-  RestInHold rest;                 // of a program
+  std::uint64_t stops_before = 0;  // stops of the program before the point at which it was started in the middle of its
+                                   // path
+  bool stopped = false;            // a stop was requested
+  RestInHold rest;                 // for a program
   int recoveries_told = 0;
-  std::optional<std::uint32_t> standstill_line;  // of the program, when a standstill amid motion was heard of
-  JogLease lease;                                // of a jog
+  std::optional<std::uint32_t> standstill_line;  // program line, when a standstill during motion was reported
+  JogLease lease;                                // for a jog
 
   // The order matters: each member uses members above it.
-  Diagnostics own_findings;  // used where nobody else wants the findings
+  Diagnostics own_findings;  // used if the caller does not collect the findings
   Diagnostics* findings = &own_findings;
   AnswerBook answers;
   std::unique_ptr<Activity> activity;
   Program* program = nullptr;    // the activity, if it is a program
-  OpenProgram* lines = nullptr;  // the program behind the activity, if it comes line by line
-  bool drops = false;            // what is queued is being dropped
+  OpenProgram* lines = nullptr;  // the program behind the activity, if it arrives line by line
+  bool drops = false;            // queued items are being dropped
   HomingPath* homing = nullptr;
-  std::unique_ptr<LeftOutTime> path;  // the activity's, as the drive gets it
+  std::unique_ptr<LeftOutTime> path;  // the activity's path, as passed to the drive
   std::unique_ptr<MotionDrive> drive;
   std::unique_ptr<ProgramChecker> checker;  // for a check, which has no activity
-  PlannedAhead ahead;                       // for live motion
+  PlannedAhead ahead;                       // for motion with immediate reactions
 };
 
 }  // namespace passo

@@ -1,20 +1,20 @@
-// ChordFitter: the chords of a curve become the curve again, a cubic for many chords.
+// ChordFitter: reconstructs a curve from its chords, with one cubic for many chords.
 //
-// CAM programs write a curve as short lines whose ends are rounded to the micrometre or worse. A path through these
-// ends bends as the rounding does, not as the curve does. So a run of chords is replaced by the cubic of least squares,
-// for as many chords as the cubic passes closely enough:
+// CAM programs output a curve as short lines whose ends are rounded to the micrometre or worse. A path through these
+// ends has the curvature of the rounding, not of the curve. So a run of chords is replaced by the least-squares cubic,
+// for as many chords as the cubic fits closely enough:
 //
-//   - no chord is farther from the cubic than a share of the tolerance, and
+//   - no chord is farther from the cubic than a fraction of the tolerance, and
 //   - the misfit is that of rounding. The mean product of neighbouring residuals is about 0 for rounding. Where the
 //     cubic is not the curve, it is the square of the misfit.
 //
-// What a cubic deviates from its chords is told as its deviation, and is missing from the tube around it. Neighbouring
-// cubics meet at a place that the first one chooses; before a rest a cubic ends at the chords' own end. Where
-// directions differ, PathSmoother rounds the junction like any other. Close to a corner the chords stay as they are.
+// The deviation of a cubic from its chords is returned, and reduces the tolerance tube around it. Neighbouring cubics
+// meet at a point that the first one chooses; before a stop a cubic ends at the chords' own end. Where directions
+// differ, PathSmoother rounds the junction like any other. Close to a corner the chords stay unchanged.
 //
-// Only continuous lines of equal speed, kind and tolerance are fitted, and never in a thread: there s is what the
-// spindle is followed by. Looks at most `most_fitted` lines ahead. Time: each line is taken into account about three
-// times, some 100 ns altogether.
+// Only continuous lines of equal speed, kind and tolerance are fitted, and never in a thread, where the spindle is
+// synchronised to s. The look-ahead is at most `most_fitted` lines. Time: each line is processed about three times,
+// some 100 ns in total.
 #pragma once
 
 #include <array>
@@ -40,26 +40,26 @@ class ChordFitter {
   struct Ahead {
     PathItem item;
     double deviation = 0;
-    double moved = 0;  // how far a cubic's free end has moved the line's start
+    double moved = 0;  // displacement of the line's start by a cubic's free end
   };
   struct Vertex {
     double s = 0;          // the length of the chords up to here
-    Point way;             // from the start of the first chord
-    double deviation = 0;  // of the chord before, from the program
+    Point way;             // vector from the start of the first chord
+    double deviation = 0;  // deviation of the previous chord from the program
   };
-  // The sums of least squares, of s² to s⁶, and of s, s² and s³ times the way.
+  // The least-squares sums: of s² to s⁶, and of s, s² and s³ times the displacement.
   struct Sums {
     std::array<double, 5> powers{};
     std::array<Point, 3> moments{};
   };
   // The cubic start + parts[0] u + parts[1] u² + parts[2] u³, u from 0 to 1.
   struct Fit {
-    std::size_t count = 0;  // chords; 0: there is no cubic
+    std::size_t count = 0;  // number of chords; 0: there is no cubic
     std::array<Point, 3> parts{};
-    bool end_is_free = false;  // else the last chord's end
+    bool end_is_free = false;  // otherwise the cubic ends at the last chord's end
     double length = 0;
     double deviation = 0;
-    bool misses = false;  // the curve, by more than rounding does
+    bool misses = false;  // the misfit exceeds that of rounding
 
     Point way_at(double u) const { return (parts[0] + (parts[1] + parts[2] * u) * u) * u; }
     Point slope_at(double u) const { return parts[0] + (parts[1] * 2 + parts[2] * (3 * u)) * u; }
@@ -82,11 +82,11 @@ class ChordFitter {
   LineMerger merger_;
   Window<Ahead> ahead_;
   bool at_end_ = false;
-  // Of the junction before the next item.
+  // The mode of the junction before the next item.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
-  double since_corner_ = 1e9;  // mm; far after a rest
-  // Of the chords at hand.
+  double since_corner_ = 1e9;  // mm; large after a stop
+  // Of the current chords.
   double tolerance_ = 0;
   std::vector<Vertex> vertices_;
   Sums sums_;

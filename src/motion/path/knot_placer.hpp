@@ -1,22 +1,23 @@
-// KnotPlacer: places the knots, where the smoothed path is tied to the path.
+// KnotPlacer: places the knots, at which the smoothed path is tied to the programmed path.
 //
 //       node            exact piece             node
 //   --+--+--O--+--+-----------------------+--+---O---+--+--
 //     knots at the node and at multiples of its width
 //
-// A node is a junction, or several junctions close to each other. Its width w says how far around the node the path is
-// rounded. A corner that is rounded on its inner side within the tolerance e needs w = 4 e / |change of the tangent|. A
-// change of curvature needs w = sqrt(10 e / |change|). A corner that may swing to its outer side too has a larger width
-// and knots farther out; it may not where the axis that limits the speed goes back (for slow bending: in a sharp corner
-// only), nor beside an arc that leaves no room. Knots that are at most 0.4 radii apart follow an arc well. Where the
-// knots of two nodes would meet, the nodes share the room. If the rest between two nodes is long compared with the
-// knots' distance, it stays as programmed: an exact piece. (A curve that was fitted to chords never does; knots at most
-// 0.08 radii apart follow it.) The knots between two exact pieces make one smoothed stretch.
+// A node is a junction, or several junctions close to each other. The path is rounded within its width w around the
+// node. A corner that is rounded on its inner side within the tolerance e needs w = 4 e / |change of the tangent|. A
+// change of curvature needs w = sqrt(10 e / |change|). A corner that may also swing wide to its outer side has a larger
+// width and knots farther out. Swinging wide is excluded where the axis that limits the speed reverses (for slow
+// bending: only in a sharp corner), and next to an arc that leaves no room. Knots that are at most 0.4 radii apart
+// follow an arc well. Where the knots of two nodes would meet, the nodes share the room. If the remaining path between
+// two nodes is long compared with the knot spacing, it stays as programmed: an exact piece. (This is never so for a
+// curve that was fitted to chords; knots at most 0.08 radii apart follow it.) The knots between two exact pieces form
+// one smoothed section.
 //
 // For slow bending, s advances more slowly than the spline's parameter around a corner (Pace). The sharper the corner,
 // the slower s advances.
 //
-// The placer looks two nodes ahead. A node takes in at most `most_clustered` junctions.
+// The look-ahead is two nodes. A node contains at most `most_clustered` junctions.
 #pragma once
 
 #include <array>
@@ -33,9 +34,9 @@ struct Knot {
   double s = 0;  // s in the run
   std::uint64_t piece = 0;
   double along = 0;          // s in the piece
-  double rate = 1;           // ds/dt, t being the spline's parameter; 1 beside exact pieces
-  double weight = 1;         // of the bend here
-  double change_weight = 1;  // of the change of the bend, in the span after the knot
+  double rate = 1;           // ds/dt, where t is the spline's parameter; 1 next to exact pieces
+  double weight = 1;         // weight of the bend here
+  double change_weight = 1;  // weight of the change of the bend, in the span after the knot
 };
 
 struct ExactPiece {
@@ -50,9 +51,9 @@ class KnotPlacer {
 
   KnotPlacer(RunReader& reader, Smoothness smoothness);
 
-  // Gives the next mark of the run.
+  // Returns the next mark of the run.
   enum class Mark { knot, end_of_stretch, exact_piece };
-  // Begins a run. The run before has been read to its end.
+  // Begins a run. The previous run must have been read to its end.
   void begin();
   // False at the end of the run.
   [[nodiscard]] bool next(Mark& mark);
@@ -61,18 +62,20 @@ class KnotPlacer {
 
  private:
   struct Spacing {
-    // Corners: the curve that turns by `change` within the width w and leaves the corner by e has w = 4 e / change.
-    // Wider ones, which cannot use all of their width, are found to be better.
+    // Corner widths: the curve that turns by `change` within the width w and deviates from the corner by e has w = 4 e
+    // / change. Wider curves, which cannot use all of their width, proved to be better.
     double corner_width = 4;
-    std::span<const double> knots;  // in widths from the node
-    // How much faster s goes on w times the change of the tangent away from a corner than at it.
+    std::span<const double> knots;  // in widths, from the node
+    // Increase of ds/dt away from a corner compared with the corner itself, per w times the change of the tangent.
     double quickening = 0;
-    double sharp_from = 1e-9;             // for a lesser change of the tangent s quickens less
-    const Spacing* closer = nullptr;      // for nodes that have no room for the first knot
-    double apart_from = 0;                // in widths: with a nearer node on either side, `in_company` places the knots
-    const Spacing* in_company = nullptr;  // of the same width
-    bool comes_closer = false;            // all knots do, where the room is a little too small for one of the first
-    // Of the change of the bend, span by span from the node on. Empty: 1.
+    double sharp_from = 1e-9;             // for a smaller change of the tangent the increase is smaller
+    const Spacing* closer = nullptr;      // for nodes without room for the first knot
+    double apart_from = 0;                // in widths: if a node on either side is nearer than this, `in_company`
+                                          // places the knots
+    const Spacing* in_company = nullptr;  // for the same width
+    bool comes_closer = false;            // all knots move closer if the room is slightly too small for one of the
+                                          // first
+    // Weights of the change of the bend, span by span from the node on. Empty: 1.
     std::span<const double> change_weights = {};
   };
   static const Spacing slow_bending;
@@ -88,23 +91,24 @@ class KnotPlacer {
     std::uint64_t before = 0;
     std::uint64_t after = 0;  // the pieces around the node
     const Spacing* spacing = &inside;
-    double weight_fall = 0;  // how soon the weight of the bend falls with the distance, per width
+    double weight_fall = 0;  // decay of the weight of the bend with the distance, per width
   };
   const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
   // The junctions after the pieces `first` to `last`.
   struct Cluster {
     std::uint64_t first = 0;
     std::uint64_t last = 0;
-    double turn = 0;  // how far the tangents between are from the first, at most
+    double turn = 0;  // maximum change from the first tangent to those in between
     double tube = 0;
   };
   struct Places {
     const Spacing* spacing = &inside;
     double width = 0;
-    std::size_t count = 0;  // so many of the spacing's knots
+    std::size_t count = 0;  // number of the spacing's knots that are used
 
     double offset(std::size_t i) const { return i == 0 ? 0 : spacing->knots[i - 1] * width; }
-    // Of the span between the knots i and i + 1. The span behind the last knot has no weight of its own.
+    // Returns the weight of the span between the knots i and i + 1. The span after the last knot has no weight of its
+    // own.
     double change_weight(std::size_t i) const {
       return i < count && i < spacing->change_weights.size() ? spacing->change_weights[i] : 1;
     }
@@ -130,7 +134,7 @@ class KnotPlacer {
 
   RunReader& reader_;
   const bool bends_slowly_;
-  std::uint64_t junction_ = 0;  // the junction after this piece is the next to belong to a node
+  std::uint64_t junction_ = 0;  // the junction after this piece is the next candidate for a node
   bool all_found_ = false;
   std::array<Node, 4> nodes_;  // the gap is between the second and the third
   std::size_t known_ = 0;

@@ -1,13 +1,13 @@
-// LineMerger: consecutive lines that are straight within the merge tolerance become one line.
+// LineMerger: merges consecutive lines that are straight within the merge tolerance into one line.
 //
-// A line may take in the next one as long as all vertices between lie within `Segment::merge` of the chord from its
-// start to the new end. Instead of the vertices, the merger keeps a ball of directions. Every chord whose direction (a
-// unit vector) lies in the ball passes all vertices so far closely enough. A vertex at the distance r allows directions
+// A line may include the next one as long as all vertices in between are within `Segment::merge` of the chord from its
+// start to the new end. Instead of the vertices, the merger stores a ball of directions. Every chord whose direction (a
+// unit vector) is in the ball passes all vertices so far closely enough. A vertex at the distance r allows directions
 // within merge/r of its own direction. The new ball is the largest ball in the intersection of the old ball and these
-// directions. So each vertex costs the same, however many there are. A line that was programmed in pieces becomes one
-// line again, with the length and time of the whole.
+// directions. So each vertex has the same cost. A line that was programmed in pieces becomes one line again, with the
+// total length and time.
 //
-// Only lines of equal speed, kind, tolerance and axes that count the length merge. No merged line turns back.
+// Only lines with equal speed, kind, tolerance and length-defining axes are merged. No merged line reverses.
 #pragma once
 
 #include "passo/base/source.hpp"
@@ -15,19 +15,19 @@
 
 namespace passo {
 
-// Whether two segments have the same speed, heed the same, and follow the spindle alike.
+// Whether two segments have the same speed, the same enabled overrides and holds, and the same spindle synchronisation.
 bool are_played_alike(const Segment& before, const Segment& after);
-// Whether nothing but the curve changes from a segment to the next, and the path goes on between them.
+// Whether only the curve changes from a segment to the next, and the path is continuous between them.
 bool are_alike(const Segment& before, const Segment& after);
 
 class LineMerger {
  public:
-  // Bounds how long an item can make its caller wait.
+  // Limits the time that an item can make its caller wait.
   static constexpr int most_merged = 10'000;
 
   explicit LineMerger(Source<PathItem>& path) : path_(path) {}
 
-  // Like Source::next. `deviation`: how far the programmed path may lie from the given segment.
+  // Like Source::next. `deviation`: the maximum distance of the programmed path from the returned segment.
   [[nodiscard]] bool next(PathItem& item, double& deviation);
 
  private:
@@ -41,7 +41,7 @@ class LineMerger {
     void narrow(const Point& direction, double length);
   };
 
-  // The way from the start of the merged line to a vertex.
+  // The vector from the start of the merged line to a vertex.
   struct Chord {
     explicit Chord(const Point& way);
     Point travel;
@@ -50,7 +50,7 @@ class LineMerger {
   };
 
   bool pull();
-  // `merged`: the first line, with the mode of the last; `line` is the next.
+  // `merged`: the first line, with the mode of the last; `line`: the next line.
   bool absorbs(const Segment& merged, const Segment& line, const Chord& chord) const;
   void begin(const Segment& merged);
   bool extend(Segment& merged, double& deviation);
@@ -58,19 +58,19 @@ class LineMerger {
   double merge_tolerance(const Segment& merged) const;
 
   Source<PathItem>& path_;
-  PathItem ahead_;  // read and not yet given
+  PathItem ahead_;  // read and not yet returned
   bool has_ahead_ = false;
   bool at_end_ = false;
 
-  // For the line that is being merged: where its last piece ends, how many pieces it has, and the sum of their lengths.
+  // For the line being merged: the end of its last piece, the number of its pieces, and the sum of their lengths.
   Point end_;
   int taken_ = 0;
   double programmed_ = 0;
-  // For the junction before the merged line.
+  // The mode of the junction before the merged line.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
   Cone cone_;
-  Cone exact_;  // the directions if only rounding were allowed
+  Cone exact_;  // the directions allowed for rounding errors only
 };
 
 }  // namespace passo

@@ -1,15 +1,16 @@
-// SplinePieces: cuts a spline of the program, in machine coordinates, into cubics in its length (Curve::cubic). Private
+// SplinePieces: divides a programmed spline, in machine coordinates, into cubics of its length (Curve::cubic). Private
 // to path/.
 //
-// Places are chosen on the spline, and the length between them is found by Gauss-Legendre quadrature. The cubics
-// through these places have tangents that make the second derivative continuous too (the interpolating spline of de
-// Boor, A Practical Guide to Splines, ch. IV). Where the spline's own second derivative jumps, at a knot, a stretch
+// Points are chosen on the spline, and the length between them is found by Gauss-Legendre quadrature. The cubics
+// through these points have tangents that make the second derivative continuous too (the interpolating spline of de
+// Boor, A Practical Guide to Splines, ch. IV). Where the spline's own second derivative jumps, at a knot, a section
 // ends with the spline's direction. The cubics' deviation from the spline grows with the fourth power of their length,
-// so few cubics are needed. The deviation is measured: the difference at eighths, where both curves have gone the same
-// way, and between them d²/8 of the largest second derivative of the difference at both sides. Around a cusp the pieces
+// so few cubics are needed. The deviation is measured: at eighths, the difference between the curves at equal lengths;
+// between the eighths, d²/8 of the largest second derivative of the difference at both sides. Around a cusp the pieces
 // get short. A piece shorter than `least_piece` is a straight line.
 //
-// Bézier curves without weights (G5, G5.1) are taken unchanged. A stretch and a NURBS take memory while they last.
+// Bézier curves without weights (G5, G5.1) are used unchanged. A section and a NURBS use memory while they are
+// processed.
 #pragma once
 
 #include <optional>
@@ -40,7 +41,7 @@ struct SplinePiece {
   double length = 0;
   bool straight = false;
 
-  // Only X and Y; the other axes stay.
+  // Changes only X and Y; the other axes are constant.
   Curve curve_from(const Point& place) const;
 };
 
@@ -48,14 +49,14 @@ class SplinePieces final : public Source<SplinePiece> {
  public:
   static constexpr double least_piece = 1e-4;  // mm
 
-  // The control points of the next spline. Their memory is kept from one spline to the next.
+  // The control points of the next spline. Their memory is reused from spline to spline.
   void clear() { points_.clear(); }
   void add(const Vector3& place, double weight) { points_.push_back({place, weight}); }
-  // Begins a spline. Returns what is wrong with the spline, if anything; then there are no pieces. No piece leaves the
+  // Begins a spline. Returns the error in the spline, if any; then there are no pieces. No piece deviates from the
   // spline by more than `tolerance`.
   std::optional<CurveError> begin(int degree, Mm tolerance);
   [[nodiscard]] bool next(SplinePiece& piece) override;
-  // True: the piece that was given last ends the spline.
+  // True: the last returned piece ends the spline.
   bool at_end() const { return at_end_; }
 
  private:
@@ -70,9 +71,9 @@ class SplinePieces final : public Source<SplinePiece> {
   std::vector<SplinePoint> points_;
   double tolerance_ = 0;
   std::vector<SplinePiece> stretch_;
-  std::size_t given_ = 0;  // pieces of the stretch given so far
+  std::size_t given_ = 0;  // pieces of the section returned so far
   double u_ = 0;           // the parameter reached so far
-  double step_ = 0;        // of the last piece: where the next search begins
+  double step_ = 0;        // step of the last piece, at which the next search begins
   bool at_end_ = true;
 };
 

@@ -1,24 +1,25 @@
-// TubeSpline: a smoothed stretch. It is a cubic B-spline that bends as little as the tube around the path allows.
+// TubeSpline: a smoothed section. It is a cubic B-spline with the least bending that the tolerance tube around the path
+// allows.
 //
 // The parameter t is s, except where the knots' rates are below 1 (Pace). The knots t[0] to t[n-1] are on the path;
-// beyond the ends the distances are mirrored. The controls are C[-1] to C[n]. At each knot
+// beyond the ends the distances are mirrored. The control points are C[-1] to C[n]. At each knot
 //
-//     p   = value[0] C[k-1] + value[1] C[k] + value[2] C[k+1],   and alike p' (slope) and p'' (bend).
+//     p   = value[0] C[k-1] + value[1] C[k] + value[2] C[k+1],   and likewise p' (slope) and p'' (bend).
 //
-// The first and the last three controls are those of the path's own Taylor polynomial (blossoms), so position, tangent
-// and second derivative are continuous with the exact pieces beside. 12 sweeps move the other controls, one after the
-// other, to where the sum of |p''|² times the knots' weight and distance is least (a step of Gauss and Seidel). A
-// control moves only as far as the deviation from the path stays within the tube, at the knots and in the middles
-// between them. For slow bending, 9 more sweeps do the same for |p'''|². Every third of these sweeps slides along the
-// tube where the tube stops a control.
+// The first and the last three control points are those of the path's own Taylor polynomial (blossoms), so position,
+// tangent and second derivative are continuous with the adjacent exact pieces. 12 sweeps move the other control points,
+// one after the other, to the minimum of the sum of |p''|² times the knots' weight and distance (a Gauss-Seidel step).
+// A control point moves only as far as the deviation from the path stays within the tube, at the knots and in the
+// middles between them. For slow bending, 9 more sweeps do the same for |p'''|². Every third of these sweeps slides
+// along the tube where the tube stops a control point.
 //
-// Each sweep works four controls behind the sweep before, because nearer controls would influence each other. So the
-// result is the same as of sweeps over the whole stretch. Only a window of `window` knots is kept, however long the
-// stretch is. The deviations are updated, not computed anew: moving a control by d changes them at seven places by
-// known multiples of d.
+// Each sweep runs four control points behind the previous sweep, because nearer control points would influence each
+// other. So the result is the same as that of sweeps over the whole section. Only a window of `window` knots is kept,
+// for a section of any length. The deviations are updated, not recomputed: moving a control point by d changes them at
+// seven points by known multiples of d.
 //
-// After the sweeps each span is checked without gaps (check()), and corrected if it would leave the tube. Time: 0.7 us
-// a knot, 1.3 for slow bending.
+// After the sweeps each span is checked completely (check()), and corrected if it would leave the tube. Time: 0.7 µs
+// per knot, 1.3 µs for slow bending.
 #pragma once
 
 #include <array>
@@ -35,15 +36,15 @@ class TubeSpline {
   static constexpr int bending_sweeps = 12;
   static constexpr int change_sweeps = 9;
   static constexpr int slides_each = 3;        // every third of these sweeps slides
-  static constexpr int checks = 12;            // rounds: a span that is pushed back pushes its neighbours out
+  static constexpr int checks = 12;            // rounds: correcting a span pushes its neighbours outwards
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
   TubeSpline(const RunReader& reader, Smoothness smoothness)
       : reader_(reader),
         sweeps_(smoothness == Smoothness::slow_bending ? bending_sweeps + change_sweeps : bending_sweeps) {}
 
-  // Adds the knots of a stretch, at least four, and then its end. After the end, every span must be taken before more
-  // knots are added.
+  // Adds the knots of a section, at least four, and then its end. After the end, every span must be returned before
+  // more knots are added.
   void add(const Knot& knot);
   void close();
 
@@ -59,12 +60,12 @@ class TubeSpline {
     End from;
     End to;
     bool in_tube = true;  // proven to be in the tube
-    bool goes_on = true;  // goes on into a span in the tube, or ends the stretch
+    bool goes_on = true;  // continues into a span in the tube, or ends the section
   };
   [[nodiscard]] bool next(Span& span);
 
  private:
-  using Three = std::array<double, 3>;  // factors of the controls before, at and after a knot
+  using Three = std::array<double, 3>;  // factors of the control points before, at and after a knot
   // A knot, and the span from this knot to the next.
   struct Site {
     Knot knot;
@@ -76,8 +77,8 @@ class TubeSpline {
     Three slope{};
     Three bend{};
     double tube = 0;                // around the span
-    double bend_of_path = 0;        // |P''| in the span, at most
-    std::array<double, 2> slack{};  // how far vertices in each half of the span stick out
+    double bend_of_path = 0;        // maximum |P''| in the span
+    std::array<double, 2> slack{};  // maximum distance of the path's vertices from the chord, in each half of the span
     bool checked = false;
   };
   Site& at(std::int64_t k) { return sites_[static_cast<std::size_t>(k + 1) & (window - 1)]; }
@@ -93,7 +94,7 @@ class TubeSpline {
   double slack_between(double from, const Point& from_place, double to, const Point& to_place, std::uint64_t first,
                        std::uint64_t last) const;
 
-  // The controls before the sweeps.
+  // Initialises a control point before the sweeps.
   void begin_control(std::int64_t k);
   Point first_control(std::int64_t k) const;
   Point taylor_control(std::int64_t knot, std::int64_t k) const;
@@ -122,7 +123,7 @@ class TubeSpline {
     Point off_bend;    // p'' - P''
   };
   struct Worst {
-    double excess = 0;  // mm beyond the tube; at most 0: in the tube
+    double excess = 0;  // mm outside the tube; at most 0: inside
     double along = 0;
     Point off;
   };
@@ -143,8 +144,8 @@ class TubeSpline {
   std::array<Site, window> sites_;
   Relaxation relaxation_;
   std::int64_t knots_ = 0;
-  std::int64_t controls_ = -1;  // the next control to begin
-  std::int64_t taken_ = 0;      // the number of spans taken
+  std::int64_t controls_ = -1;  // the next control point to initialise
+  std::int64_t taken_ = 0;      // the number of spans returned
   bool closed_ = false;
   bool wide_ = false;  // axes other than X, Y and Z move too
 };

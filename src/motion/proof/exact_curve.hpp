@@ -1,6 +1,6 @@
-// ExactCurve: place and derivatives of a curve, computed from its data alone and by formulas of its own.
+// ExactCurve: position and derivatives of a curve, computed only from its data and by independent formulas.
 //
-// In the plane of an arc the place is c + r e^(iφ), where r' = g and φ' = w are constant along s. So
+// In the plane of an arc the position is c + r e^(iφ), where r' = g and φ' = w are constant along s. So
 //   p' = (g + i r w) e^(iφ),   p'' = (2 i g w − r w²) e^(iφ),   p''' = −(3 g w² + i r w³) e^(iφ).
 #pragma once
 
@@ -28,17 +28,18 @@ class ExactCurve {
   bool moves(Axis axis) const;
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
-  // About the angle by which the direction turns over the whole curve, in radians. For an arc never too small.
+  // Returns approximately the angle by which the direction turns over the whole curve, in radians. For an arc never too
+  // small.
   double turning() const { return turning_; }
 
-  // An upper bound of |dP/ds|: 1 where s is the length that the feed counts, or very nearly.
+  // Returns an upper bound of |dP/ds|: 1, or nearly 1, where s is the length to which the feed applies.
   double feed_factor() const;
 
   struct Nearest {
     double s = 0;
     double distance = 0;  // over all axes
   };
-  // The nearest place in the part from..to.
+  // Returns the nearest point in the part from..to.
   Nearest nearest(const Point& point, double from, double to) const;
   // A lower bound of that distance, for a tenth of the search's cost.
   double nearest_at_best(const Point& point, double from, double to) const;
@@ -54,7 +55,7 @@ class ExactCurve {
   Curve curve_;
   double turning_;
   double fastest_;  // an upper bound of |dP/ds| over all axes
-  bool circles_;    // an arc of constant radius, and no axis moves beside its plane
+  bool circles_;    // an arc of constant radius without motion outside its plane
 };
 
 double distance(const Point& a, const Point& b);

@@ -1,9 +1,8 @@
-// JerkWays: what limits of jerk add to a bound of the time that is found cell by cell (TimeBound).
+// JerkWays: improves a time bound that is computed cell by cell (TimeBound) by including jerk limits.
 //
-// Each axis with a limit of jerk goes back and forth. On each way between two places where it rests or turns back, it
-// takes at least the time of a RampBound. So the time up to the end of the way is at least the time up to its start,
-// and this time more. The same holds between two places where the axis is slowest, from and to the speeds that it has
-// there at most.
+// An axis with a jerk limit moves back and forth. Between two points where it stops or reverses, it takes at least the
+// time of a RampBound. So the time up to the second point is at least the time up to the first one plus this time. The
+// same holds between two points where the axis is slowest, with its maximum speeds at these points.
 #pragma once
 
 #include <array>
@@ -21,17 +20,17 @@ class JerkWays {
 
   bool any() const { return any_; }
 
-  // An axis in a cell. The squares of speeds are not exceeded.
+  // The motion of an axis in a cell. The squared speeds are upper bounds.
   struct Ride {
-    double way = 0;    // signed; 0: the axis stands
-    double entry = 0;  // square
+    double way = 0;    // signed distance; 0: the axis does not move
+    double entry = 0;  // squared
     double exit = 0;
     double top = 0;  // anywhere in the cell
   };
   using Rides = std::array<Ride, max_motors>;
   // Takes a bound of the time up to the start of the cell and returns a better one, or the same.
   double enter(const Rides& rides, double time);
-  // The path rests. `steady`: without acceleration; else it goes back where it came from.
+  // Call at a stop of the path. `steady`: the stop is without acceleration; otherwise the path reverses.
   double rest(double time, bool steady);
 
  private:
@@ -39,15 +38,15 @@ class JerkWays {
     double began = 0;  // bound of the time up to its start
     RampBound::End start;
     double length = 0;
-    double top = 0;  // square
+    double top = 0;  // squared
   };
   struct Axis {
     explicit Axis(const RampBound& of_axis) : ramp(of_axis) {}
     RampBound ramp;
-    double direction = 0;  // 0: stands
-    bool falls = false;    // the greatest speed falls along the last cell
+    double direction = 0;  // 0: it does not move
+    bool falls = false;    // the maximum speed falls along the last cell
     bool steady = true;    // the last end was without acceleration
-    Way whole;             // since the axis stood
+    Way whole;             // since the axis was stopped
     Way part;              // since it was slowest
   };
   static double until(const Axis& axis, const Way& way, const RampBound::End& end);

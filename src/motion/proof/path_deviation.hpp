@@ -1,14 +1,14 @@
-// PathDeviation: the distance between programmed and planned path at the worst place for both.
+// PathDeviation: the maximum distance between programmed and planned path, in both directions.
 //
-// Two points go along the two paths from start to end, and never back. The result is the least distance that they can
-// keep, a Fréchet distance (Alt and Godau 1995), where each place is measured in units of its tolerance. Nearest places
-// alone are not enough: a path that turns, or circles in dust finer than its tolerance, is near itself.
+// Two points move along the two paths from start to end, and never back. The result is the smallest distance that they
+// can keep, a Fréchet distance (Alt and Godau 1995), with each point measured in units of its tolerance. Nearest points
+// alone are not enough: a path that turns, or has loops smaller than its tolerance, is near itself.
 //
-// The planned path is walked in small pieces. For each piece of the programmed path the least distance is kept with
-// which the two points can be there now. A piece is given up if it needs twice as much as the best one and more than
-// twice the tolerance. Actions are in both paths: there the two points are together again.
+// The planned path is processed in small pieces. For each piece of the programmed path, the smallest distance is stored
+// with which the two points can be there now. A piece is dropped if it needs twice as much as the best one and more
+// than twice the tolerance. Actions are in both paths: there the two points meet again.
 //
-// A place's tolerance is the larger of those at both junctions of its segment. Where that is 0 the path must be met,
+// A point's tolerance is the larger of those at both junctions of its segment. Where that is 0 the paths must coincide,
 // except for rounding.
 #pragma once
 
@@ -30,9 +30,9 @@ class PathDeviation {
 
   void programmed(const PathItem& item);
   void planned(const PlannedMove& move, Seconds time);
-  // An action of the planned motion, or its end: everything programmed before it must have been played.
+  // Processes an action of the planned motion, or its end: everything programmed before it must have been executed.
   void rest(Seconds time);
-  // The end: any rest of the programmed path was never played.
+  // Ends the measurement: any remaining programmed path was never executed.
   void finish(Seconds time);
 
  private:
@@ -42,7 +42,7 @@ class PathDeviation {
     std::uint32_t line;
     int pieces;  // the number of pieces kept
   };
-  // The worst place so far on the best way to a place.
+  // The worst point so far on the best match of the two paths.
   struct Worst {
     double multiple = INFINITY;
     Finding finding;
@@ -54,8 +54,8 @@ class PathDeviation {
     double from;
     double to;
     Point begin;
-    std::uint64_t stretch;  // the part of the path between two actions
-    Worst now;              // while the planned path's point is somewhere on it
+    std::uint64_t stretch;  // number of the section between two actions
+    Worst now;              // while the point on the planned path is somewhere on this piece
   };
   // A piece of the planned path.
   struct Stride {
@@ -79,11 +79,11 @@ class PathDeviation {
   std::deque<Programmed> chain_;
   std::deque<Piece> pieces_;
   std::size_t reached_ = 0;  // the number of pieces reached, from the first one on
-  double most_ = 0;          // the greatest multiple that is kept
+  double most_ = 0;          // the largest multiple that is kept
   std::uint64_t programmed_stretch_ = 0;
   std::uint64_t planned_stretch_ = 0;
   double last_tolerance_ = 0;
-  std::optional<Point> place_;  // the last place of the planned path
+  std::optional<Point> place_;  // the last point of the planned path
 };
 
 }  // namespace passo::proof

@@ -1,9 +1,9 @@
-// PhasePeaks: the highest speeds, accelerations and jumps of each axis, computed from the phases.
+// PhasePeaks: the peak speeds, accelerations and jumps of each axis, computed from the phases.
 //
 //   q̇ = q' ṡ      q̈ = q'' ṡ² + q' s̈      q⃛ = q''' ṡ³ + 3 q'' ṡ s̈ + q' s⃛
 //
-// On a line the largest value is at an end of the phase, or where the speed turns. On a curve many points are searched,
-// and a golden section runs between the neighbours of the best one.
+// On a line the maximum is at an end of the phase, or at an extremum of the speed. On a curve many points are
+// evaluated, followed by a golden-section search between the neighbours of the best one.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ namespace passo::proof {
 
 class PhasePeaks {
  public:
-  // Writes its findings into `proof`, which already has its axes and limits.
+  // Writes its findings into `proof`, whose axes and limits are already set.
   PhasePeaks(MotionProof& proof, const ProofOptions& options);
 
   void watch(const PlannedMove& move);
-  // An action, or the end: the machine rests.
+  // Processes an action, or the end, at which the machine stops.
   void rest(Seconds dwell);
 
   Seconds now() const { return now_; }
@@ -33,7 +33,7 @@ class PhasePeaks {
     double acceleration = 0;
     double jerk = 0;
   };
-  struct Way {  // s and its derivatives by time
+  struct Way {  // s and its time derivatives
     double s, v, a, j;
   };
 
@@ -53,14 +53,14 @@ class PhasePeaks {
   double severity(std::size_t i, const Motion& motion) const;
 
   MotionProof& proof_;
-  Seconds now_{0};  // at the start of the present phase
+  Seconds now_{0};  // at the start of the current phase
   std::uint32_t line_ = 0;
   std::vector<SpeedLimit> limits_;  // by axis
   std::vector<double> start_stop_;  // by axis
   std::vector<Motion> before_;      // by axis, at the end of the last phase
-  std::vector<double> stopped_;     // by axis: the velocity just before a rest that takes no time, which has come since
+  std::vector<double> stopped_;     // by axis: the velocity just before the latest stop without duration
   bool at_rest_ = true;
-  std::optional<Point> place_;  // the place at the end of the last phase
+  std::optional<Point> place_;  // position at the end of the last phase
 };
 
 }  // namespace passo::proof

@@ -1,35 +1,35 @@
-// RampBound: the least time in which a single axis, or a straight line, covers a way with limits of acceleration and
-// jerk.
+// RampBound: the minimum time in which a single axis, or a straight line, covers a distance with acceleration and jerk
+// limits.
 //
-//   acceleration  __                       It speeds up to the highest speed P, goes on at P, and brakes. At an end it
-//                /  \______                either has no acceleration (steady), or any that the limit allows.
+//   acceleration  __                       It accelerates to the highest speed P, cruises at P, and decelerates. At an
+//                /  \______                end it has either no acceleration (steady), or any within the limit.
 //                          \__/
 //
-// From the speed v to P, with d = P - v, the acceleration a and the jerk j, speeding up takes
+// From the speed v to P, with d = P - v, the acceleration a and the jerk j, the ramp takes
 //
-//     from a steady end     d/a + a/j       or 2 √(d/j) where a is not reached       on the mean speed v + d/2
-//     from any other end    d/a + a/2j      or   √(2d/j)     where a is not reached       on a higher mean speed
+//     from a steady end     d/a + a/j       or 2 √(d/j) where a is not reached       at the mean speed v + d/2
+//     from any other end    d/a + a/2j      or   √(2d/j)     where a is not reached       at a higher mean speed
 //
-// No motion is faster: whatever an axis does that comes from v, must not exceed P and has no acceleration at P, at each
-// instant it is at most as fast as the ramp. The way that two ramps leave is covered at P. P is the highest speed with
-// which both ramps have room, or the top.
+// No motion is faster: an axis that starts at v, must not exceed P and has no acceleration at P is never faster than
+// the ramp. The distance between the two ramps is covered at P. P is the highest speed for which both ramps fit, or the
+// top.
 #pragma once
 
 namespace passo::proof {
 
 class RampBound {
  public:
-  // A limit of 0 or less does not limit.
+  // A limit of 0 or less means no limit.
   RampBound(double acceleration, double jerk);
 
   bool limits() const { return limits_; }
 
-  // An end of a way. `speed`: it is not exceeded there.
+  // An end of a distance. `speed` is the maximum there.
   struct End {
     double speed = 0;
     bool steady = false;
   };
-  // `top` is not exceeded on the way. 0 where the ends are too fast to tell anything.
+  // `top` is the maximum speed on the distance. Returns 0 if the ends are too fast for a statement.
   double least_time(const End& start, const End& end, double way, double top) const;
 
  private:

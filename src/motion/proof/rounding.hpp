@@ -1,5 +1,5 @@
-// What rounding may leave in a plan that keeps its limits: shares of an axis's limit of velocity and of acceleration. A
-// jump by less is none.
+// Rounding tolerances for a plan that keeps its limits: fractions of an axis' velocity and acceleration limits. A
+// smaller jump does not count.
 #pragma once
 
 namespace passo::proof {

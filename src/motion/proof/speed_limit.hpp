@@ -1,5 +1,5 @@
-// SpeedLimit: the greatest acceleration of an axis at a speed, for the proof. It is a constant, or a table of the
-// machine's own function with straight lines between its points. It shares nothing with the planner's curve.
+// SpeedLimit: the acceleration limit of an axis at each speed, for the proof. It is a constant, or a table of the
+// machine's own function with linear interpolation. It shares no code with the planner's curve.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class SpeedLimit {
 
  private:
   double constant_;
-  double step_ = 0;  // speed between two values of the table
+  double step_ = 0;  // speed difference between two table entries
   std::vector<double> table_;
 };
 

@@ -1,20 +1,20 @@
-// StepPeaks: velocity and acceleration of each axis, from nothing but the board's steps.
+// StepPeaks: velocity and acceleration of each axis, computed only from the board's steps.
 //
-// Board segments are replayed from the definition in wire/board_segment.hpp, and the step counts are read every
-// millisecond. Over a window of T = 10 ms the first difference of the place gives a mean velocity, the second a mean
+// Board segments are simulated from the definition in wire/board_segment.hpp, and the step counts are read every
+// millisecond. Over a window of T = 10 ms the first difference of the position gives a mean velocity, the second a mean
 // acceleration:
 //
 //   (q(t) − q(t−T)) / T       (q(t) − 2 q(t−T) + q(t−2T)) / T²
 //
-// Where the limit falls with the speed, the limit at the lowest possible speed of the window counts: the speed of the
-// slower half of the window, less what the constant limit can change in T.
+// If the limit falls with the speed, the limit at the lowest possible speed of the window applies: the speed of the
+// slower half of the window, less the speed change in T under the constant limit.
 //
-// With a start-stop velocity s the velocity jumps at a rest, from a velocity of at most s to another. If there is such
-// a jump in the window, no speed in the window is above s + 2 A T, and the mean acceleration is above A by 2 s / T at
-// most (the first jump in each T begins at -s at least, and the last one ends at s). That part is not counted.
+// With a start-stop velocity s the velocity jumps at a stop, from one velocity of at most s to another. With such a
+// jump in the window, no speed in the window exceeds s + 2 A T, and the mean acceleration exceeds A by at most 2 s / T
+// (the first jump in each T begins at -s at least, and the last one ends at s). That part is not counted.
 //
-// Neither can exceed its limit except by rounding. A count is within a step of the true place: half a step of rounding,
-// and as much again for steps that wait for the event clock. That adds up to 2 steps/T and 4 steps/T².
+// Neither can exceed its limit except by rounding. A count is within a step of the true position: half a step of
+// rounding, and the same for steps that wait for the event clock. That adds up to 2 steps/T and 4 steps/T².
 #pragma once
 
 #include <array>

@@ -1,24 +1,25 @@
-// TimeBound: a time that no motion on the planned path can beat within velocity, acceleration, jerk and feed.
+// TimeBound: a lower bound for the time of any motion on the planned path within velocity, acceleration, jerk and feed
+// limits.
 //
-// With x = ṡ² each axis has q̇² = q'² x. The path is cut into small cells, in each of which every axis goes one way
-// only and its |q'| only rises or only falls. From one end of a cell to the other, the axis can change q̇² by no more
-// than its acceleration does on its own way |Δq|: q'₁² x₁ − q'₀² x₀ lies within ± 2 A |Δq|, whatever x does between
-// (AxisRamp; also where the limit falls with the speed). So the largest x at one end gives the largest x at the other
-// end, without an error of the cells: backwards from the end of a stretch, then forwards from rest.
+// With x = ṡ² each axis has q̇² = q'² x. The path is divided into small cells. In each cell every axis moves only in
+// one direction, and its |q'| only rises or only falls. From one end of a cell to the other, the change of q̇² is
+// limited by the axis' acceleration over its own distance |Δq|: q'₁² x₁ − q'₀² x₀ is within ± 2 A |Δq|, independent of
+// x in between (AxisRamp; also where the limit falls with the speed). So the largest x at one end gives the largest x
+// at the other end, without discretisation error: backwards from the end of a section, then forwards from a stop.
 //
-// Two bounds hold at a single place. An axis's velocity limits x, and so does the bend of the path: if x is too large,
+// Two bounds hold at a single point. An axis' velocity limits x, and so does the bend of the path: if x is too large,
 // two axes leave no s̈ that keeps the acceleration q' s̈ + q'' x of both within its limit (turning_at).
 //
-// A cell takes at least the time that any of its axes needs for its own way, from and to the speeds found, and at least
-// the time of the whole cell at the largest x in it. What is lost is only that the axes may take turns within a cell;
-// so the bound can be a little too small, and never too large.
+// A cell takes at least the time that any of its axes needs for its own distance, with the speeds found at its ends,
+// and at least the time of the whole cell at the largest x in it. The only inaccuracy is that different axes may limit
+// the motion in different parts of a cell; so the bound can be slightly too small, and never too large.
 //
-// Limits of jerk make the bound higher where an axis, or a straight line, goes from one place to another (JerkWays),
-// and where the path bends (time_bound_turns.cpp).
+// Jerk limits raise the bound where an axis, or a straight line, moves from one point to another (JerkWays), and where
+// the path bends (time_bound_turns.cpp).
 //
-// The path rests where the program demands it: at actions, exact stops and the ends, and where the direction jumps by
-// more than rounding. There x may be as large as the start-stop velocities of the axes allow. Memory: a window of
-// cells, many braking distances long. Motion after the window is assumed to be as fast as its first cell allows.
+// The path stops where the program requires it: at actions, exact stops and the ends, and where the direction jumps by
+// more than rounding. There x is limited by the start-stop velocities of the axes. Memory: a window of cells, many
+// braking distances long. Motion after the window is assumed to be as fast as its first cell allows.
 #pragma once
 
 #include <array>
@@ -44,44 +45,44 @@ class TimeBound {
   Seconds time() const { return Seconds(time_); }
 
  private:
-  static constexpr double fastest = 1e12;      // x where there is no limit
-  using Row = std::array<double, max_motors>;  // one number for each axis
+  static constexpr double fastest = 1e12;      // x without a limit
+  using Row = std::array<double, max_motors>;  // one number per axis
   using Pairs = std::array<double, std::size_t{max_motors} * (max_motors - 1) / 2>;
   struct Place {
     double s = 0;
     Row slope{};      // q'
     Row bend{};       // q''
-    Pairs turning{};  // of each pair of axes: 1/x of the largest x, with the sign of the turn
+    Pairs turning{};  // for each pair of axes: 1/x of the largest x, with the sign of the turn
     Pairs turn{};     // q''ᵢ q'ⱼ − q''ⱼ q'ᵢ of each pair
     double cap = 0;   // the largest x here
   };
-  struct End {       // of a cell
+  struct End {       // end of a cell
     double cap = 0;  // the largest x there
     Row slope{};     // q'²
   };
   struct Cell {
     double length = 0;
     double cap = 0;  // the largest x anywhere in it
-    End entry;       // its cap counts at the end of the cell before, too
+    End entry;       // its cap also applies at the end of the previous cell
     End exit;
-    double entry_scale = 1;   // x at its start divided by x at the end of the cell before
-    double controllable = 0;  // the largest x at its start from which the path can be played
-    double standing = 0;      // an axis with a smaller q'² stands, but for rounding
+    double entry_scale = 1;   // x at its start divided by x at the end of the previous cell
+    double controllable = 0;  // the largest x at its start from which the rest of the path is possible
+    double standing = 0;      // an axis with a smaller q'² does not move, except for rounding
     Row way{};                // Δq
   };
-  // Two axes that both have a limit of jerk.
+  // Two axes that both have a jerk limit.
   struct TurningPair {
     std::size_t i = 0;
     std::size_t j = 0;
-    std::size_t place = 0;  // among all pairs
+    std::size_t place = 0;  // index among all pairs
   };
-  // What such a pair does in a cell. T is |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ|, and T ṡ³ changes along the path.
+  // The motion of such a pair in a cell. T is |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ|, and T ṡ³ changes along the path.
   struct Turn {
     double entry = 0;   // T at the cell's start
     double exit = 0;    // T at its end
     double least = 0;   // T
-    double change = 0;  // the greatest change in the cell
-    // The greatest change at the cell's start, by rounding: jump ṡ + kink.
+    double change = 0;  // the largest change in the cell
+    // The largest rounding change at the cell's start: jump ṡ + kink.
     double jump = 0;
     double kink = 0;
   };
@@ -133,12 +134,12 @@ class TimeBound {
   bool any_jumps_ = false;  // some axis has a start-stop velocity
   std::vector<TurningPair> turning_pairs_;
   std::vector<Cell> cells_;
-  std::vector<Turn> turns_;  // of each cell, one for each of those pairs
+  std::vector<Turn> turns_;  // for each cell, one for each of those pairs
   std::optional<Joint> joint_;
   double x_ = 0;  // at the start of the first cell
   double time_ = 0;
   JerkWays ways_;
-  // The stretch as long as it is a single straight line. Its limits are those along the line.
+  // The section as long as it is a single straight line. Its limits are those along the line.
   struct Line {
     double began = 0;  // the bound of the time up to its start
     bool steady = true;
@@ -149,9 +150,9 @@ class TimeBound {
     double acceleration = 0;
     double jerk = 0;
   };
-  std::optional<Line> line_ = Line();  // empty: the stretch is not straight
-  bool inside_curve_ = false;          // a part of the curve has come, but not its end
-  Mm reached_{0};                      // the length of the curve that has come
+  std::optional<Line> line_ = Line();  // empty: the section is not straight
+  bool inside_curve_ = false;          // a part of the curve was added, but not its end
+  Mm reached_{0};                      // the length of the curve that was added
 };
 
 }  // namespace passo::proof

@@ -1,18 +1,20 @@
-// TubeBound: a time that no motion on any path in the tube can beat within velocity, acceleration and feed.
+// TubeBound: a lower bound for the time of any motion on any path in the tolerance tube within velocity, acceleration
+// and feed limits.
 //
-// The bound of TimeBound holds for the path that the smoother chose. This one holds for all paths that stay within the
-// tolerance of the programmed path. The programmed path is cut into stations (TubePath). Several bounds hold for the
-// time between two stations: that of each axis for its own way, from and to the speeds that it can have there
-// (TubeSpeeds), and that of the feed. What is added up is the best choice of stations and of one bound between each two
-// of them, found station by station.
+// The bound of TimeBound holds for the path that the smoother chose. This one holds for all paths within the tolerance
+// of the programmed path. The programmed path is divided into stations (TubePath). Several bounds hold for the time
+// between two stations: that of each axis for its own distance, with its maximum speeds there (TubeSpeeds), and that of
+// the feed. The result is the best sum over a choice of stations and of one bound between each two of them, computed
+// station by station.
 //
-// Each bound is that of a motion that passes its two stations where it helps most. Two bounds that meet at a station
-// want different places there. A place that is d farther on in a direction costs the one pace · d at least and spares
-// the other as much, so the two together lose the tolerance times the difference of their paces, as vectors, and not
-// both sizes.
+// Each bound belongs to a motion that passes its two stations at the most favourable points. Two bounds that meet at a
+// station may need different points there. A point that is farther by d in a direction costs the first motion at least
+// pace · d and saves the second one the same, so the sum loses the tolerance times the difference of their paces, as
+// vectors, and not both magnitudes.
 //
-// What is neglected, so that the bound can be too small: two axes limit the motion together only at stations; jerk.
-// Memory: a window of stations. Where a stretch is longer than the window, any speed is allowed at the window's end.
+// The bound can be too small, because it considers two axes that limit the motion together only at stations, and
+// ignores jerk. Memory: a window of stations. If a section is longer than the window, any speed is allowed at the
+// window's end.
 #pragma once
 
 #include <array>
@@ -33,7 +35,7 @@ class TubeBound {
   Seconds finish();
 
  private:
-  // What bounds the time up to a station: a direction of an axis, or the straight line of a leg.
+  // The source of the bound up to a station: a direction of an axis, or the straight line of a leg.
   static constexpr std::size_t line_kind = most_directions;
   static constexpr std::size_t most_kinds = most_directions + 1;
   static constexpr double unused = -1e18;
@@ -55,9 +57,9 @@ class TubeBound {
   TubeSpeeds speeds_;
   bool began_at_rest_ = true;
   double time_ = 0;
-  std::vector<Times> from_;   // of each station: the bound up to it, where one of each kind follows
-  std::vector<Times> turns_;  // the same, where an axis turns back into that direction
-  std::vector<Pace> lines_;   // of each station: the pace along the leg that ends there
+  std::vector<Times> from_;   // for each station: the bound up to it, if one of each kind follows
+  std::vector<Times> turns_;  // the same, if an axis reverses into that direction
+  std::vector<Pace> lines_;   // for each station: the pace along the leg that ends there
 };
 
 }  // namespace passo::proof

@@ -1,9 +1,10 @@
-// TubePath: the programmed path as stations and legs, for a bound that holds for every path in the tube around it.
+// TubePath: the programmed path as stations and legs, for a bound that holds for every path in the tolerance tube
+// around it.
 //
-// A station is a place of the programmed path. A motion within the tolerance is near each station at some time, in the
-// order of the stations. Between two stations, on a leg, it is near the part of the path between them: within the range
-// of each axis, widened by the tolerance. So the stations may be chosen freely, and what is between them may be any
-// dust.
+// A station is a point of the programmed path. A motion within the tolerance passes near each station, in the order of
+// the stations. Between two stations, on a leg, it is near the part of the path between them: within the range of each
+// axis, widened by the tolerance. So the stations may be chosen freely, and arbitrarily short moves may lie between
+// them.
 #pragma once
 
 #include <array>
@@ -17,33 +18,33 @@
 
 namespace passo::proof {
 
-// One number for each proven axis.
+// One number per checked axis.
 using AxisNumbers = std::array<double, max_motors>;
 
-// A station and the leg that ends there. Of the first station the leg has no meaning.
+// A station and the leg that ends there. The leg of the first station is unused.
 struct Station {
   AxisNumbers place{};
-  double slack = 0;   // how far from it the motion may pass: the tolerance, and 0 where the path rests
-  AxisNumbers low{};  // the range of the leg's places
+  double slack = 0;   // maximum distance of the motion from the station: the tolerance, and 0 at a stop
+  AxisNumbers low{};  // the range of the leg's points
   AxisNumbers high{};
-  double around = 0;  // how far the motion may be beside the leg
-  double bulge = 0;   // how far the leg's places are from the straight line between its ends
-  double feed = 0;    // the greatest feed on the leg; fastest if there is none
+  double around = 0;  // maximum distance of the motion from the leg
+  double bulge = 0;   // maximum distance of the leg's points from the straight line between its ends
+  double feed = 0;    // the largest feed on the leg; `fastest` if there is none
   std::uint16_t group =
-      0;  // the axes that the feed counts, a bit each; 0: segments differ, so that the feed is unknown
+      0;  // the axes to which the feed applies, one bit each; 0: segments differ, so that the feed is unknown
 };
 
-// A bound at a station looks this many stations back.
+// A bound at a station considers this many previous stations.
 inline constexpr std::size_t stations_seen = 32;
 
 class TubePath {
  public:
-  static constexpr double fastest = 1e6;  // mm/s, a feed that does not limit
+  static constexpr double fastest = 1e6;  // mm/s, a feed that is no limit
 
   explicit TubePath(const std::vector<ProvenAxis>& axes) : axes_(axes) {}
 
   void add(const Segment& segment);
-  // The path rests at its present end.
+  // Call if the path stops at its current end.
   void rest();
 
   const std::vector<Station>& stations() const { return stations_; }
@@ -70,11 +71,11 @@ class TubePath {
   const std::vector<ProvenAxis>& axes_;
   std::vector<Station> stations_;
   Station leg_;            // the one that is growing
-  double way_ = 0;         // of the growing leg; 0: it has not begun
+  double way_ = 0;         // length of the growing leg; 0: it has not begun
   double bulge_ = 0;       // the largest of its pieces
-  double last_slack_ = 0;  // the tolerance of the segment before
-  double slack_ = 0;       // the tolerance around the present segment
-  double feed_ = 0;        // of the present segment
+  double last_slack_ = 0;  // the tolerance of the previous segment
+  double slack_ = 0;       // the tolerance around the current segment
+  double feed_ = 0;        // of the current segment
   std::uint16_t group_ = 0;
 };
 

@@ -1,10 +1,10 @@
-// TubeSpeeds: how fast each axis can be where a motion in the tube passes the stations.
+// TubeSpeeds: the maximum speed of each axis where a motion in the tube passes the stations.
 //
-// An axis that passes a station with the speed v began at rest at least v²/2A before it: at its start place. If the
-// motion cannot have been beyond some place for as long as v takes to come about, the start place is not beyond that
-// place either. So a corner limits the axis that was idle before it. Backwards in time the same holds of what follows,
-// and limits the axis that will be idle. In each plane of two axes the same is asked of directions at right angles to
-// the legs, so that a corner between slanted legs counts as well.
+// An axis that passes a station with the speed v must have started from rest at a point at least v²/2A before it. If
+// the motion cannot have been beyond some point within the time needed to reach v, the starting point is not beyond it
+// either. So a corner limits the axis that was idle before it. The same holds backwards in time, and limits the axis
+// that will be idle. In each plane of two axes the same bound is computed for directions perpendicular to the legs, so
+// that it includes corners between diagonal legs.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace passo::proof {
 
-// Each axis has two directions: 2 i is upwards on axis i, 2 i + 1 is downwards.
+// Each axis has two directions: 2 i is positive on axis i, 2 i + 1 is negative.
 inline constexpr std::size_t most_directions = 2 * std::size_t{max_motors};
 constexpr double sign_of(std::size_t direction) {
   return direction % 2 == 0 ? 1.0 : -1.0;
@@ -25,32 +25,33 @@ class TubeSpeeds {
  public:
   explicit TubeSpeeds(const std::vector<ProvenAxis>& axes);
 
-  struct Rests {  // at the first of two stations, at the last
+  struct Rests {  // at the first and the last of two stations
     bool first = false;
     bool last = false;
   };
-  // `rests`: whether the path rests at its ends.
+  // `rests`: whether the path stops at its ends.
   void limit(const std::vector<Station>& path, Rests rests);
 
   struct Speed {
     double most = 0;  // mm/s
-    double pace = 0;  // s/mm: each mm by which the motion passes the station later costs, or sooner spares, so much
+    double pace = 0;  // s/mm: the time lost, or saved, per mm by which the motion passes the station later, or sooner
   };
-  // The speed with which the axis leaves the station, by what was before; with which it arrives, by what follows.
+  // leaving(): the speed with which the axis leaves the station, limited by the motion before it. arriving(): the speed
+  // with which it arrives, limited by the motion after it.
   const Speed& leaving(std::size_t station, std::size_t direction) const { return leaving_[station][direction]; }
   const Speed& arriving(std::size_t station, std::size_t direction) const { return arriving_[station][direction]; }
 
   double top(std::size_t axis) const { return tops_[axis]; }
   double strength(std::size_t axis) const { return strengths_[axis]; }
   const AxisRamp& ramp(std::size_t axis) const { return ramps_[axis]; }
-  // A lower bound of the time from one station to another in which an axis goes in this direction. 0 if it need not go.
-  // `rests`: where this axis is known to rest.
+  // Returns a lower bound of the time between two stations in which an axis moves in this direction. 0 if it need not
+  // move. `rests`: where this axis is known to be stopped.
   double axis_time(const std::vector<Station>& path, std::size_t from, std::size_t to, std::size_t direction,
                    Rests rests) const;
 
  private:
   using Speeds = std::array<Speed, most_directions>;
-  // The path forwards in time, or backwards: then the last station is number 0, and directions turn round.
+  // The path forwards in time, or backwards: then the last station is number 0, and directions are reversed.
   struct Walk {
     const std::vector<Station>& path;
     bool backwards;
@@ -58,11 +59,11 @@ class TubeSpeeds {
     const Station& station(std::size_t i) const { return path[number(i)]; }
     const Station& leg(std::size_t i) const { return path[backwards ? path.size() - i : i]; }  // before station i
   };
-  struct Plane {  // of two axes
+  struct Plane {  // plane of two axes
     std::size_t first;
     std::size_t second;
   };
-  struct Limit {  // of a velocity in the plane: x first + y second <= most
+  struct Limit {  // limit of a velocity in the plane: x first + y second <= most
     double x, y, most;
   };
 
@@ -76,12 +77,12 @@ class TubeSpeeds {
   const std::vector<ProvenAxis>& axes_;
   std::vector<AxisRamp> ramps_;
   std::vector<double> tops_;
-  std::vector<double> strengths_;  // at rest; 0: no limit
+  std::vector<double> strengths_;  // at standstill; 0: no limit
   std::vector<Speeds> leaving_;
   std::vector<Speeds> arriving_;
-  std::vector<std::array<double, most_directions>> most_;  // by the planes
+  std::vector<std::array<double, most_directions>> most_;  // by planes
   std::vector<Limit> limits_;
-  bool knows_speeds_ = false;  // those of a round before
+  bool knows_speeds_ = false;  // speeds from a previous round are available
 };
 
 }  // namespace passo::proof

@@ -1,8 +1,7 @@
-// BoardModel: the host's copy of the board's state, exact to the last bit: each motor's fixed-point place and the
-// board's time.
+// BoardModel: the host's bit-exact copy of the board's state: each motor's fixed-point position and the board's time.
 //
 // The board's Player plays a segment event by event. BoardModel computes one sum for each motor and one for the time.
-// That takes a tenth of the time of making the segment. A test compares BoardModel with Player.
+// This takes a tenth of the time needed to make the segment. A test compares BoardModel with Player.
 #pragma once
 
 #include <array>

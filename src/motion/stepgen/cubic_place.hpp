@@ -1,10 +1,10 @@
-// CubicPlace: the place of one motor on a cubic as a polynomial of s, and its inverse: the s at which the motor is at a
-// place.
+// CubicPlace: the position of one motor on a cubic as a polynomial of s, and its inverse: the s at which the motor is
+// at a position.
 //
 // Between the roots of its derivative the polynomial is monotone. There it has the form of motion at constant jerk,
-// with s for the time, and is inverted as such (units/constant_jerk.hpp): by Newton's method from where the last event
-// leads to, inside the bracket that the turning points give. One or two rounds find a crossing to 0.01 place; this
-// takes about 30 ns, and 5 ns where several near crossings are found at once.
+// with s instead of the time, and is inverted as such (units/constant_jerk.hpp): by Newton's method, starting from an
+// extrapolation of the last event, inside the bracket between the turning points. One or two iterations find a crossing
+// to 0.01 position units; this takes about 30 ns, and 5 ns if several near crossings are found at once.
 #pragma once
 
 #include <limits>
@@ -24,7 +24,7 @@ struct Parabola {
   double c = 0;
 
   double at(double s) const { return a + s * (b + s * c); }
-  // The first s >= from at which the parabola is above zero or begins to be. Infinity if there is none.
+  // Returns the first s >= from at which the parabola is or becomes positive. Infinity if there is none.
   double above_zero(double from) const;
 };
 
@@ -38,10 +38,10 @@ class CubicPlace {
   double slope(double s) const { return first_ + s * (2 * second_ + s * 3 * third_); }
   // The slope as a polynomial.
   Parabola slope() const { return {first_, 2 * second_, 3 * third_}; }
-  // Whether the place rises just after `s`, also on a turning point.
+  // Whether the position rises just after `s`, even at a turning point.
   bool rises(double s) const { return at(next_end(s)) > at(s); }
 
-  // The same meanings as in MotorPath.
+  // As in MotorPath.
   double crossing(double target, double from) const;
   std::size_t look_ahead(double target, double step, double from, Lanes& s) const;
   double turning_point(double from) const { return next_turn(from) + behind_turn_; }
@@ -55,16 +55,17 @@ class CubicPlace {
   }
   double next_end(double from) const { return std::min(next_turn(from), end_); }
 
-  // place = base + first s + second s² + third s³.
+  // position = base + first s + second s² + third s³.
   double base_ = 0;
   double first_ = 0;
   double second_ = 0;
   double third_ = 0;
   double end_ = 0;
-  // The places between 0 and the end where the slope is 0. Infinity if there is none.
+  // The points between 0 and the end where the slope is 0. Infinity if there is none.
   double first_turn_ = infinity;
   double second_turn_ = infinity;
-  double behind_turn_ = 0;  // so far after a turn, s is certainly past the turn, and the place has hardly changed
+  double behind_turn_ = 0;  // at this distance after a turning point, s is certainly past it, and the position has
+                            // hardly changed
 };
 
 }  // namespace passo

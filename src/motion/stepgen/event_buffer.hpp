@@ -1,7 +1,7 @@
-// EventBuffer: the events that will become board segments, with their exact times and each motor's exact place.
+// EventBuffer: the events that will become board segments, with their exact times and each motor's exact position.
 //
-// A stretch is a series of events with the same master. Events lie where the master's place crosses multiples of
-// `grid`. So the master's increment is exactly the grid, and its steps come at the exact times.
+// A stretch is a series of events with the same master motor. Events are at the times when the master's position
+// crosses multiples of `grid`. So the master's increment is exactly the grid, and its steps come at the exact times.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace passo {
 struct Stretch {
   unsigned master = 0;
   int sign = 1;                    // direction of the master
-  std::int64_t grid = whole_step;  // place between two events: 65536 / 2^k
+  std::int64_t grid = whole_step;  // position difference between two events: 65536 / 2^k
 };
 
 class EventBuffer {
@@ -26,7 +26,7 @@ class EventBuffer {
   EventBuffer() = default;
   EventBuffer(const EventBuffer& other) { *this = other; }
   EventBuffer& operator=(const EventBuffer& other) {
-    // Copies only the part in use, because the whole buffer has 300 kilobytes.
+    // Copies only the used part, because the whole buffer has 300 kilobytes.
     const auto copy = [&](const auto& from, auto& to, std::size_t end) {
       std::copy(from.begin() + static_cast<std::ptrdiff_t>(other.first_),
                 from.begin() + static_cast<std::ptrdiff_t>(end),
@@ -46,8 +46,8 @@ class EventBuffer {
   // Index 0 is the event before the first one in the buffer.
   const double* places(unsigned motor) const { return &place_[motor][first_]; }
 
-  // Adds an event with its exact time and each motor's exact place. The time is in 1/65536 tick, with half a tick added
-  // as on the board.
+  // Adds an event with its exact time and each motor's exact position. The time is in 1/65536 tick, with half a tick
+  // added as on the board.
   void push(std::int64_t time, const std::array<double, max_motors>& places, unsigned motors) {
     if (last_ == capacity) make_room();
     time_[last_] = time;
@@ -63,14 +63,15 @@ class EventBuffer {
     last_ += count;
   }
   void drop(std::size_t events) { first_ += events; }
-  // Empties the buffer. `before` are the places at the event before the first.
+  // Empties the buffer. `before` are the positions at the event before the first.
   void restart(const std::array<double, max_motors>& before) {
     first_ = last_ = 0;
     for (unsigned m = 0; m < max_motors; ++m) place_[m][0] = before[m];
   }
 
  private:
-  static constexpr std::size_t capacity = 4096;  // twice what a segment needs, so that events are seldom moved
+  static constexpr std::size_t capacity = 4096;  // twice the number that a segment needs, so that events are rarely
+                                                 // moved
 
   void make_room() {
     std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),

@@ -1,11 +1,11 @@
-// EventStream: planned moves -> exact events. EventStream chooses the master and how finely the master's steps are
-// divided. Then it inverts the phases at each line of the grid.
+// EventStream: converts planned moves into exact events. It chooses the master motor and the subdivision of its steps.
+// Then it inverts the phases at each multiple of the grid.
 //
-// The master is the motor that moves fastest. Its events come at the lowest power-of-two multiple of its step rate
-// above a sixteenth of the board's highest rate or 10 kHz. So on a slow move the other motors are late by at most one
-// short event. A stretch goes on from move to move while its master leads and its rate fits: many short moves make
-// segments as long as one long move does. Events are made several at once (lanes.hpp). With fitting and replay about 13
-// ns an event on a line, 30 ns on a cubic or an arc, 20 ns more with jerk.
+// The master is the motor that moves fastest. The event rate is its step rate times the lowest power of two that brings
+// it above a sixteenth of the board's highest rate or 10 kHz. So on a slow move the other motors are late by at most
+// one short event. A stretch continues from move to move while its master leads and its rate fits: many short moves
+// make segments as long as one long move does. Several events are computed at once (lanes.hpp). With fitting and
+// simulation about 13 ns per event on a line, 30 ns on a cubic or an arc, 20 ns more with jerk.
 #pragma once
 
 #include <array>
@@ -25,30 +25,29 @@ class EventStream {
  public:
   explicit EventStream(const StepOptions& options);
 
-  // Why filling stopped.
+  // Why fill() stopped.
   enum class Stop : std::uint8_t {
     full,         // there are enough events for a segment
     stretch_end,  // the events of this stretch are complete; play them before filling again
-    move_end,     // the move is used up; start the next one
-    rest,         // the move is used up and ends at rest
+    move_end,     // the move is finished; start the next one
+    rest,         // the move is finished and ends in a stop
   };
 
-  // Begins the next move. Call it only at the start, or after move_end or rest. `move` must stay alive until it is used
-  // up.
+  // Begins the next move. Call it only at the start, or after move_end or rest. `move` must exist until it is finished.
   void start_move(const PlannedMove& move);
   bool in_move() const { return in_move_; }
-  // Call it when the present move has been copied to another place in memory. `move` is the copy.
+  // Call it when the current move has been copied to another address. `move` is the copy.
   void move_lives_in(const PlannedMove& move) {
     path_.curve_lives_in(move.segment.curve);
     clock_.move_lives_in(move);
   }
-  // Adds events of the present move, until there are `enough`.
+  // Adds events of the current move, until there are `enough`.
   Stop fill(EventBuffer& events, std::size_t enough);
-  // Ends the stretch, so that the next event chooses its master anew. Events in the buffer still belong to the old
+  // Ends the stretch, so that the next event chooses its master again. Events in the buffer still belong to the old
   // stretch.
   void end_stretch() { in_stretch_ = false; }
-  // Below this rate of events the grid is made finer. A sixteenth of the board's highest rate counts instead if that is
-  // lower. 0: the grid is never made finer for slowness.
+  // Below this event rate the grid is subdivided. A sixteenth of the board's highest rate is used instead if that is
+  // lower. 0: the grid is never subdivided at low speed.
   void divide_below(Hertz rate) { slow_rate_ = std::min(rate.value(), slowest_share_); }
   void wait(Seconds time) { advance(time.value()); }
   // Sets the time back between two moves. `time` is in the units of now().
@@ -57,7 +56,7 @@ class EventStream {
   const Stretch& stretch() const { return stretch_; }
   // The exact time at the end of the last move, in 1/65536 tick with half a tick added.
   std::int64_t now() const { return fixed_time(0); }
-  // The exact place of a motor at the end of the last move.
+  // Returns the exact position of a motor at the end of the last move.
   double place_at_end(unsigned motor) const { return end_[motor]; }
   std::int64_t shortest_interval() const { return shortest_interval_; }
   AxisSet downs() const { return screws_.downs(); }
@@ -69,7 +68,7 @@ class EventStream {
 
   struct Fastest {
     unsigned motor = 0;
-    double slope = 0;  // the largest |d place / ds| on the way
+    double slope = 0;  // the largest |d position / ds| on the path
   };
 
   // Squares of rates, in the unit of rate_squared().
@@ -105,33 +104,33 @@ class EventStream {
 
   std::span<MotorRow> motors() { return {motors_.data(), motor_count_}; }
 
-  std::array<MotorRow, max_motors> motors_;  // as they are in the present part of the move
+  std::array<MotorRow, max_motors> motors_;  // as in the current part of the move
   std::uint8_t motor_count_;
   double tick_rate_;
   std::int64_t shortest_interval_;
-  double slowest_share_;  // slow_share of the board's highest rate; events a second
-  double slow_rate_;      // events a second; below this rate the grid is made finer
+  double slowest_share_;  // slow_share of the board's highest rate; events/s
+  double slow_rate_;      // events/s; below this rate the grid is subdivided
 
-  // Start time of the present move, as whole ticks and a fraction. So no precision is lost over hours.
+  // Start time of the current move, as whole ticks and a fraction, so that no precision is lost over hours.
   std::int64_t ticks_ = 0;
   double fraction_ = 0;
 
-  MotorPath path_;  // up to the end of the present part of the move
+  MotorPath path_;  // up to the end of the current part of the move
   PhaseClock clock_;
   ScrewParts screws_;
   double move_end_ = 0;
   bool in_move_ = false;
-  MotorPath::Spot spot_;  // the present place on the curve
+  MotorPath::Spot spot_;  // the current position on the curve
   PhaseClock::Moment moment_;
-  std::array<double, max_motors> here_{};  // exact places at spot_
+  std::array<double, max_motors> here_{};  // exact positions at spot_
   std::array<double, max_motors> at_last_event_{};
-  std::array<double, max_motors> end_{};  // at the end of the present part, or of the last move
+  std::array<double, max_motors> end_{};  // at the end of the current part, or of the last move
 
   bool in_stretch_ = false;
   Stretch stretch_;
   FittingRates rates_;      // for the grid of the stretch
-  double leads_until_ = 0;  // the place s up to which the master is known to lead
-  double target_ = 0;       // the line of the grid that the master reaches next
+  double leads_until_ = 0;  // the s up to which the master is known to lead
+  double target_ = 0;       // the next multiple of the grid that the master reaches
   std::int64_t last_event_ = INT64_MIN / 2;
 };
 

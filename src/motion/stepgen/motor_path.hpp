@@ -1,8 +1,8 @@
-// MotorPath: the place of every motor as a function of s, for a curve or a part of one. place.hpp defines places.
+// MotorPath: the position of every motor as a function of s, for a curve or a part of one. place.hpp defines positions.
 //
-// A motor moves straight, in proportion to s; or round, as the axes of an arc's plane do, perhaps with a straight part
-// from an axis beside the plane; or along a cubic. Its row (passo/kinematics) tells which of these. Crossings are
-// found several at once (lanes.hpp). One takes about 1 ns straight, 8 ns round and 5 ns on a cubic.
+// A motor's motion is straight, proportional to s; or round, like that of the axes in an arc's plane, possibly with a
+// straight part from an axis outside the plane; or along a cubic. Its row (passo/kinematics) determines the kind.
+// Several crossings are found at once (lanes.hpp). One takes about 1 ns if straight, 8 ns if round and 5 ns on a cubic.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ namespace passo {
 
 class MotorPath {
  public:
-  // Begins a curve, which is followed up to `end`. `curve` must stay alive until the next curve begins.
+  // Begins a curve, which is followed up to `end`. `curve` must exist until the next curve begins.
   void start(const Curve& curve, double end, std::span<const MotorRow> motors);
   void curve_lives_in(const Curve& curve) { curve_ = &curve; }
 
-  // A place on the curve, with the values that all motors need, computed once. On an arc these are the cosine and the
+  // A point on the curve, with the values that all motors need, computed once. On an arc these are the cosine and the
   // sine of the angle.
   struct Spot {
     double s = 0;
@@ -40,7 +40,7 @@ class MotorPath {
     }
     return term.base + term.scale * spot.s;
   }
-  // d place / ds. Negative where the motor counts down.
+  // d position / ds. Negative where the motor counts down.
   double slope(unsigned motor, const Spot& spot) const {
     const Term& term = terms_[motor];
     switch (term.way) {
@@ -50,13 +50,13 @@ class MotorPath {
     }
     return term.scale;
   }
-  // Whether the motor counts up just after `spot`. On a cubic this is right at a turning point too.
+  // Whether the motor counts up just after `spot`. On a cubic this is also correct at a turning point.
   bool rises(unsigned motor, const Spot& spot) const {
     return terms_[motor].way == Way::cubic ? cubics_[motor].rises(spot.s) : slope(motor, spot) > 0;
   }
 
-  // The first spot at or after `from` where the motor reaches `target`, moving in its direction at `from`. Its s is
-  // infinity if the motor turns back before, or stands still. The spot may lie beyond the end.
+  // Returns the first spot at or after `from` where the motor reaches `target`, in its direction at `from`. Its s is
+  // infinite if the motor reverses before, or does not move. The spot may lie beyond the end.
   Spot crossing(unsigned motor, double target, const Spot& from) const {
     const Term& term = terms_[motor];
     switch (term.way) {
@@ -66,8 +66,8 @@ class MotorPath {
     }
     return at(term.scale == 0 ? infinity : std::max(from.s, (target - term.base) / term.scale));
   }
-  // The same for several targets, each farther by `step`, as many as are near. None for a motor that moves straight on
-  // an arc. The lanes behind these may hold anything.
+  // The same for several near targets, each farther by `step`. Returns none for a motor that moves straight on an arc.
+  // The lanes after them have arbitrary values.
   struct Spots {
     Lanes s;
     Lanes cosine;
@@ -78,15 +78,16 @@ class MotorPath {
   void look_ahead(unsigned motor, double target, double step, double from, Spots& ahead) const;
   void places(unsigned motor, const Spots& spots, Lanes& places) const;
   void slopes(unsigned motor, const Spots& spots, Lanes& slopes) const;
-  // Just after the first place after `from` where the motor turns back. Infinity if it never does.
+  // Returns an s just after the first point after `from` where the motor reverses. Infinity if it never does.
   double turning_point(unsigned motor, double from) const;
-  // The change of s until the motor is `distance` away from its place at `from`, in either direction. This measures how
-  // fast a motor is, even at a turning point, where its slope is 0. Infinity if the motor never gets that far.
+  // Returns the change of s until the motor is `distance` away from its position at `from`, in either direction. This
+  // measures how fast a motor is, even at a turning point, where its slope is 0. Infinity if the motor never gets that
+  // far.
   double travel(unsigned motor, double distance, double from) const;
-  // A place up to which no other motor is faster than `master` by the factor `takeover`; the master counts in direction
-  // `sign`. On an arc another motor may take over later than that: ask again from there.
+  // Returns an s up to which no other motor is faster than `master` by the factor `takeover`; the master counts in
+  // direction `sign`. On an arc the true limit may be later: call again from there.
   double leads_until(unsigned master, int sign, double takeover, const Spot& from) const;
-  // The radius on which the motor turns at `spot`, in places. Infinity where it moves straight.
+  // Returns the radius of the motor's round motion at `spot`, in position units. Infinity where it moves straight.
   double reach(unsigned motor, const Spot& spot) const;
   bool is_turning(unsigned motor) const { return terms_[motor].way != Way::straight; }
 
@@ -98,17 +99,17 @@ class MotorPath {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   enum class Way : std::uint8_t { straight, round, cubic };
-  // Straight: place = base + scale * s. Round: place = base + drift * s + scale * radius(s) * outward(s), where outward
-  // is cosine * cos(angle(s)) + sine * sin(angle(s)).
+  // Straight: position = base + scale * s. Round: position = base + drift * s + scale * radius(s) * outward(s), where
+  // outward is cosine * cos(angle(s)) + sine * sin(angle(s)).
   struct Term {
     Way way = Way::straight;
-    double base = 0;    // place at s = 0, or the place of the centre
-    double scale = 0;   // slope, or places a millimetre of radius
-    double cosine = 0;  // what the motor sees of the first axis of the plane, and of the second one: together 1
+    double base = 0;    // position at s = 0, or of the centre
+    double scale = 0;   // slope, or position units per millimetre of radius
+    double cosine = 0;  // the motor's components along the first and second axis of the plane, normalised
     double sine = 0;
-    double drift = 0;     // of an axis that is not in the plane; 0 for most
+    double drift = 0;     // from an axis outside the plane; 0 for most motors
     double angle = 0;     // at s = 0; outward is its sine
-    double sharpest = 0;  // round: |d² place / ds²| at most
+    double sharpest = 0;  // round: maximum |d² position / ds²|
   };
 
   void start_arc(const Curve::ArcData& arc, double length);
@@ -124,7 +125,7 @@ class MotorPath {
   double place_round(const Term& term, const Spot& spot) const {
     return term.base + term.drift * spot.s + term.scale * radius_at(spot.s) * arm(term, spot).outward;
   }
-  // Of the place on the circle: outward as the motor sees it, around what that becomes a right angle farther.
+  // The position on the circle: `outward` for this motor, and its value a right angle farther.
   struct Arm {
     double outward = 0;
     double around = 0;
@@ -157,11 +158,11 @@ class MotorPath {
   std::array<CubicPlace, max_motors> cubics_;  // for motors that move along a cubic
   const Curve* curve_ = nullptr;
   double end_ = 0;
-  // The arc. For other curves, turn_ is 0.
+  // Data of an arc. For other curves, turn_ is 0.
   double angle_ = 0;   // at s = 0
-  double turn_ = 0;    // radians a millimetre of s
+  double turn_ = 0;    // radians per millimetre of s
   double radius_ = 0;  // at s = 0
-  double growth_ = 0;  // of the radius, for each millimetre of s
+  double growth_ = 0;  // of the radius, per millimetre of s
 };
 
 }  // namespace passo

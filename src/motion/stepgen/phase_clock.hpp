@@ -1,9 +1,9 @@
-// PhaseClock: the time at which the path is at s. PhaseClock inverts the phases of one move. s never falls from call to
-// call.
+// PhaseClock: computes the time at which the path reaches s, by inverting the phases of one move. s must not decrease
+// between calls.
 //
-// Times count from the start of the move, so that no error adds up from step to step. units/constant_jerk.hpp inverts a
-// phase. With jerk the search begins where the last event leads to, and takes one or two rounds. About 3 ns an event,
-// 30 ns with jerk.
+// Times count from the start of the move, so that errors do not accumulate from step to step. units/constant_jerk.hpp
+// inverts a phase. With jerk the search begins at an extrapolation from the last event, and takes one or two
+// iterations. About 3 ns per event, 30 ns with jerk.
 #pragma once
 
 #include "lanes.hpp"
@@ -21,7 +21,7 @@ class PhaseClock {
     double acceleration = 0;  // mm/s²
   };
 
-  // `move` must stay alive until the clock is started for the next move.
+  // `move` must exist until the clock is started for the next move.
   void start(const PlannedMove& move);
   void move_lives_in(const PlannedMove& move) { move_ = &move; }
   // `s` must not be less than in the last call.
@@ -33,8 +33,8 @@ class PhaseClock {
             .speed = motion_.speed_after(time_),
             .acceleration = motion_.acceleration_after(time_)};
   }
-  // The same at the places s[first] to s[end - 1], but only up to the end of the first one's phase. Returns the lane
-  // after the last one.
+  // The same for s[first] to s[end - 1], but only up to the end of the first one's phase. Returns the lane after the
+  // last one.
   struct Moments {
     Lanes time;
     Lanes speed;
@@ -42,9 +42,9 @@ class PhaseClock {
     Moment operator[](std::size_t i) const { return {time[i], speed[i], acceleration[i]}; }
   };
   std::size_t at(const Lanes& s, std::size_t first, std::size_t end, Moments& moments);
-  // The place at which the phase of the last call ends.
+  // Returns the s at which the phase of the last call ends.
   double phase_end() const { return end_; }
-  // The duration of the whole move.
+  // Returns the duration of the whole move.
   double duration() const;
   bool ends_at_rest() const { return move_->ends_at_rest(); }
 
@@ -56,7 +56,7 @@ class PhaseClock {
   void begin_phase(std::size_t phase, double time);
 
   const PlannedMove* move_ = nullptr;
-  // The present phase.
+  // The current phase.
   std::size_t phase_ = 0;
   ConstantJerk motion_;
   double phase_start_ = 0;  // seconds from the start of the move

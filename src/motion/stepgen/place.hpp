@@ -1,5 +1,5 @@
-// Places are in the board's own units: 1/65536 of a step, with half a step added. So a motor's step count is
-// place/65536, rounded down. A step happens where the place crosses a multiple of 65536.
+// Motor positions in the board's own units: 1/65536 of a step, with half a step added. So a motor's step count is
+// position/65536, rounded down. A step occurs where the position crosses a multiple of 65536.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// Units of place in one step.
+// Position units per step.
 inline constexpr double place_per_step = 65536.0;
 
 // For a motor without a screw.

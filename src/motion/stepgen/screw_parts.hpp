@@ -1,7 +1,7 @@
-// ScrewParts: cuts a move into parts in which each motor follows its axis in proportion, and tells the proportion.
+// ScrewParts: divides a move into parts in which each motor is proportional to its axis, and gives the factors.
 //
-// A part ends where an axis reaches a border of its screw's errors. The motor's place is continuous there, so a stretch
-// of events goes on. Machines without screws never come here.
+// A part ends where an axis reaches a border between entries of its screw's error table. The motor's position is
+// continuous there, so a stretch of events continues. Machines without screws do not use it.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ class ScrewParts {
     downs_ = segment.downs;
     takes_up_backlash_ = segment.takes_up_backlash;
   }
-  // The axes whose backlash is taken up for motion down, in the present move or after the last one.
+  // The axes whose backlash is taken up for motion in the negative direction, in the current move or after the last
+  // one.
   AxisSet downs() const { return downs_; }
   // Sets scale and offset of each motor with a screw for the part that begins at s = `from`. Returns where the part
   // ends: at `end` or before.
@@ -33,7 +34,7 @@ class ScrewParts {
  private:
   void fit_backlash(const Curve& curve, MotorRow& motor, double scale) const;
 
-  std::array<double, max_motors> scales_{};  // steps a unit of a perfect screw
+  std::array<double, max_motors> scales_{};  // steps per unit of a perfect screw
   bool any_ = false;
   AxisSet downs_;
   bool takes_up_backlash_ = false;

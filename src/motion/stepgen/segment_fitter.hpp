@@ -1,16 +1,16 @@
-// SegmentFitter: exact events -> one board segment that plays as many of them as possible.
+// SegmentFitter: converts as many exact events as possible into one board segment.
 //
 // Time. Event k of a segment comes at k I + c k(k-1)/2, where I is the first interval and c its change. I and c are
-// chosen so that this curve meets the exact times at the zeros of a Chebyshev polynomial. There a cubic error is
-// smallest overall. Then each event is checked: none may be further than `exact` from its exact time. The board rounds
-// to whole ticks, so the event is within one tick.
+// chosen so that this curve meets the exact times at the zeros of a Chebyshev polynomial, which minimises a cubic
+// error. Then each event is checked: none may be further than `exact` from its exact time. The board rounds to whole
+// ticks, so the event is within one tick.
 //
-// Place. The master moves by the grid at each event. Any other motor adds the same increment at each event. Its step is
-// due at the first event at or after the step's exact time, and may come one event early. That bounds the increment
-// from both sides. If no increment keeps the bounds, the segment is shortened. Where events may be off by a whole
+// Position. The master moves by the grid at each event. Any other motor adds the same increment at each event. Its step
+// is due at the first event at or after the step's exact time, and may come one event early. This limits the increment
+// from both sides. If no increment is within the limits, the segment is shortened. Where events may be off by a whole
 // interval, a step may also come one event late, except at the segment's end.
 //
-// About 10 ns for each event and motor.
+// About 10 ns per event and motor.
 #pragma once
 
 #include <array>
@@ -31,16 +31,16 @@ class SegmentFitter {
 
   // The greatest distance of an event from its exact time, in 1/65536 tick. Rounding to whole ticks adds half a tick.
   static constexpr std::int64_t exact = whole_tick * 9 / 20;
-  // Lets an event be off its exact time by 1/share of its interval (0: by `exact` only), and a segment have up to
-  // `longest` events.
+  // Allows an event to be off its exact time by 1/share of its interval (0: by `exact` only), and a segment to have up
+  // to `longest` events.
   void loosen_to(std::int64_t share, unsigned longest) {
     share_ = share;
     longest_ = longest;
   }
   unsigned longest() const { return longest_; }
 
-  // Makes a segment of the first events of `events`, which must not be empty. Nothing is known of what follows the last
-  // event. Returns the number of events in the segment. 0: the first event is too far away for one interval, so the
+  // Makes a segment of the first events of `events`, which must not be empty. Nothing is assumed about events after the
+  // last one. Returns the number of events in the segment. 0: the first event is too far away for one interval, so the
   // caller must wait first.
   unsigned fit(const EventBuffer& events, const Stretch& stretch, const BoardModel& board, BoardSegment& segment);
 
@@ -52,9 +52,9 @@ class SegmentFitter {
     std::uint8_t form = 0;
   };
   struct Advance {
-    int sign = 0;  // 0: stands still
+    int sign = 0;  // 0: does not move
     std::int64_t increment = 0;
-    unsigned events = 0;  // the number of events that this increment serves
+    unsigned events = 0;  // the number of events for which this increment is valid
   };
 
   Timing fit_time(const EventBuffer& events, std::int64_t now, unsigned most);
@@ -66,50 +66,50 @@ class SegmentFitter {
   std::optional<Timing> root_of(const EventBuffer& events, std::int64_t now, unsigned n) const;
   bool times_hold(const EventBuffer& events, std::int64_t now, const Timing& timing) const;
   bool part_holds(const EventBuffer& events, std::int64_t now, const Timing& timing, unsigned first) const;
-  // A motor that moves in a bend: its first increment, and what each part adds to it.
+  // A motor with a bend: its first increment, and the change of the increment per part.
   struct Bent {
     Advance advance;
     std::int64_t change = 0;
   };
-  // What a bend's changes are multiples of, and the largest of them.
+  // The unit of a bend's changes, and the largest change.
   struct BendRange {
     std::int64_t unit = 1;
     std::int64_t most = 0x7fff;
   };
-  // Which motors bend, and which one lends its place.
+  // The motors with a bend, and the motor that lends its field.
   struct Lending {
     unsigned lender = 0;
     unsigned first = 0;
-    unsigned second = 0;  // the first once more: one motor bends
-    unsigned most = 0;    // the number of events for which the place is free
+    unsigned second = 0;  // equal to the first: only one motor has a bend
+    unsigned most = 0;    // the number of events for which the field is free
     bool serves(unsigned motor) const { return motor == lender || motor == first || motor == second; }
   };
-  // A segment's bend as the wire says it.
+  // A segment's bend in the format of the wire protocol.
   struct Bending {
     std::uint8_t code = 0;  // BoardSegment::bend
     std::uint16_t lent = 0;
-    unsigned k = 0;  // parts have two to the power of this many events
+    unsigned k = 0;  // each part has 2^k events
     unsigned lender = 0;
     unsigned events = 0;
   };
-  // The first `count` of the events, in parts of two to the power `k`.
+  // The first `count` events, in parts of 2^k events.
   struct BendSpan {
     const EventBuffer& events;
     const BoardModel& board;
     unsigned count = 0;
     unsigned k = 0;
   };
-  // From the shortest to the longest: two to the power of these many events. None if the shortest is longer.
+  // The shortest and the longest part length, as powers of two. Empty if the shortest is longer than the longest.
   struct PartRange {
     unsigned shortest = 1;
     unsigned longest = 0;
   };
   using Advances = std::array<Advance, max_motors>;
 
-  // By how many events a step may come late within a segment.
+  // The number of events by which a step may come late within a segment.
   std::int32_t events_late() const { return share_ == 1 ? 1 : 0; }
-  // Where a motor is behind by a part of a step: a segment of two events up to the first event of `events`.
-  // `is_behind`: one is known to be.
+  // For a motor that is behind by a fraction of a step: makes a segment of two events up to the first event of
+  // `events`. `is_behind`: at least one motor is known to be behind.
   bool catch_up(const EventBuffer& events, const Stretch& stretch, const BoardModel& board, bool is_behind,
                 BoardSegment& segment) const;
   void write(const Advances& advances, std::uint8_t kept_directions, BoardSegment& segment) const;
@@ -133,7 +133,7 @@ class SegmentFitter {
   Advance settle(std::int64_t position, double place, unsigned count) const;
   Advance within_bounds(std::int32_t place, std::int32_t count) const;
 
-  // The longest part of a root has two to the power of this many events.
+  // The longest part of a root segment has two to the power of this many events.
   static constexpr unsigned longest_root_part = 7;
 
   std::uint8_t motors_;
@@ -142,16 +142,16 @@ class SegmentFitter {
   std::int64_t share_ = 0;
   unsigned longest_ = 255;
   unsigned guess_ = 255;  // the number of events in the last segment; the next number will be similar
-  // The present motor's exact places in whole units, in its direction of travel, from the start of the step in which
-  // the motor is. [0] is that of the first event once more.
+  // The current motor's exact positions in whole units, in its direction of travel, from the start of the motor's
+  // current step. [0] repeats that of the first event.
   std::array<std::int32_t, longest_segment_of_all + 2> ideal_{};
 };
 
-// The place at which a motor rests if its exact place is `place`. The step count is the exact position, rounded to the
-// nearest step; halves are rounded away from zero.
+// Returns the position at which a motor stops if its exact position is `place`. The step count is the exact position,
+// rounded to the nearest step; halves are rounded away from zero.
 std::int64_t rest_place(double place);
 
-// Writes an increment in the form of the wire. `sign` is 1 or -1, and `increment` is 0…65536.
+// Writes an increment in the format of the wire protocol. `sign` is 1 or -1, and `increment` is 0…65536.
 void set_increment(BoardSegment& segment, unsigned motor, int sign, std::int64_t increment);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// CellQueue: the cells that the planner holds, with their demands, in a ring that grows up to a fixed size. Private to
+// CellQueue: the cells in the planner, with their demands, in a ring that grows up to a fixed size. Private to
 // trajectory/.
 #pragma once
 
@@ -17,14 +17,14 @@ class CellQueue {
   static constexpr double no_rest = std::numeric_limits<double>::infinity();
   struct Entry {
     Cell cell;
-    // Where the path rests at the entry: the limits, squared, of the entry and of the exit of the cell before.
+    // If the path stops at the entry: the squared speed limits of the entry and of the exit of the previous cell.
     double rest_cap = no_rest;
     double rest_exit = no_rest;
-    double top_squared = 0;    // limit in the cell, with the override of the feed
-    double entry_cap = 0;      // limit at the entry, squared: by the tops on both sides, and by a rest
-    double entry_if_rest = 0;  // the greatest entry, squared, if the path came to rest after the queue
-    double entry_if_open = 0;  // the same if the path went straight on for ever
-    // Of a decided cell: its exit if it is entered like this. Below 0: the cell was changed since.
+    double top_squared = 0;    // limit in the cell, with the feed override
+    double entry_cap = 0;      // squared limit at the entry: by the tops on both sides, and by a stop
+    double entry_if_rest = 0;  // the maximum squared entry speed if the path stopped after the queue
+    double entry_if_open = 0;  // the same if the path continued straight without end
+    // For a decided cell: the entry for which its exit was decided. Negative: the cell was changed since.
     double decided_entry = -1;
     double decided_exit = 0;
 
@@ -36,7 +36,7 @@ class CellQueue {
     void go_on_at_entry() { rest_cap = no_rest; }
   };
 
-  // `axes` is the most demands of a cell; `falling_axes` of them have limits that fall with the speed.
+  // `axes` is the maximum number of demands per cell; `falling_axes` of them have limits that fall with the speed.
   CellQueue(std::size_t capacity, std::size_t axes, std::size_t falling_axes)
       : capacity_(capacity), axes_(axes), falling_axes_(falling_axes) {
     resize(std::min(capacity, first_capacity) + 1);
@@ -44,7 +44,7 @@ class CellQueue {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  // Concerns push() only: push_front() always has room.
+  // Only for push(): push_front() always has room.
   bool full() const { return size_ >= capacity_; }
   Entry& operator[](std::size_t i) { return entries_[slot(i)]; }
   const Entry& operator[](std::size_t i) const { return entries_[slot(i)]; }
@@ -62,7 +62,8 @@ class CellQueue {
     return {falling_.data() + at * falling_axes_, entries_[at].cell.falling_count};
   }
 
-  // Storage for one more cell, for one before all others, and for the first cell cut anew. Valid until the next call.
+  // Returns storage for one more cell, for one before all others, or for the first cell, cut again. Valid until the
+  // next call.
   CellPlace push() {
     assert(!full());
     if (size_ + 1 >= entries_.size()) grow();

@@ -1,9 +1,8 @@
-// EmergencyBrake: from motion on the path to rest, as soon as the axes can, whatever their limits of jerk. Private to
-// trajectory/.
+// EmergencyBrake: plans a stop on the path as soon as the axes allow, without jerk limits. Private to trajectory/.
 //
-// Where a board is small, the end of what the board holds is such a motion (decision 0108). The board plays it only
-// if nothing more comes, when its line is cut for instance. Velocities and accelerations, which the torque of the
-// motors limits, are kept. Limits of jerk keep a machine from shaking while it cuts.
+// On a small board, the stop ramp at the end of the queue is such a motion (decision 0108). The board executes it only
+// if no queue update arrives, e.g. when its link is interrupted. The velocity and acceleration limits, which the
+// motors' torque determines, are kept. Jerk limits only prevent vibration during cutting.
 #pragma once
 
 #include <vector>
@@ -24,17 +23,17 @@ class EmergencyBrake {
   // `limits` must outlive the brake.
   explicit EmergencyBrake(const MotionLimits& limits);
 
-  // Plans the way to rest from that state, which must be within the limits and these feeds. Returns false, and an empty
-  // plan, where the cells leave no way that is surely within the limits, or where the path rests before the motion
-  // could. Takes about 0.1 µs a cell; a stop on an arc passes some 30 cells.
+  // Plans the stop from that state, which must be within the limits and these feeds. Returns false, and an empty plan,
+  // if the cells have no motion that is certain to be within the limits, or if the path has an earlier stop. Takes
+  // about 0.1 µs per cell; a stop on an arc passes some 30 cells.
   [[nodiscard]] bool plan(PathAhead& path, const PathState& from, const FeedFactors& feeds,
                           std::vector<PlannedMove>& plan);
 
  private:
-  // The square of the speed at the end of the segment, or 0 and the rest. Below 0: there is no way.
+  // Returns the squared speed at the end of the segment, or 0 after the stop. Negative: no motion was found.
   double brake_on(const Segment& segment, double from, double speed_squared, double feed,
                   std::vector<PlannedMove>& plan);
-  // The same at the end of the cell that was cut. A cell that leaves no way is cut in halves.
+  // The same at the end of the current cell. A cell without a possible motion is halved.
   double brake_in_cell(const Segment& segment, double entry, int halvings, std::vector<PlannedMove>& plan);
   bool allows(double entry, const Ride& ride) const;
   CellPlace place() { return {cell_, demands_.data(), falling_.data()}; }

@@ -1,5 +1,4 @@
-// FeedFactors: factors on the programmed feeds, changed in mid-run. MidRunWishes: all that is changed in mid-run.
-// Private to trajectory/.
+// FeedFactors: real-time factors on the programmed feeds. MidRunWishes: all real-time changes. Private to trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +9,22 @@
 
 namespace passo {
 
-// Below this factor there is no feed, and the motion stands still: knobs turn by whole percents (planner.hpp).
+// Below this factor the feed is 0, and the motion stops: overrides have a resolution of one percent (planner.hpp).
 inline constexpr double least_feed_factor = 0.01;
 
 struct FeedFactors {
   double override = 1;
   double adaptive = 1;
   double rapids = 1;                                     // at most 1: a factor of the speed that the axes allow
-  const MotionLimits* limits = nullptr;                  // of the axes, where rapids != 1
-  double spindle = 1;                                    // factor of feeds that follow the spindle
-  double top = std::numeric_limits<double>::infinity();  // mm/s: limits all speeds, rapids included
+  const MotionLimits* limits = nullptr;                  // of the axes, if rapids != 1
+  double spindle = 1;                                    // factor on feeds that follow the spindle
+  double top = std::numeric_limits<double>::infinity();  // mm/s: limits all speeds, including rapids
 
-  // The factor that was chosen for feeds. The spindle is left out: a slow spindle does not make the motion stand still.
+  // Returns the chosen feed factor, without the spindle: a slow spindle does not stop the motion.
   double chosen(const Heeds& heeds) const {
     return (heeds.feed_override ? override : 1) * (heeds.adaptive_feed ? adaptive : 1);
   }
-  // The factor to plan with. Where the motion stands still, the rest is planned for the slowest feed.
+  // Returns the factor for planning. While the motion is stopped, the remaining path is planned for the slowest feed.
   double planned(const Heeds& heeds, SpindleLock lock) const {
     return std::max(chosen(heeds) * (lock != SpindleLock::none ? spindle : 1), least_feed_factor);
   }
@@ -36,7 +35,7 @@ struct FeedFactors {
     if (rapids == 1) return std::min(speed, top);
     return std::min(rapids * speed_within(segment.curve.steepest(), speed, *limits), top);
   }
-  // Each factor of the two that is the faster one.
+  // Returns the larger one of each pair of factors.
   static FeedFactors fastest_of(const FeedFactors& a, const FeedFactors& b) {
     return {.override = std::max(a.override, b.override),
             .adaptive = std::max(a.adaptive, b.adaptive),
@@ -48,10 +47,10 @@ struct FeedFactors {
   friend bool operator==(const FeedFactors&, const FeedFactors&) = default;
 };
 
-// What was asked for in mid-run. any() tells whether something may keep the motion from going on.
+// Real-time requests. any() returns whether a request may stop the motion.
 struct MidRunWishes {
   FeedFactors feeds;
-  bool hold = false;  // stops where the program heeds a hold
+  bool hold = false;  // stops where the program enables holds
   bool stop = false;  // stops anywhere
   Seconds longest_move{std::numeric_limits<double>::infinity()};
 

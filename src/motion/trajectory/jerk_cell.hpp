@@ -1,11 +1,11 @@
 // JerkCell: a short part of a segment for the jerk-limited profile, and the shape of each axis over it. Private to
 // trajectory/.
 //
-// Let q(s) be the place of an axis, and v, a, j speed, acceleration and jerk along the path. The axis moves with
+// Let q(s) be the position of an axis, and v, a, j speed, acceleration and jerk along the path. Then the axis has
 //
 //     velocity q' v      acceleration q' a + q'' v²      jerk q' j + 3 q'' v a + q''' v³
 //
-// Cells are so short that about ten of them pass while the acceleration rises from 0 to its limit.
+// Cells are short: the acceleration rises from 0 to its limit over about ten of them.
 #pragma once
 
 #include <limits>
@@ -18,7 +18,8 @@
 
 namespace passo {
 
-// The derivatives of an axis's place by s, at the start and at the end of a cell. The third is straight in between.
+// The derivatives of an axis' position by s, at the start and at the end of a cell. The third derivative is linear in
+// between.
 struct AxisShape {
   double slope_in = 0;
   double slope_out = 0;
@@ -27,23 +28,23 @@ struct AxisShape {
   double third_in = 0;
   double third_out = 0;
 
-  // In the middle of a cell of this length.
+  // Returns the value in the middle of the cell.
   double third_middle() const { return (third_in + third_out) / 2; }
   double bend_middle() const { return (bend_in + bend_out) / 2; }
   double slope_middle(double length) const { return (slope_in + slope_out) / 2 - length * length / 8 * third_middle(); }
 };
 
-// The path's second derivative may change where segments join. Such a joint is passed so slowly that no axis's
-// acceleration jumps by more than this share of its limit.
+// The path's second derivative may change where segments join. Such a joint is passed slowly enough that no axis'
+// acceleration jumps by more than this fraction of its limit.
 inline constexpr double unseen_jump = 2e-4;
 
 struct JerkCell {
   double start = 0;         // s on the segment's curve
   double length = 0;        // mm, above 0
-  double top_squared = 0;   // the limit by the feed; straight cells: by the axes' velocities too
-  double acceleration = 0;  // straight cells: what the axes allow along the path
+  double top_squared = 0;   // the limit by the feed; straight cells: also by the axes' velocities
+  double acceleration = 0;  // straight cells: the limit of the axes along the path
   double jerk = 0;
-  bool straight = false;  // on a line, and the acceleration of no axis falls
+  bool straight = false;  // on a line, and no axis' acceleration limit falls
   bool ends_segment = false;
 };
 
@@ -60,13 +61,13 @@ class JerkCutter {
     double feed = 0;  // mm/s
   };
   void begin(const Segment& segment, const Cut& cut);
-  // Whether what the axes allow along the segment is the same everywhere, and what that is.
+  // Whether the axes' limits along the segment are constant, and these limits.
   bool is_straight() const { return straight_; }
   PathLimits path_limits() const { return {.speed = top_, .acceleration = acceleration_, .jerk = jerk_}; }
-  // Writes the next cell; `shapes` takes one entry for each axis. Returns false at the end.
+  // Writes the next cell; `shapes` receives one entry per axis. Returns false at the end.
   bool next(JerkCell& cell, AxisShape* shapes);
 
-  // The square of the highest speed at which a joint may be passed, for Cut.
+  // Returns the square of the highest speed at which a joint may be passed, for Cut.
   double joint_cap(const Segment& before, const Segment& after) const;
 
  private:
@@ -85,7 +86,7 @@ class JerkCutter {
   double at_ = 0;
   double length_ = 0;  // of the whole segment
   double end_ = 0;
-  double speed_ = 0;  // the programmed one
+  double speed_ = 0;  // programmed speed
   double top_ = 0;
   double acceleration_ = 0;
   double jerk_ = 0;
@@ -93,8 +94,8 @@ class JerkCutter {
   double exit_ = 0;
   double shortest_ = 0;
   double longest_ = 0;
-  double tick_ = 0;   // about the time for one cell
-  double reach_ = 0;  // the way in which the motion surely reaches the top from rest
+  double tick_ = 0;   // approximate time for one cell
+  double reach_ = 0;  // the distance within which the motion certainly reaches the maximum speed from rest
   bool straight_ = false;
   Derivatives here_;
 };

@@ -1,21 +1,21 @@
-// JerkLift: makes a motion over cells nearly the fastest one. Private to trajectory/.
+// JerkLift: optimises a motion over cells to nearly the minimum time. Private to trajectory/.
 //
 // Each node has the square x of the speed, and the acceleration a. Over each half of a cell a changes linearly with the
-// way. With m = (x1 - x0) / 2h that means
+// distance. With m = (x1 - x0) / 2h that means
 //
 //     a in the middle = 2 m - (a0 + a1) / 2      x in the middle = (x0 + x1) / 2 + h (a0 - a1) / 4
 //     j / v = (4 m - 3 a0 - a1) / h in the first half, (3 a1 + a0 - 4 m) / h in the second
 //
-// What an axis demands is then linear in the four numbers at the ends of a cell, except for the jerk's factor v:
+// The demand of an axis is then linear in the four values at the ends of a cell, except for the jerk's factor v:
 //
 //     |q' a + q'' x| <= A        |q' j/v + 3 q'' a + q''' x| <= J / sqrt(x)
 //
-// The right side is a convex function of x. Its tangent lies below it, so what keeps to the tangent is allowed. The
-// time is convex too. An interior point method solves the problem (primal and dual, with slacks). Each step solves a
-// system of seven diagonals, so its time grows linearly with the cells; about ten steps are enough. A start beyond a
-// limit is led back to the limit.
+// The right side is a convex function of x. Its tangent lies below it, so a value within the tangent is allowed. The
+// time is convex too. A primal-dual interior-point method with slacks solves the problem. Each step solves a system
+// with seven diagonals, so its time grows linearly with the number of cells; about ten steps are enough. An infeasible
+// start is brought back within the limits.
 //
-// The result must be checked: between the places that are looked at, demands may be a little larger.
+// The result must be checked: between the evaluated points, demands may be slightly larger.
 #pragma once
 
 #include <array>
@@ -35,25 +35,25 @@ class JerkLift {
 
   struct Stretch {
     const std::vector<JerkCell>& cells;
-    const std::vector<AxisShape>& shapes;  // of each cell, one for each axis
-    const std::vector<double>& share;      // share of the limits to use, for each cell
-    const std::vector<double>& cap;        // the greatest squares of the speeds, for each cell
+    const std::vector<AxisShape>& shapes;  // for each cell, one per axis
+    const std::vector<double>& share;      // fraction of the limits to use, for each cell
+    const std::vector<double>& cap;        // the maximum squared speeds, for each cell
     const std::vector<double>& node_cap;   // and for each node
   };
-  // Makes the motion between the nodes `first` and `last` fast. These two stay as they are. Each of them may be a rest;
-  // all nodes between must have speed. At a rest the jerk is the same in all of the cell beside it. Returns false and
-  // changes nothing if no way to keep the limits was found.
+  // Optimises the motion between the nodes `first` and `last`, which stay unchanged. Each of them may be a stop; at all
+  // nodes in between the speed must be above 0. In the cell next to a stop the jerk is constant. Returns false and
+  // changes nothing if no feasible motion was found.
   [[nodiscard]] bool raise(const Stretch& stretch, std::size_t first, std::size_t last, std::vector<NodeState>& states);
 
  private:
   using Four = std::array<double, 4>;  // factors of x0, a0, x1, a1
-  // Both sides of a limit, the upper one first: the room left to it, and its price (the multiplier).
+  // Both sides of a limit, the upper one first: the slack, and its multiplier.
   struct Sides {
     TwoLanes slack;
     TwoLanes by_slack;
     TwoLanes price;
-    TwoLanes missing;       // the slack, less what x and a leave
-    TwoLanes change;        // of the slack in this step
+    TwoLanes missing;       // the residual of the slack
+    TwoLanes change;        // change of the slack in this step
     TwoLanes price_change;  // in this step
   };
   struct Row {  // |along * (x, a) - offset| <= limit
@@ -62,15 +62,15 @@ class JerkLift {
     double limit = 0;
     Sides sides = {};
   };
-  // Places of a cell where its jerk is limited.
+  // Points of a cell at which its jerk is limited.
   enum class At : std::uint8_t {
     in,
     middle,
     out,
-    early,  // where the speed is the mean speed of the first half
+    early,  // the point at which the speed is the mean speed of the first half
     late,
   };
-  struct JoltRow {  // |along * (x, a)| <= limit / sqrt(x at the place)
+  struct JoltRow {  // jerk constraint: |along * (x, a)| <= limit / sqrt(x at the point)
     Four along{};
     double limit = 0;
     At place = At::in;
@@ -80,13 +80,13 @@ class JerkLift {
     Four square{};  // the form of x
     double by_square = 0;
     double by_speed = 0;
-    // Of a limit of jerk, with x.
+    // The decrease of a jerk limit with x.
     double fall() const { return 0.5 * by_square * by_speed; }
   };
   struct Cell {
     std::array<Pace, 5> paces{};  // by At; `early` and `late` only in straight cells
-    std::size_t pace_count = 0;   // 0: the cell has a rest
-    Four to_and_fro{};            // the form of the middle's acceleration less the mean of the ends'
+    std::size_t pace_count = 0;   // 0: the cell has a stop
+    Four to_and_fro{};            // the form of the acceleration in the middle, less the mean of those at the ends
     double length = 0;
     std::size_t rows_end = 0;
     std::size_t jolt_rows_end = 0;
@@ -94,11 +94,11 @@ class JerkLift {
     bool has_rest() const { return pace_count == 0; }
     const Pace& pace(At place) const { return paces[static_cast<std::size_t>(place)]; }
   };
-  // Beside a rest the acceleration at the cell's other node follows from the speed there: a = factor x. So a is no
-  // unknown of its own.
+  // Next to a stop the acceleration at the cell's other node follows from the speed there: a = factor x. So a is not a
+  // separate unknown.
   struct Tie {
     std::size_t node = 0;
-    double factor = 0;  // 0: there is no rest
+    double factor = 0;  // 0: there is no stop
   };
   void tie(Four& along) const;
   void tie_step(const Tie& tied);
@@ -110,10 +110,10 @@ class JerkLift {
   void add_cell(const Stretch& stretch, std::size_t cell);
   void add_rows(const Stretch& stretch, std::size_t cell, bool is_first);
   struct Place {
-    double weight = 0;  // factor from x to the square of the axis's speed
-    double share = 0;   // of the limits
+    double weight = 0;  // factor from x to the square of the axis' speed
+    double share = 0;   // fraction of the limits
     double x = 0;
-    double cap = 0;  // the greatest x
+    double cap = 0;  // the maximum x
   };
   void add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place);
   void add_straight_rows(const JerkCell& cell, double share, double in_share);
@@ -135,7 +135,7 @@ class JerkLift {
   void add_time(std::size_t c, Block& block);
   void add_to_system(std::size_t at, const Block& block);
   void solve();
-  struct Reach {  // shares of the step that may be made
+  struct Reach {  // allowed fractions of the step
     double share = 0;
     double price_share = 0;
   };
@@ -153,9 +153,9 @@ class JerkLift {
   std::vector<JoltRow> old_jolt_rows_;
   Tie tied_first_;
   Tie tied_last_;
-  std::size_t cell_ = 0;          // the cell whose rows are being made, counted from the first
+  std::size_t cell_ = 0;          // the cell whose rows are being built, counted from the first
   const double* here_ = nullptr;  // x and a at its ends
-  std::vector<Four> system_;      // the diagonal, and the three beside it
+  std::vector<Four> system_;      // the diagonal, and the three next to it
   std::vector<double> step_;
 };
 

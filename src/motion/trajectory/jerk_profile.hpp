@@ -1,22 +1,22 @@
-// JerkProfile: the motion over the cells of a window of the path, so that no axis exceeds its jerk either. Private to
+// JerkProfile: plans the motion over the cells of a window of the path, within the jerk limits of all axes. Private to
 // trajectory/.
 //
-// Each node between cells has a speed and an acceleration along the path (NodeState). A cell is played in two phases of
-// constant jerk and of equal time, which lead from the state at its start to the state at its end.
+// Each node between cells has a speed and an acceleration along the path (NodeState). A cell is executed in two phases
+// of constant jerk and equal time, which lead from the state at its start to the state at its end.
 //
-//   1. A guess: a motion below all caps that brakes and speeds up gently.
-//   2. JerkLift makes the guess nearly the fastest motion.
-//   3. The phases are checked against every axis, just as they will be given. Cells that exceed a limit are lifted
-//      again with a smaller share of the limits, together with the cells around them. Where that does not help, the
-//      cells are too long for how fast the motion changes there: they are halved, and all begins again.
-//   4. If that does not help, the motion is slowed as a whole. With every speed times f, accelerations get f² and jerks
-//      f³ times as large. So limits can always be kept.
+//   1. A guess: a motion below all speed limits that accelerates and decelerates gently.
+//   2. JerkLift optimises the guess to nearly the fastest motion.
+//   3. The phases are checked against every axis, exactly as they will be returned. Cells that exceed a limit are
+//      optimised again with a smaller fraction of the limits, together with the cells around them. If that does not
+//      help, the cells are too long for the rate of change of the motion: they are halved, and planning starts again.
+//   4. If that does not help, the motion is slowed as a whole. If every speed is multiplied by f, accelerations change
+//      by f² and jerks by f³. So the limits can always be kept.
 //
-// A window that begins in motion cannot be slowed at its start. Then the plan before goes on, which was checked and
-// ends at rest. So no plan is given that was not found good.
+// A window that begins in motion cannot be slowed at its start. Then the previous plan continues, which was checked and
+// ends in a stop. So no unchecked plan is used.
 //
-// The window begins at rest or in motion, and ends at rest. If the path goes on after the window, only cells are
-// decided that come well before the place where the motion begins to brake for the window's end.
+// The window begins at a stop or in motion, and ends in a stop. If the path continues after the window, only cells are
+// decided that come well before the point where the motion begins to decelerate for the window's end.
 #pragma once
 
 #include <algorithm>
@@ -30,10 +30,10 @@
 
 namespace passo {
 
-// How much is tried before the motion is slowed as a whole.
+// The effort before the motion is slowed as a whole.
 struct PlanEffort {
-  int rounds = 10;   // cells that exceed a limit are lifted again so often
-  int attempts = 6;  // each with more cells
+  int rounds = 10;   // maximum number of times that cells beyond a limit are optimised again
+  int attempts = 6;  // each attempt uses more cells
 };
 
 class JerkProfile {
@@ -47,23 +47,23 @@ class JerkProfile {
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
 
-  // Makes an empty profile begin in that state, in motion.
+  // Sets the start of an empty profile to that state, in motion.
   void begin_in_motion(const NodeState& state);
-  // Adds a cell, which takes one shape for each axis.
+  // Adds a cell, with one shape per axis.
   void push(const JerkCell& cell, const AxisShape* shapes);
-  // The square of the highest speed at which the last cell may be entered.
+  // Returns the square of the highest entry speed of the last cell.
   double last_cap() const { return entry_cap_.back(); }
-  // Plans all cells to rest at the end. Returns how many cells at the front are decided. All are if the window is
-  // `closed` (the path does rest at its end).
+  // Plans all cells to a stop at the end. Returns the number of decided cells at the front: all if the window is
+  // `closed` (the path does stop at its end).
   std::size_t plan(bool closed);
   // Adds the phases of a planned cell, at most two.
   void add_phases(std::size_t i, PlannedMove& move) const;
-  // Forgets the first `count` cells, which have been given.
+  // Drops the first `count` cells, which have been returned.
   void drop(std::size_t count);
 
-  // The number of cells at the front that have a plan to rest at their end.
+  // The number of cells at the front that have a plan to a stop at their end.
   std::size_t planned() const { return planned_; }
-  // Whether the last plan() found nothing better than to go on with the plan before.
+  // Whether the last plan() could only continue the previous plan.
   bool fell_back() const { return fell_back_; }
 
  private:
@@ -72,16 +72,16 @@ class JerkProfile {
   struct Excess {  // as multiples of the limits
     double force = 0;
     double jolt = 0;
-    double pace = 0;  // the square of the speed, which a cap limits
+    double pace = 0;  // the square of the speed, relative to its limit
     double most() const { return std::max({force, jolt, pace}); }
   };
   struct Stretch {  // from node to node
     std::size_t first = 0;
     std::size_t last = 0;
   };
-  struct Inside {  // a place inside a phase
+  struct Inside {  // a point inside a phase
     NodeState state;
-    double way = 0;  // from the start of the phase
+    double way = 0;  // distance from the start of the phase
   };
 
   AxisShape* shapes(std::size_t i) { return &shapes_[i * axes_.size()]; }
@@ -125,27 +125,28 @@ class JerkProfile {
                   int parts, Excess& worst) const;
   static Inside inside(const NodeState& from, double jerk, double time);
   static bool is_possible(const PhasePair& pair, const NodeState& from);
-  static double highest(const NodeState& from, double jerk, double time);  // speed within a phase, without its end
+  // maximum speed within a phase, without its end
+  static double highest(const NodeState& from, double jerk, double time);
 
   std::vector<LimitedAxis> axes_;
   bool any_falls_;
   PlanEffort effort_;
   std::vector<JerkCell> cells_;
   std::vector<AxisShape> shapes_;
-  std::vector<double> entry_cap_;  // for each cell, squared: for a guess
+  std::vector<double> entry_cap_;  // for each cell, squared: for the guess
   // For each node: one more than cells.
   std::vector<NodeState> states_;
-  std::vector<NodeState> kept_;      // those of the plan before
+  std::vector<NodeState> kept_;      // those of the previous plan
   std::vector<double> passing_cap_;  // squared: by feed, velocities and jumps of the bend
   std::vector<double> node_cap_;     // the same, or lower where the motion exceeded it
   std::vector<double> cell_cap_;     // for each cell
-  std::vector<double> share_;        // of the limits to lift to, for each cell
+  std::vector<double> share_;        // fraction of the limits for the optimisation, for each cell
   std::vector<double> guess_;        // squared
-  std::vector<bool> steady_;         // for each node: passed at the cap without acceleration
+  std::vector<bool> steady_;         // for each node: passed at the speed limit without acceleration
   std::vector<std::size_t> exceeded_;
-  std::vector<Stretch> again_;  // stretches to lift once more
+  std::vector<Stretch> again_;  // sections to optimise again
   bool in_motion_ = false;      // the window begins in motion, in the first of the states
-  std::size_t planned_ = 0;     // cells for which the states are a plan to rest
+  std::size_t planned_ = 0;     // cells for which the states are a plan to a stop
   bool fell_back_ = false;
   JerkLift lift_;
 };

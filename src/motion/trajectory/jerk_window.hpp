@@ -1,7 +1,7 @@
-// JerkWindow: as many cells of the path ahead as are needed, and the plan over them. Private to trajectory/.
+// JerkWindow: the cells of the path ahead, as many as are needed, and the plan over them. Private to trajectory/.
 //
-// The window begins at any place of the path, at rest or in motion. It gives phases from there to the next rest that is
-// an action or the path's end, or to a rest at a place of one's choice.
+// The window begins at any point of the path, at a stop or in motion. It returns phases from there to the next stop at
+// an action or at the path's end, or to a stop at a chosen point.
 #pragma once
 
 #include <cstddef>
@@ -19,21 +19,22 @@ namespace passo {
 
 class JerkWindow {
  public:
-  // `axes`, `path` and `feeds` must outlive the window. Cells are cut for the feeds of that instant.
+  // `axes`, `path` and `feeds` must outlive the window. Cells are cut for the feeds at construction.
   JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, const FeedFactors& feeds, std::size_t most_queued,
              const PlanEffort& effort = {});
 
   void begin_at(const PathState& start);
-  // Whether a plan from a start in motion is found, with at least `way` of the path in sight (less where it rests
-  // before).
+  // Whether a plan from a start in motion is found, with at least the distance `way` of the path in view (less if the
+  // path stops before).
   [[nodiscard]] bool can_go_on(double way);
-  // Whether a plan is found from a start in motion to a rest after about that way, or where the path rests before.
+  // Whether a plan is found from a start in motion to a stop after about that distance, or at an earlier stop of the
+  // path.
   [[nodiscard]] bool can_rest_after(double way);
 
-  // Gives the next phases, all on the first segment of the path. Returns false at rest at the end of the stretch.
+  // Returns the next phases, all on the first segment of the path. Returns false when stopped at the end.
   [[nodiscard]] bool next(PlannedMove& move);
-  // Shows what comes next if nothing changes: cell number `ahead` from here, which lies on that segment. The plan to
-  // rest after the decided cells is included. Returns false at rest at the end.
+  // Returns a preview of the motion without further changes: cell number `ahead` from here, on that segment. The plan
+  // to a stop after the decided cells is included. Returns false when stopped at the end.
   [[nodiscard]] bool peek(std::size_t ahead, std::uint64_t segment, PlannedMove& move) const;
 
  private:
@@ -49,15 +50,15 @@ class JerkWindow {
   std::size_t most_queued_;
 
   PathState start_;
-  std::uint64_t cut_ = 0;  // the first segment of which not all cells are in the profile
+  std::uint64_t cut_ = 0;  // the first segment that is not completely in the profile
   bool started_ = false;
   bool cutting_ = false;
   double estimate_ = 0;  // squared: the highest entry speed of the next cell
   double length_ = 0;    // of all cells since the start
   double way_to_rest_ = std::numeric_limits<double>::infinity();
   bool closed_ = false;
-  std::size_t decided_ = 0;  // cells at the front that nothing to come can change
-  std::size_t given_ = 0;    // of the decided cells
+  std::size_t decided_ = 0;  // cells at the front that later cells cannot change
+  std::size_t given_ = 0;    // of the decided cells, those returned
   JerkCell cell_;
   std::vector<AxisShape> shapes_;
 };

@@ -1,4 +1,5 @@
-// LimitedAxis: what one axis, or a motor that axes share, can do, as the laws of speed need it. Private to trajectory/.
+// LimitedAxis: the limits of one axis, or of a motor that axes share, as used by the speed laws. Private to
+// trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 
 namespace passo {
 
-// A row with at least one limit: of one axis, or the sum of axes that a motor turns for. The path demands of a row what
-// the row makes of the path's slope and bend. A limit that it lacks is infinity.
+// A row with at least one limit: one axis, or a motor driven by the sum of several axes. The row is applied to the
+// path's slope and bend, which gives the row's demand. A missing limit is infinity.
 struct LimitedAxis {
   AxisRow row;
   double velocity = 0;
@@ -25,15 +26,15 @@ struct LimitedAxis {
     return std::ranges::any_of(row.shares(), [](const AxisRow::Share& share) { return passo::is_rotary(share.axis); });
   }
   bool limits_acceleration() const { return std::isfinite(acceleration); }
-  // The limit of the acceleration at this square of the axis's speed.
+  // The acceleration limit at this square of the axis' speed.
   double acceleration_at(double w) const {
     return falls_at(w) ? std::min(acceleration, line_at(w).at(w)) : acceleration;
   }
   bool falls_at(double w) const { return falling != nullptr && w > falling->shoulder(); }
-  // The line of the curve that is the highest at w. A line keeps to the curve at any speed. Only for an axis that
-  // falls.
+  // The line of the curve that is the highest at w. A line is within the curve at any speed. Only for an axis whose
+  // limit falls.
   const AccelerationCurve::Line& line_at(double w) const { return falling->lines()[falling->line_at(w)]; }
-  // The square of the highest speed along the path at which bending alone takes no more than this share of the limit.
+  // The square of the highest speed along the path at which bending alone uses at most this fraction of the limit.
   double turning_cap(double slope, double bend, double share) const;
 };
 inline constexpr std::size_t most_limited_axes = axis_count + most_limited_rows;

@@ -1,4 +1,4 @@
-// Private to trajectory/.
+// Fits a parabola to equidistant values. Private to trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// The greatest distance from 0, between three values at even distances, of the parabola through them.
+// Returns the maximum absolute value of the parabola through three equidistant values, between the first and the last.
 inline double highest_through(const std::array<double, 3>& values) {
   const auto [first, second, third] = values;
   const double most = std::max({std::abs(first), std::abs(second), std::abs(third)});

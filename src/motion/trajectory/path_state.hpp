@@ -1,4 +1,4 @@
-// PathState: the state of a motion at a place on a segment of the path. Private to trajectory/.
+// PathState: the state of a motion at a point on a segment of the path. Private to trajectory/.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct PathState {
   double speed = 0;           // mm/s
   double acceleration = 0;    // mm/s²
 
-  // At the end of a move on that segment.
+  // Returns the state at the end of a move on that segment.
   static PathState behind(const PlannedMove& move, std::uint64_t segment) {
     const Phase& last = move.phases[move.phase_count - 1];
     const bool ends = move.to >= move.segment.curve.length();

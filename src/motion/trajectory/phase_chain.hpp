@@ -1,4 +1,4 @@
-// PhaseChain: phases of constant jerk, each of which begins where the last one ended. Private to trajectory/.
+// PhaseChain: phases of constant jerk, each of which begins at the end of the previous one. Private to trajectory/.
 #pragma once
 
 #include <optional>
@@ -7,16 +7,17 @@
 
 namespace passo {
 
-// In seconds. A shorter phase is rounding: doubles of some hundred seconds, as a long move takes, are so far apart.
+// In seconds. A shorter phase is a rounding error: this is the spacing of doubles at some hundred seconds, the duration
+// of a long move.
 inline constexpr double shortest_phase = 1e-13;
 
-// The place and the state at the chain's end, in mm and seconds.
+// The position and the state at the chain's end, in mm and seconds.
 struct PhaseChain {
   double at = 0;
   double speed = 0;
   double acceleration = 0;
 
-  // The next phase. Nothing where it would be too short.
+  // Returns the next phase. Nothing if it would be too short.
   std::optional<Phase> next(double duration, double jerk) {
     if (!(duration > shortest_phase)) return std::nullopt;
     const Phase phase{.duration = Seconds(duration),

@@ -1,4 +1,4 @@
-// PhasePair: a short way in two phases of constant jerk and equal time, from a state to another. Private to
+// PhasePair: a short distance in two phases of constant jerk and equal time, from one state to another. Private to
 // trajectory/.
 #pragma once
 
@@ -13,12 +13,12 @@ struct NodeState {
 };
 
 struct PhasePair {
-  double half = 0;   // the time of each phase. 0: no two phases lead so
+  double half = 0;   // the time of each phase. 0: there is no such pair
   double first = 0;  // the jerk of the first phase
   double second = 0;
   NodeState middle;
 
-  // way = (v0 + v1) t - (a1 - a0) t²/3 with t half the time.
+  // distance = (v0 + v1) t - (a1 - a0) t²/3 with t half the time.
   static PhasePair over(double way, const NodeState& from, const NodeState& to) {
     const double sum = from.speed + to.speed;
     const double change = to.acceleration - from.acceleration;

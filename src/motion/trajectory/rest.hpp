@@ -1,5 +1,5 @@
-// Where a path must rest between two of its segments, and how fast a motion may begin and end at a rest. Private to
-// trajectory/.
+// The stops of a path between two of its segments, and the maximum speeds at which a motion may begin and end at a
+// stop. Private to trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace passo {
 
-// If the directions of two segments differ by more, the path has a corner, and the motion must rest there. At 100 mm/s
-// the speed of an axis jumps by 1e-4 mm/s where they differ by just that.
+// If the directions of two segments differ by more than this, the path has a corner, and the motion must stop there. At
+// exactly this difference, the speed of an axis jumps by 1e-4 mm/s at 100 mm/s.
 inline constexpr double tangent_tolerance = 1e-6;
-// A part of a direction smaller than this is rounding: the axis stands.
+// A component of a direction smaller than this is a rounding error: the axis does not move.
 inline constexpr double least_part_of_direction = 1e-9;
 
 inline bool rests_between(const Segment& before, const Segment& after) {
@@ -23,9 +23,9 @@ inline bool rests_between(const Segment& before, const Segment& after) {
                      [](double part) { return std::abs(part) > tangent_tolerance; });
 }
 
-// The squares of the speeds along the path at which a motion may begin and end at a rest. Then no axis is faster there
-// than its start-stop velocity, and the velocity of no axis jumps by more. An axis that can jump to any velocity does
-// not limit.
+// The squares of the path speeds at which a motion may begin and end at a stop. At these speeds no axis exceeds its
+// start-stop velocity, and no axis' velocity jumps by more than that. An axis that can jump to any velocity is no
+// limit.
 class RestSpeeds {
  public:
   explicit RestSpeeds(const MotionLimits& limits)
@@ -37,7 +37,7 @@ class RestSpeeds {
   double at_end(const Point& direction) const {
     return squared([&](std::size_t i, double velocity) { return room(velocity, direction.values[i]); });
   }
-  // At the start of a path of this direction, right after a rest at which an earlier motion stopped with this velocity.
+  // At the start of a path in this direction, right after a stop at which an earlier motion ended with this velocity.
   double at_start(const Point& direction, const Point& stopped) const {
     return squared([&](std::size_t i, double velocity) {
       const double part = direction.values[i];
@@ -45,8 +45,9 @@ class RestSpeeds {
       return room(std::max(velocity + turned, 0.0), part);
     });
   }
-  // Where a path goes on in another direction: at the end of the first part, at the start of the second. Each speed may
-  // be less, whatever the other one is. An axis that turns back shares its velocity between the two.
+  // For a path that continues in another direction: the speeds at the end of the first part and at the start of the
+  // second. Each speed may be lower, independent of the other. An axis that reverses divides its velocity between the
+  // two.
   struct Pair {
     double end = 0;
     double start = 0;

@@ -1,7 +1,7 @@
-// The fastest motion from rest to rest along a straight way, in closed form. Private to trajectory/.
+// The fastest motion between two stops along a straight line, in closed form. Private to trajectory/.
 //
-//   acceleration  __                     Seven phases at most: the acceleration rises, stays, falls; the speed stays;
-//                /  \________            the same for braking. A short way leaves some phases out.
+//   acceleration  __                     Seven phases at most: the acceleration rises, is constant, falls; constant
+//                /  \________            speed; the same for deceleration. A short distance omits some phases.
 //                            \__/
 //
 // Source: the closed forms for limited jerk, for instance L. Biagiotti, C. Melchiorri, "Trajectory Planning for
@@ -12,14 +12,14 @@
 
 namespace passo {
 
-// What the axes allow along the way; all above 0.
+// The limits of the axes along the line; all above 0.
 struct PathLimits {
   double speed = 0;         // mm/s
   double acceleration = 0;  // mm/s²
   double jerk = 0;          // mm/s³
 };
 
-// Adds the phases from `from` to `to` (places on the segment's curve, in mm, from < to) to an empty move.
+// Adds the phases from `from` to `to` (positions on the segment's curve, in mm, from < to) to an empty move.
 void add_rest_to_rest(double from, double to, const PathLimits& limits, PlannedMove& move);
 
 }  // namespace passo

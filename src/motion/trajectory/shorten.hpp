@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// Shortens the move so that it takes no longer than `longest`. Returns the rest of it; nothing where the move is short
-// enough. A rest of less than `least_way` is not cut off.
+// Shortens the move to at most `longest`. Returns the remaining move; nothing if the move is short enough. A remainder
+// shorter than `least_way` is not cut off.
 std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest, Mm least_way = Mm(0));
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// The soonest stop: a way to rest where a motion already uses up the limits. Private to trajectory/.
+// The soonest stop: finds a stop for a motion that already uses its limits fully. Private to trajectory/.
 //
-// A plan that uses limits to the full leaves no room for a change of speed of one shape. But the fastest motion to a
-// rest nearby may be found as any plan is (JerkProfile): on each place of the way it uses what the axes have left.
+// A plan that uses the limits fully leaves no room for a speed change with a fixed shape. But the fastest motion to a
+// nearby stop can be found like any plan (JerkProfile): at each point it uses the remaining acceleration of the axes.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace passo {
 
-// Of the fastest motions to rests after longer and longer ways, the one that takes the least time. Nothing where none
-// was found.
+// Of the fastest motions to stops after increasing distances, returns the one that takes the least time. Nothing if
+// none was found.
 std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const std::vector<LimitedAxis>& axes,
                                         const FeedFactors& feeds);
 

@@ -1,13 +1,13 @@
 // SpeedChange: a motion from a speed and an acceleration to another speed without acceleration, on the path and within
-// the limits of every axis, jerk included. Private to trajectory/.
+// the limits of every axis, including jerk. Private to trajectory/.
 //
-//   acceleration  __                 up to three phases: to the strongest value, at it, and back to 0.
+//   acceleration  __                 up to three phases: to the strongest value, constant, and back to 0.
 //                   \        /       For a hold the change leads to speed 0.
 //                    \______/
 //
-// The limits along the path change from place to place. So the strength and jerk of the change are lowered until no
-// place asks for too much. Where the motion already uses a limit to the full, no such change is possible: then it goes
-// down step by step, in each as far as the places ahead allow. A change may not pass a rest of the path.
+// The limits along the path vary. So the strength and jerk of the change are reduced until no point exceeds a limit.
+// Where the motion already uses a limit fully, no such change is possible: then the speed is reduced in steps, each as
+// large as the points ahead allow. A change must not pass a stop of the path.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace passo {
 
-// After a rest amid a segment, at least so much of it is left. `speed`: from which the motion has come to rest.
+// Returns the minimum length that must remain after a stop inside a segment. `speed`: the speed before the stop.
 double least_rest(const Curve& curve, double speed);
 
 class SpeedChange {
@@ -37,29 +37,30 @@ class SpeedChange {
 
   struct Request {
     const std::vector<LimitedAxis>& axes;
-    FeedFactors feeds;     // the change keeps to these feeds
-    double exit = 0;       // the wanted speed; at most the speed that remains when the acceleration just goes to 0
-    bool planned = false;  // the profile has looked at the change already, also at kinks of limits that fall
+    FeedFactors feeds;     // the change stays within these feeds
+    double exit = 0;       // the requested speed, or the speed that remains when the acceleration has returned to 0, if
+                           // that is lower
+    bool planned = false;  // the profile has already checked the change, including kinks of falling limits
   };
-  // Plans the change from `state` on. Returns nothing where the limits do not allow one.
+  // Plans the change from `state` on. Returns nothing if the limits do not allow one.
   static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request);
-  // The same in one way only.
+  // The same with only one method.
   enum class Way : std::uint8_t { of_one_strength, in_steps };
   static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request, Way way);
 
-  // The change in these pieces, which end at rest there. Returns nothing where they do not keep the limits.
+  // Returns the change in these pieces, which end in a stop. Returns nothing if they exceed the limits.
   static std::optional<SpeedChange> to_rest(const std::vector<Piece>& pieces, const PathState& end, PathAhead& path,
                                             const Request& request);
 
-  // How long a stop would take without acceleration at its start, if the path went on straight.
+  // Returns how long a stop would take without initial acceleration, if the path continued straight.
   static Seconds shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
-  // The time of the pieces from that one on.
+  // Returns the total time of the pieces from that one on.
   Seconds duration_from(std::size_t piece) const;
-  // About the way to brake from the speed at its end.
+  // Returns the approximate braking distance from the speed at its end.
   double braking_way() const { return braking_way_; }
-  // Where it ends, without acceleration.
+  // Returns the state at its end, without acceleration.
   const PathState& end() const { return end_; }
 
  private:
@@ -68,13 +69,13 @@ class SpeedChange {
     double jerk = 0;
   };
   static Strength strength_at(const Segment& segment, const PathState& state, const std::vector<LimitedAxis>& axes);
-  struct Rooms;    // what the axes leave at a place
+  struct Rooms;    // remaining limits of the axes at a point
   struct Demand {  // as multiples of the limits
     double speed = 0;
     double force = 0;
     double jolt = 0;
   };
-  struct Look {  // at one instant
+  struct Look {  // evaluated at one instant
     std::array<Demand, most_limited_axes> axes{};
     std::size_t count = 0;
   };
@@ -84,25 +85,25 @@ class SpeedChange {
     void raise_between(const std::array<Look, 3>& looks, std::size_t newest);
   };
   [[nodiscard]] bool shape(const PathState& state, double exit, const Strength& strength);
-  // `share`: the strength as shares of the limits.
+  // `share`: the strength as fractions of the limits.
   [[nodiscard]] bool shape_in_steps(PathAhead& path, const PathState& state, const Request& request,
                                     const Strength& strength, const Strength& share);
   void add(double duration, double jerk);
   enum class Laid : std::uint8_t {
     whole,
-    blocked,      // the path ends or rests before the change ends
-    near_an_end,  // the change ends so near a segment's end that the rest of the segment is too short to go on in
+    blocked,      // the path ends or stops before the change ends
+    near_an_end,  // the change ends so near a segment's end that the remainder is too short to continue in
   };
   Laid lay(PathAhead& path, const PathState& state);
   Demand excess(PathAhead& path, const Request& request) const;
-  // `part`: of the time of the whole change.
+  // `part`: fraction of the time of the whole change.
   static void check_piece(const Piece& piece, double part, const Segment& segment, const Request& request,
                           Excess& worst);
   static Look look_at(const Piece& piece, const Segment& segment, const Request& request, double time);
 
-  std::vector<Phase> phases_;  // starts count from the start of the change
-  std::vector<Piece> pieces_;  // the same phases, cut where segments end
-  PhaseChain chain_;           // of the phases
+  std::vector<Phase> phases_;  // their starts count from the start of the change
+  std::vector<Piece> pieces_;  // the same phases, divided at segment ends
+  PhaseChain chain_;           // chain of the phases
   PathState end_;
   double braking_way_ = 0;
 };

@@ -1,5 +1,5 @@
-// SpeedLaw: how the speed along the path may change. Planner is the same for every law. AccelerationLaw limits how fast
-// the speed changes; JerkLaw also limits how fast that acceleration changes. Private to trajectory/.
+// SpeedLaw: the rules for changes of the speed along the path. Planner is the same for every law. AccelerationLaw
+// limits the acceleration; JerkLaw also limits the rate of change of the acceleration. Private to trajectory/.
 #pragma once
 
 #include <cstddef>
@@ -15,27 +15,27 @@
 
 namespace passo {
 
-// A law plans from the end of the last move that it gave. A move lies on the path's first segment, and takes no longer
-// than the wishes allow. The caller removes the segment when its end is reached.
+// A law plans from the end of the last move that it returned. A move is on the path's first segment, and takes no
+// longer than the real-time requests allow. The caller removes the segment when its end is reached.
 class SpeedLaw {
  public:
   virtual ~SpeedLaw() = default;
 
-  // Begins anew, from rest at the start of the path's first segment.
+  // Begins again, from a stop at the start of the path's first segment.
   virtual void begin() = 0;
-  // Call when the feeds of the wishes have changed.
+  // Call when the feeds of the real-time requests have changed.
   virtual void feeds_changed() = 0;
-  // Call when the path goes on where it ended until now (PathAhead::go_on()).
+  // Call when the path continues beyond its former end (PathAhead::go_on()).
   virtual void path_grew() = 0;
-  // Gives the next move of the fastest motion. Returns false at rest before an action or at the path's end.
+  // Returns the next move of the fastest motion. Returns false when stopped before an action or at the path's end.
   [[nodiscard]] virtual bool go_on(PlannedMove& move) = 0;
-  // Gives the next move on the shortest way to rest. Returns false at rest.
+  // Returns the next move of the shortest stop. Returns false when stopped.
   [[nodiscard]] virtual bool brake(PlannedMove& move) = 0;
-  // A way to rest from here, without giving any move of it: gentle, all moves that brake() would give.
+  // Returns a stop from here, without changing the law's state; if gentle, all moves that brake() would return.
   virtual void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) = 0;
 };
 
-// What a law plans by. All of it must outlive the law.
+// The inputs of a law. All of them must outlive the law.
 struct LawInputs {
   PathAhead& path;
   const MotionLimits& limits;

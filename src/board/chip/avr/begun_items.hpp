@@ -1,7 +1,8 @@
-// BegunItems: the items that the player has begun and whose steps are not counted yet, and how many steps they make.
+// BegunItems: the items that the player has begun and whose steps are not counted yet, with the number of steps in
+// each.
 //
-// There are a few, the oldest first. The fractions of steps at its start are kept, so the steps in any number of its
-// events can be told without the events themselves.
+// The list is short, the oldest item first. The step accumulators at the start of the oldest item are kept, so the
+// steps in any number of its events can be computed without the events themselves.
 #pragma once
 
 #include "event_ring.hpp"
@@ -27,7 +28,7 @@ class BegunItems {
   }
   static uint8_t count() { return count_; }
 
-  // `end`: the number of events ever made with its last one.
+  // `end`: the total number of events made up to the last event of this item.
   [[gnu::noinline]] static void add(const SegmentFor<pins.motors>& segment, uint16_t end) {
     ++count_;
     const uint8_t place = newest();
@@ -45,14 +46,14 @@ class BegunItems {
     lasts_[place].record();
     items_[place].events = 0;
   }
-  // The last event of the newest one was made just now.
+  // The last event of the newest item was made just now.
   static void record_last() { lasts_[newest()].record(); }
 
-  // Of the oldest one.
+  // Returns the number of events of the oldest item.
   static uint8_t events() { return items_[oldest_].events; }
   static uint16_t end() { return ends_[oldest_]; }
   static const RingTimes::Last& last() { return lasts_[oldest_]; }
-  // Whether it is known to be done. Then its steps are asked for once, and it is forgotten.
+  // Whether the oldest item is known to be done. Its steps are then read once, and the item is dropped.
   static bool is_over() { return is_over_; }
   static bool set_over(bool over) { return is_over_ = over; }
   static void forget() {
@@ -61,7 +62,7 @@ class BegunItems {
     oldest_ = oldest_ == most_begun - 1 ? uint8_t{0} : static_cast<uint8_t>(oldest_ + 1);
   }
 
-  // The steps of a motor in its first `events` events, down or up.
+  // Returns the signed number of steps of a motor in the first `events` events.
   [[gnu::noinline]] static int16_t steps(uint8_t events, uint8_t motor) {
     const Item& item = items_[oldest_];
     const uint8_t bit = static_cast<uint8_t>(1U << motor);
@@ -74,8 +75,8 @@ class BegunItems {
     if (is_flipped) steps = static_cast<int16_t>(events - steps);
     return goes_down ? static_cast<int16_t>(-steps) : steps;
   }
-  // Adds those of all motors to their positions. Every part is counted so, and all motors in one go take half as long.
-  // With the Mega's interrupt there are too few registers for that.
+  // Adds the steps of all motors to their positions. Every part is counted this way; all motors in one pass take half
+  // as long. With the Mega's interrupt there are too few registers for that.
   [[gnu::noinline]] static void add_steps(uint8_t events, int32_t* positions) {
     if (step_port_count > 1) {
       for (uint8_t m = 0; m < motors(); ++m) positions[m] += steps(events, m);
@@ -99,7 +100,7 @@ class BegunItems {
     }
   }
 
-  // On the Uno a loop less is worth more than a motor less.
+  // On the Uno, saving the loop matters more than saving a motor.
   static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
 
  private:
@@ -117,7 +118,7 @@ class BegunItems {
     return place >= most_begun ? static_cast<uint8_t>(place - most_begun) : place;
   }
 
-  static inline uint8_t oldest_ = 0;  // its place
+  static inline uint8_t oldest_ = 0;  // index of the oldest item
   static inline uint8_t count_ = 0;
   static inline bool is_over_ = false;
   static inline Item items_[most_begun];

@@ -1,12 +1,12 @@
-// ChipPlayer: does on the chip what Player does on the host. It makes events of segments ahead of time, for the step
+// ChipPlayer: the chip's counterpart of the host's Player. It makes events of segments ahead of time, for the step
 // timer's interrupt.
 //
-// The main loop calls refill() again and again. Events are made until the ring is full or some milliseconds ahead,
-// whichever comes first. All that is in the ring will be played, so a slow motion must not have seconds in it. A
-// segment counts as begun when it is loaded.
+// The main loop calls refill() again and again. Events are made until the ring is full or holds a few milliseconds of
+// motion, whichever comes first. Everything in the ring is played, so the ring must not hold seconds of a slow motion.
+// A segment counts as begun when it is loaded.
 //
-// Invariant: from the first event after a rest on, it makes the same steps at the same ticks as Player. There is only
-// one, and all of it is static: data at a fixed address costs half as much as data behind a pointer.
+// Invariant: from the first event after a standstill, it makes the same steps at the same ticks as Player. There is
+// only one player, and all of its data is static: data at a fixed address costs half as much as data behind a pointer.
 #pragma once
 
 #include "begun_items.hpp"
@@ -25,7 +25,7 @@ class ChipPlayer {
  public:
   explicit ChipPlayer(uint8_t /*motors*/) {}
 
-  // Breaks off at once whatever it played. Motors without pins stand still: the board refuses a host with more motors.
+  // Interrupts playback at once. Motors without pins never move: the board refuses a host with more motors.
   static void restart(uint8_t motors) {
     halt();
     if (step_port_count > 1) SerialLine::breathe();
@@ -56,7 +56,7 @@ class ChipPlayer {
     SerialLine::poll();
   }
 
-  // Stops at once: no further event is played, and motors stand where the pins say.
+  // Stops at once: no further event is played, and the pins determine the motors' positions.
   static void halt() {
     RingTimes::disable();
     running = 0;
@@ -66,12 +66,12 @@ class ChipPlayer {
   // Call once, before anything moves.
   static void prepare() {
     prepare_ring();
-    // The timers run free at the full clock. The interrupt sets the time of the next event.
+    // The timers run freely at the full clock. The interrupt sets the time of the next event.
     RingTimes::prepare();
     fetch_entry(0);
   }
 
-  // Whether it can take the next item.
+  // Whether the player can accept the next item.
   static bool ready() {
     if (left_ != 0 || BegunItems::count() >= most_begun || OutputActions::full()) return false;
     return BegunItems::count() < few_begun || waiting() < worth_more_begun;
@@ -83,7 +83,7 @@ class ChipPlayer {
 
   using Segment = SegmentFor<pins.motors>;
 
-  // The motors rest before the segment that is loaded next, so nothing is late if the ring is empty until then.
+  // The motors are stopped before the next segment loaded, so an empty ring until then does not count as late.
   static void begin_from_rest() { fresh_ = true; }
   static void load(const Segment& segment) {
     for (uint8_t m = 0; m < BegunItems::motors(); ++m) expansion.increments[m] = segment.increments[m];
@@ -109,9 +109,9 @@ class ChipPlayer {
     BegunItems::add(segment, static_cast<uint16_t>(made_ + left_));
     if (step_port_count > 1) SerialLine::breathe();
   }
-  // Finds how far ahead events may be made, and whether the interrupt will see every byte.
+  // Computes how far ahead events may be made, and whether the interrupt reads every received byte.
   static void plan_watch(const Segment& segment) {
-    // The slowest interval, about: at the start, or at the end of a segment that slows down.
+    // Approximately the longest interval: at the start, or at the end of a decelerating segment.
     uint32_t slowest = segment.interval;
     if (segment.change > fine_change) {
       slowest = largest_interval;
@@ -126,7 +126,7 @@ class ChipPlayer {
     most_ahead_ = RingTimes::most_ahead(static_cast<uint16_t>(expansion.interval >> 16));
     least_room_ = RingTimes::least_room(most_ahead_);
   }
-  // Takes an item that needs no time. It is finished with the event before it.
+  // Accepts an item that takes no time. The item is finished with the event before it.
   static void pass(const BoardOutputs& outputs) {
     SerialLine::breathe();
     OutputActions::put(outputs, rests);
@@ -136,13 +136,13 @@ class ChipPlayer {
 
   // Whether the oldest item is done.
   static bool finished() { return BegunItems::set_over(BegunItems::count() != 0 && is_over()); }
-  // Forgets the oldest item after its steps were counted.
+  // Drops the oldest item after its steps were counted.
   static void forget() {
     if (BegunItems::events() == 0) OutputActions::forget();
     BegunItems::forget();
     if (step_port_count > 1) SerialLine::breathe();
   }
-  // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
+  // For the oldest item: the events played, and the signed number of steps of a motor in these events.
   static uint8_t played() {
     const uint8_t events = BegunItems::events();
     if (BegunItems::is_over()) return events;
@@ -150,11 +150,11 @@ class ChipPlayer {
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
   static int16_t steps(uint8_t motor) { return BegunItems::steps(played(), motor); }
-  // Adds them to the motors' positions, and is done with the item.
+  // Adds the steps of the oldest item to the motors' positions, and finishes the item.
   static void add_steps(int32_t* positions) { BegunItems::add_steps(played(), positions); }
 
-  // Makes some events, and starts the timer if it stands still. `follows`: another item, or part of one, is there.
-  // Behind a standstill on the Uno half of the ring is made first: else the next one would follow at once.
+  // Makes some events, and starts the timer if it is stopped. `follows`: another item, or part of one, is available.
+  // After a standstill, the Uno first fills half of the ring; otherwise the ring would run empty again at once.
   static void refill(bool follows) {
     for (uint8_t pieces = most_pieces; pieces != 0; --pieces) {
       if (captured()) on_capture();
@@ -163,18 +163,18 @@ class ChipPlayer {
       SerialLine::poll();
     }
     if (running != 0 || waiting() == 0 || halted != 0) return;
-    // Where no other can begin until some of these are played, half of the ring never comes.
+    // If no other item can begin until some of these events are played, the ring never becomes half full.
     if (!RingTimes::are_short || (left_ == 0 && (!follows || !ready()))) start();
   }
 
-  // True if all events of the segment are made and another can come.
+  // True if all events of the segment are made and another segment can be loaded.
   static bool wants_more() { return left_ == 0; }
-  // True if there is room for events that are worth the work.
+  // True if there is room for enough events to be worth the work.
   static bool is_low() { return static_cast<uint8_t>(most_ahead_ - waiting()) >= least_room_; }
-  // True if the interrupt could reach the end of the ring before the other work of the loop is done.
+  // True if the interrupt could reach the end of the ring before the main loop has finished its other work.
   static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
-  // True if the watched input has changed, at an event at which the interrupt looked. Until watch() is called again,
-  // everything reported of the oldest item is as it was at that event.
+  // True if the watched input has changed by an event at which the interrupt sampled it. Until watch() is called again,
+  // all values reported for the oldest item are those at that event.
   static bool captured() { return watching_ && armed == 0; }
   static bool watches() { return watching_; }
   // Waits for the next change of the watched pins.
@@ -184,31 +184,33 @@ class ChipPlayer {
     noted_ = false;
   }
 
-  // Whether the ring ran dry while there was something to play, so that the machine stood still for a moment.
+  // Whether the ring ran empty during a motion, so that the machine stopped for a moment.
   static bool slipped() { return slipped_; }
 
  private:
-  // An item that has begun cannot be replaced, so a few are enough, but for short ones: they may have one event.
+  // An item that has begun cannot be replaced, so a few are enough, except for short items, which may have only one
+  // event.
   static constexpr uint8_t few_begun = 4;
   static constexpr uint8_t worth_more_begun = 80;
-  // Events are made a few at a time, or most_at_once. Many save the way in and out, but the line is not read meanwhile.
-  // So many are made only when the interrupt comes so often that it sees every byte.
+  // Events are made a few at a time, or `most_at_once` at a time. A large batch saves call overhead, but the serial
+  // port is not read during the batch. So large batches are made only when the interrupt comes often enough to read
+  // every byte.
   static constexpr uint8_t most_pieces = 8;
-  // So many entries last until the next ones are made.
+  // This number of entries lasts until the next ones are made.
   static constexpr uint8_t enough_to_start = most_events / 2;
   static constexpr uint8_t least_fast_behind = 16;
-  // A motion from rest begins with some empty events. They give time to fill the ring, and the interrupt reads the line
-  // meanwhile.
+  // A motion from standstill begins with some empty events. They give time to fill the ring, and the interrupt reads
+  // the serial port during them.
   static constexpr uint16_t blank_ticks = often - 50;
   static constexpr uint8_t blank_events = (RingTimes::are_short ? 12000 : 6000) / blank_ticks;
-  static constexpr uint16_t start_ticks = 2500;  // about the time that it takes to write them
-  // The interrupt may miss an alarm that is nearer than this.
+  static constexpr uint16_t start_ticks = 2500;  // approximately the time needed to write them
+  // The interrupt may miss a compare match that is nearer than this.
   static constexpr uint16_t least_lead = 150;
 
   // Whether all events of the oldest item are played.
   static bool is_over() {
     const uint8_t ahead = waiting();
-    if (captured()) on_capture();  // after the look at the ring, because a capture may come at any time
+    if (captured()) on_capture();  // after reading the ring, because a capture may come at any time
     const uint16_t end = BegunItems::end();
     if (noted_) return static_cast<int16_t>(end - captured_at_) <= 0;
     const int16_t since = static_cast<int16_t>(made_ - end);
@@ -218,12 +220,12 @@ class ChipPlayer {
   static int16_t left_of_oldest() {
     const uint8_t now = fetched_entry();
     uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
-    if (captured()) on_capture();  // after the look at the ring, because a capture may come at any time
+    if (captured()) on_capture();  // after reading the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
     return static_cast<int16_t>(BegunItems::end() - played);
   }
-  // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
-  // round the ring once more.
+  // Stores the event of a capture, which follows from the ring's entry. Call before the interrupt has passed once
+  // through the whole ring.
   [[gnu::noinline]] static void on_capture() {
     if (noted_) return;
     const uint8_t then = entry_of(captured_entry);
@@ -256,19 +258,19 @@ class ChipPlayer {
     start();
   }
 
-  // True if the interrupt comes so often that it sees every byte off the line.
+  // True if the interrupt comes often enough to read every byte from the serial port.
   [[gnu::noinline]] static bool is_watched(uint8_t ahead) {
     return running != 0 && (RingTimes::are_short || static_cast<int16_t>(made_ - ahead - slow_end_) >= 0);
   }
 
-  // Whether there is room for so many events that making them is worth the work.
+  // Whether there is room for enough events to be worth the work.
   static bool has_room() {
     const uint8_t ahead = waiting();
     if (ahead >= most_ahead_) return false;
     const uint8_t room = static_cast<uint8_t>(most_ahead_ - ahead);
     return room >= least_room_ || RingTimes::fit(left_, room);
   }
-  // Call if there is room. Returns false if turns or actions must be made first.
+  // Call if there is room. Returns false if direction changes or actions must be made first.
   static bool make_events() {
     if ((turns_ != 0 || OutputActions::riding() != 0) && !queue_turn()) return false;
     const uint8_t ahead = waiting();
@@ -279,9 +281,9 @@ class ChipPlayer {
     }
     return true;
   }
-  // The same as make_piece(piece_behind(ahead)), where events come as fast as they may: each call costs an event some
-  // cycles. An event takes 26 cycles to make, and while it is made the interrupt takes a third of the time. So 2.5
-  // times as many events as are ahead are ready before the interrupt stops, less those for the way.
+  // The same as make_piece(piece_behind(ahead)) for events at the highest rate, where each call costs an event some
+  // cycles. An event takes 26 cycles to make, and the interrupt takes a third of the time meanwhile. So 2.5 times as
+  // many events as are ahead are ready before the interrupt stops, less those played during the call overhead.
   [[gnu::noinline]] static void make_fast(uint8_t ahead) {
     const uint8_t first = head_;
     uint8_t count = static_cast<uint8_t>(most_ahead_ - ahead);
@@ -305,21 +307,21 @@ class ChipPlayer {
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     flagged_byte(behind) = flag_special | flag_stop;
     head_ = behind;
-    // From here on the interrupt may reach the first of them.
+    // From here on the interrupt may reach the first of these events.
     flagged_byte(first) = RingTimes::finished(flagged_byte(first), turning_);
     if (turning_) OutputActions::taken();
     turning_ = false;
   }
-  // How many entries to make at once behind so many that wait.
+  // Returns how many entries to make in one batch after `ahead` waiting entries.
   [[gnu::noinline]] static uint8_t piece_behind(uint8_t ahead) {
     if (line_is_watched == 0) {
-      SerialLine::breathe();  // the interrupt may come as late as `often` from here on
+      SerialLine::breathe();  // from here on the interrupt may come up to `often` ticks later
       line_is_watched = is_watched(ahead);
       if (running == 0) line_is_watched = 0;  // the interrupt stopped in between
     }
-    // Events count only when all of them are made. At the highest rate an event takes half of its time to make, the
-    // interrupt's share included. So twice as many events as are ahead, less a few for the way, will be ready before
-    // the interrupt stops and no longer reads the line.
+    // Events become valid only when all of them are made. At the highest rate making an event takes half of its
+    // interval, the interrupt's share included. So twice as many events as are ahead, less those played during the call
+    // overhead, are ready before the interrupt stops and no longer reads the serial port.
     uint8_t count = most_at_once;
     const uint8_t way_in = RingTimes::way_in();
     if (RingTimes::are_slow()) {
@@ -335,7 +337,7 @@ class ChipPlayer {
     if (count > room) count = room;
     return RingTimes::at_once(count);
   }
-  // The interrupt may reach the end of the ring meanwhile.
+  // The interrupt may reach the end of the ring during this call.
   [[gnu::noinline]] static void make_piece(uint8_t count) {
     const uint8_t first = head_;
     expansion.address = entry_address(first);
@@ -367,7 +369,7 @@ class ChipPlayer {
       const uint8_t next = static_cast<uint8_t>((first + 1) & ring_mask);
       if (next == head_) break;  // its event is not made yet
       if ((flagged_byte(first) & flag_special) != 0) reverse_now(flagged_byte(first));
-      // All waits of the ring may be late, and nobody else reads the line.
+      // All waits of the ring may be late, and the interrupt does not read the serial port.
       SerialLine::breathe();
       first = next;
       const uint16_t more = RingTimes::gap(first);
@@ -381,23 +383,24 @@ class ChipPlayer {
     const uint8_t toggles = flagged_byte(first);
     if ((toggles & flag_special) != 0) reverse_now(toggles);
     SerialLine::breathe();
-    // A short time comes round again.
+    // An 8-bit time wraps around.
     while (RingTimes::are_short && static_cast<uint16_t>(due - now()) > 240) SerialLine::breathe();
     RingTimes::enable(first);
   }
-  // Whether an entry at which the interrupt stopped is still to come. `gap`: ticks from the entry before.
+  // Whether an entry at which the interrupt stopped is still in the future. `gap`: ticks from the entry before.
   static bool is_in_time(uint16_t due, uint16_t gap) {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
-    // A tick is lost where times are read.
+    // Reading the times costs a tick.
     return ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap;
   }
-  // Call when the interrupt stopped before an event that is late now. This event and all after it then come later
-  // still. Returns when.
+  // Call when the interrupt stopped before an event that is late now. This event and all later ones are delayed by the
+  // same time. Returns the new time of the event.
   static uint16_t catch_up(uint8_t first, uint16_t due) {
     if (!fresh_) slipped_ = true;
-    // Nobody reads the line until the motion goes on.
+    // The interrupt does not read the serial port until the motion continues.
     if (!RingTimes::are_short && static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
-    const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
+    // 64: ticks per pass of the loop below
+    const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       RingTimes::delay(i, later);
       SerialLine::breathe();
@@ -410,18 +413,20 @@ class ChipPlayer {
   static inline uint8_t head_ = 0;  // the entry after the last event
   static inline uint8_t most_ahead_ =
       most_events;  // how many entries may be in the ring, at the rate of the loaded segment
-  static inline uint8_t least_room_ = most_events;  // room in the ring for which it is worth making some
+  static inline uint8_t least_room_ = most_events;  // the smallest room in the ring for which making events is worth
+                                                    // the work
   static inline uint8_t left_ = 0;                  // events of the loaded segment that are not made yet
   static inline uint8_t turns_ = 0;                 // motors that reverse before its first event
-  static inline bool turning_ = false;  // the reversals are in the queue of turns, but the event is not flagged yet
+  static inline bool turning_ = false;  // the reversals are in the queue of direction changes, but the event is not
+                                        // flagged yet
   static inline uint8_t directions_ = 0;
   static inline bool fresh_ = false;  // the clock was set for the events in the ring
-  static inline bool noted_ = false;  // a capture was noted, with its event in `captured_at_`
+  static inline bool noted_ = false;  // a capture was stored, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;
   static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last slow events
-  static inline uint16_t made_ = 0;      // events ever made
+  static inline uint16_t made_ = 0;      // total number of events made
 };
 
 }  // namespace passo::chip

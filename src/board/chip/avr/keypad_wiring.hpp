@@ -1,4 +1,4 @@
-// KeypadWiring: the keypad's pins, as the hardware that ManualMode needs.
+// KeypadWiring: the keypad's pins, as the hardware interface that ManualMode needs.
 #pragma once
 
 #include "wiring.hpp"
@@ -15,7 +15,7 @@ class KeypadWiring {
     }
     return down;
   }
-  // The latches stay low: a pin drives its column low as an output, and floats as an input.
+  // The output latches stay low: a pin drives its column low as an output, and floats as an input.
   static void draw_column(uint8_t column) {
 #pragma clang loop unroll(full)
     for (uint8_t c = 0; c < keypad_columns; ++c) {

@@ -18,7 +18,7 @@ inline void set_time(uint8_t index, uint16_t time) {
 
 class RingTimes {
  public:
-  // The interrupt may be long away: then the main loop reads the line.
+  // The interrupt may be absent for a long time: then the main loop reads the serial port.
   static constexpr bool are_short = false;
 
   static void prepare() {
@@ -27,7 +27,7 @@ class RingTimes {
   }
   static void restart() {}
   static void disable() { Timsk1::write(0); }
-  // Begins to play with this entry.
+  // Starts playing with this entry.
   static void enable(uint8_t index) {
     Ocr1ah::write(*time_high_of(index));
     Ocr1al::write(*time_low_of(index));
@@ -36,7 +36,7 @@ class RingTimes {
     Timsk1::write(compare_match_a);
   }
 
-  // Where the last event of an item is in the ring, if that must be kept beside the number of events.
+  // The ring position of an item's last event, if it must be kept in addition to the number of events.
   struct Last {
     void record() {}
     // `since`: events made after the item.
@@ -45,10 +45,10 @@ class RingTimes {
 
   static void load() {}
   static uint8_t way_in() { return way_in_events; }
-  // What to make at once where hardly any wait.
+  // Returns the number of entries to make at once when few or none are waiting.
   static uint8_t few() { return 8; }
-  // The number of events in two to three milliseconds (32,768 to 49,152 ticks), without a division. In one to two where
-  // the ring is small: windings take long to make, and a switch would have to wait.
+  // Returns the number of events in two to three milliseconds (32,768 to 49,152 ticks), without a division. For a small
+  // ring it is one to two milliseconds: winding events take long to make, and a switch would have to wait.
   static uint8_t most_ahead(uint16_t ticks) {
     constexpr bool is_large = ring_entries > 128;
     if (ticks < 256) return most_events;
@@ -58,40 +58,41 @@ class RingTimes {
     if (most > most_events) return most_events;
     return most < 2 ? uint8_t{2} : most;
   }
-  // Room in the ring for which it is worth making some events.
+  // Returns the smallest room in the ring for which making events is worth the work.
   static uint8_t least_room(uint8_t most_ahead) { return static_cast<uint8_t>(most_ahead / 8 * 3); }
   static bool fit(uint8_t events, uint8_t room) { return room >= events; }
-  // Whether an entry takes about as long to make as to play, at its shortest.
+  // Whether making an entry takes about as long as playing it at the shortest interval.
   static constexpr bool are_slow() { return false; }
   static constexpr bool are_near() { return true; }
   static void make_near(uint8_t count) { expand(count); }
-  // How many of `count` entries to make at once.
+  // Returns how many of `count` entries to make in one batch.
   static uint8_t at_once(uint8_t count) { return count; }
-  // The expander stops at the ring's end.
+  // Limits `count`, because the expander stops at the ring's end.
   static uint8_t before_the_end(uint8_t first, uint8_t count) {
     const uint8_t behind_this = static_cast<uint8_t>(ring_mask - first);  // entries from here to the ring's end
     return count > behind_this ? static_cast<uint8_t>(behind_this + 1) : count;
   }
-  // Makes `count` entries with as many events.
+  // Makes `count` entries, each of which is an event.
   static uint8_t make(uint8_t count, uint8_t& left) {
     expand(count);
     left = static_cast<uint8_t>(left - count);
     return count;
   }
-  // The events played before this entry, with so many entries from there to the end of the ring. `made`: events ever.
+  // Returns the number of events played before this entry, with `entries` entries from there to the end of the ring.
+  // `made`: total number of events made.
   static uint16_t played(uint8_t /*from*/, uint8_t entries, uint16_t made) {
     return static_cast<uint16_t>(made - entries);
   }
-  // The first byte of a finished entry, of what the expander has written.
+  // Returns the first byte of a finished entry, computed from the byte that the expander has written.
   static uint8_t finished(uint8_t written, bool turns) {
     const uint8_t plain = static_cast<uint8_t>(written & ~(flag_special | flag_stop));
     return turns ? static_cast<uint8_t>(plain | flag_special) : plain;
   }
   static uint8_t toggles_of(uint8_t flagged) { return static_cast<uint8_t>(flagged & ~flag_special); }
 
-  // The time of the entry at which the interrupt stopped; `head` is behind the last one.
+  // Returns the time of the entry at which the interrupt stopped; `head` is the entry after the last one.
   static uint16_t due(uint8_t first, uint8_t /*head*/) { return time_of(first); }
-  // Ticks from the entry before, which may have been played.
+  // Returns the ticks since the preceding entry, which may have been played.
   static uint16_t gap(uint8_t index) {
     return static_cast<uint16_t>(time_of(index) - time_of(static_cast<uint8_t>((index - 1) & ring_mask)));
   }

@@ -1,5 +1,5 @@
-// The Mega's event ring, for four step ports. Each byte of an entry lies in a page of its own, at the entry's number.
-// So the interrupt has to keep only that number, which wraps at the end by itself.
+// The Mega's event ring, for four step ports. Each byte of an entry lies in a page of its own, at the entry's index. So
+// the interrupt has to keep only the index, an 8-bit register that wraps at the ring's end.
 #pragma once
 
 #include "registers.hpp"
@@ -28,22 +28,22 @@ inline constexpr uint16_t times_high_address = 0x200;
 inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
-inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
-inline constexpr bool ring_is_short = false;  // it lasts while a frame is put together
-inline constexpr uint8_t most_begun = 8;      // items that were begun and are not finished
-inline constexpr uint8_t most_at_once = 100;  // made in one call
-inline constexpr uint8_t way_in_events = 8;   // about what is played while events are begun to be made
+inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them are played
+inline constexpr bool ring_is_short = false;  // it lasts while a frame is composed
+inline constexpr uint8_t most_begun = 8;      // items begun and not finished
+inline constexpr uint8_t most_at_once = 100;  // entries made in one call
+inline constexpr uint8_t way_in_events = 8;   // about the number played during the call overhead of making events
 using StepAlarm = Ocr1al;
 using StepCount = Tcnt1l;
-// In the list of items. From 100 on the host fits motion finely.
+// The capacity of the item queue. From 100 on the host fits motion finely.
 inline constexpr uint8_t queue_capacity = 160;
 
-// As on the Uno. A turn has a byte for each step port.
+// As on the Uno. A direction change has a byte for each step port.
 inline constexpr uint16_t received_address = 0x800;
 inline constexpr uint16_t turns_address = 0x900;
 inline constexpr uint8_t turns_mask = 0x3f;
-// If events come at fewer ticks than this, the interrupt sees every byte: a byte takes 320 cycles, the UART holds two,
-// and the interrupt takes all of them.
+// If events are fewer ticks apart than this, the interrupt reads every byte: a byte takes 320 cycles, the UART holds
+// two, and the interrupt reads all of them.
 inline constexpr uint16_t often = 500;
 
 inline constexpr uint16_t actions_address = 0x940;
@@ -64,7 +64,7 @@ inline uint16_t toggles_address(uint8_t index) {
   return first_toggles_address + index;
 }
 
-// Makes the event do nothing.
+// Clears the event's toggle bits, so that it does nothing.
 inline void clear_toggles(uint8_t index) {
   for (uint16_t port = 0; port != 0x400; port += 0x100) {
     *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + port) = 0;
@@ -72,7 +72,7 @@ inline void clear_toggles(uint8_t index) {
 }
 
 inline void prepare_ring() {}
-// The expander skips the ports of motors that the host does not know. Clears a byte of each of those ports.
+// Clears a byte of each port whose motors the host does not use: the expander skips these ports.
 inline void forget_toggles(uint8_t index) {
   for (uint16_t port = 0x100; port != 0x400; port += 0x100) {
     *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + port) = 0;
@@ -82,18 +82,18 @@ inline void forget_toggles(uint8_t index) {
 inline uint8_t entry_of(uint16_t number) {
   return static_cast<uint8_t>(number);
 }
-// The entry that the interrupt plays next, or the one after the last event.
+// Returns the entry that the interrupt plays next, or the one after the last event.
 inline uint8_t fetched_entry() {
   uint8_t number;
   asm volatile("mov %0, r2" : "=r"(number));
   return number;
 }
-// Puts an entry into the interrupt's registers. Only while the interrupt does not run.
+// Puts an entry into the interrupt's registers. Call only while the interrupt is stopped.
 inline void fetch_entry(uint8_t index) {
   const uint8_t toggles = *reinterpret_cast<volatile uint8_t*>(toggles_address(index));
   asm volatile("mov r2, %0\n\tmov r5, %1" ::"r"(index), "r"(toggles));
 }
-// Sets the bits to toggle there, without flags.
+// Sets the toggle bits in the interrupt's registers, without flags.
 inline void set_fetched_toggles(uint8_t toggles) {
   asm volatile("mov r5, %0" ::"r"(toggles));
 }

@@ -1,9 +1,9 @@
-// OutputActions: states to which the outputs will be switched, each after a certain event. The step timer's interrupt
-// switches them: an action rides on the queue of turns, or waits at the end of the ring.
+// OutputActions: scheduled output states, each applied after a certain event. The step timer's interrupt applies them:
+// an action is attached to an entry of the queue of direction changes, or waits at the end of the ring.
 //
-// Invariant: an action is the state of the ports, not a change of it. So the interrupt and the main loop, which may not
-// have seen the interrupt's work, may both do the same action. Actions never come out of order: an action that is put
-// while nothing plays is done at once.
+// Invariant: an action is the complete state of the ports, not a change. So the interrupt and the main loop may both
+// apply the same action, even if the main loop has not seen the interrupt's work. Actions stay in order: an action
+// added while nothing plays is applied at once.
 #pragma once
 
 #include "event_ring.hpp"
@@ -24,7 +24,7 @@ class OutputActions {
   }
   static bool full() { return waiting_ == action_count; }
 
-  // Adds an action after all events made so far. `rests` tells whether none is to come.
+  // Adds an action after all events made so far. `rests` returns true if no event is left to play.
   static void put(const BoardOutputs& outputs, bool (*rests)()) {
     const uint8_t place = static_cast<uint8_t>(actions_address + sizeof(OutputAction) * next_);
     next_ = static_cast<uint8_t>((next_ + 1) % action_count);
@@ -37,12 +37,12 @@ class OutputActions {
       taken();
     }
   }
-  // The oldest action is done.
+  // Call when the oldest action is done.
   static void forget() { --waiting_; }
 
-  // Low byte of the address of the action that rides on the next event; 0: none.
+  // Returns the low byte of the address of the action attached to the next event; 0: none.
   static uint8_t riding() { return riding_; }
-  // Called when the event has the action.
+  // Call when the event has received the action.
   static void taken() {
     riding_ = 0;
     action_at_end = 0;
@@ -66,7 +66,7 @@ class OutputActions {
   }
 
   static inline uint8_t next_ = 0;
-  static inline uint8_t waiting_ = 0;  // not done yet, as far as the main loop knows
+  static inline uint8_t waiting_ = 0;  // not applied yet, as far as the main loop knows
   static inline uint8_t riding_ = 0;
 };
 

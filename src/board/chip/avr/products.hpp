@@ -1,15 +1,15 @@
-// Products: what wire/segment_parts.hpp asks of a product, and the steps in many events, by the chip's own multiplier
-// of 8 bits.
+// Products: the multiplications that wire/segment_parts.hpp needs, and the steps in many events, by the chip's own
+// 8-bit multiplier.
 //
-// LLVM would call the library's product of 32 bits three times: some 500 cycles for a high_product(). This takes 110,
-// and a part that brakes needs four of them. The results are the same, bit by bit: board_test.cpp compares the events.
+// LLVM would call the library's 32-bit product three times: some 500 cycles for a high_product(). This takes 110, and a
+// decelerating part needs four of them. The results are bit-identical: board_test.cpp compares the events.
 #pragma once
 
 #include <stdint.h>
 
 namespace passo::chip {
 
-// The upper 16 bits of the product: upper_of().
+// Returns the upper 16 bits of the product: upper_of().
 [[gnu::always_inline]] inline int16_t upper_half(int16_t high, uint16_t low) {
   int16_t upper;
   uint8_t middle;
@@ -36,7 +36,7 @@ namespace passo::chip {
   return upper;
 }
 
-// The whole product: product_of(). LLVM has no operand of 32 bits.
+// Returns the whole product: product_of(). LLVM has no 32-bit operand.
 [[gnu::always_inline]] inline int32_t whole_product(int16_t a, int16_t b) {
   int16_t upper;
   uint16_t lower;
@@ -73,7 +73,7 @@ namespace passo::chip {
 }
 
 // Adds `increment` to `accumulator` `events` times and returns the number of overflows. It is a 16 by 8 bit product,
-// for which LLVM would call one of 32 bits.
+// for which LLVM would call a 32-bit one.
 inline uint8_t carries(uint16_t& accumulator, uint16_t increment, uint8_t events) {
   uint8_t count;
   asm volatile(

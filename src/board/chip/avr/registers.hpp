@@ -1,13 +1,13 @@
 // The registers of the ATmega328P and the ATmega2560 that the firmware uses, by their addresses in data memory.
 //
-// The two chips have all of these at the same places; only the interrupt vectors and the ports differ.
+// The two chips have all of these at the same addresses; only the interrupt vectors and the ports differ.
 #pragma once
 
 #include <stdint.h>
 
 namespace passo::chip {
 
-// The number of a register for `in`, `out` and `sbic`.
+// Returns the number of a register for `in`, `out` and `sbic`.
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - 0x20);
 }
@@ -19,8 +19,8 @@ struct Register {
   static void write(uint8_t value) { *reinterpret_cast<volatile uint8_t*>(address) = value; }
 };
 
-// PINx at `address`, then DDRx and PORTx. A one written to PINx toggles a single bit: no neighbour changes, even if the
-// interrupt comes between.
+// PINx at `address`, then DDRx and PORTx. A one written to PINx toggles a single bit: neighbouring pins stay unchanged,
+// even if the interrupt comes in between.
 template <uint16_t address>
 struct Port {
   static uint8_t pins() { return Register<address>::read(); }
@@ -37,14 +37,14 @@ using Tifr4 = Register<0x39>;  // only in the ATmega2560, like all of timers 4 a
 using Pcifr = Register<0x3b>;
 using Eifr = Register<0x3c>;
 using Gpior0 = Register<0x3e>;
-using Eecr = Register<0x3f>;  // nobody reads or writes the EEPROM: its registers are free
+using Eecr = Register<0x3f>;  // the EEPROM is not used: its registers are free
 using Eedr = Register<0x40>;
 using Eearl = Register<0x41>;
 using Tccr0a = Register<0x44>;
 using Tccr0b = Register<0x45>;
 using Tcnt0 = Register<0x46>;
 using Ocr0a = Register<0x47>;
-using Ocr0b = Register<0x48>;  // nobody waits for this match
+using Ocr0b = Register<0x48>;  // this compare match is not used
 using Gpior1 = Register<0x4a>;
 using Gpior2 = Register<0x4b>;
 using Mcusr = Register<0x54>;
@@ -74,7 +74,7 @@ using Tccr2a = Register<0xb0>;
 using Tccr2b = Register<0xb1>;
 using Tcnt2 = Register<0xb2>;
 using Ocr2a = Register<0xb3>;
-using Ocr2b = Register<0xb4>;  // nobody waits for this match
+using Ocr2b = Register<0xb4>;  // this compare match is not used
 using Twbr = Register<0xb8>;   // the two-wire interface is off
 using Twar = Register<0xba>;
 using Ucsr0a = Register<0xc0>;
@@ -96,8 +96,8 @@ inline constexpr uint8_t may_send = 1 << 5;
 
 }  // namespace passo::chip
 
-// Assembly: takes a byte that the line has received into the ring and goes back to 1, or goes to 2 if there is none.
-// 13 cycles to the last store. Changes r24, r30 and r31; %[ucsra], %[udr] and %[received] are operands.
+// Assembly: moves a received byte from the UART to the ring and jumps back to 1, or jumps to 2 if there is none. 13
+// cycles to the last store. Changes r24, r30 and r31; %[ucsra], %[udr] and %[received] are operands.
 #define PASSO_TAKE_BYTE         \
   "lds r24, %[ucsra]\n"         \
   "sbrs r24, 7\n"               \

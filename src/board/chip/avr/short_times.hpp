@@ -1,11 +1,11 @@
-// RingTimes where an entry of the ring has the low byte of its time only: the step timer is timer 0, which goes round
-// every 256 ticks. Where events are further apart, entries come between that toggle nothing: waits. long_times.hpp is
-// the counterpart with the same functions.
+// RingTimes where an entry of the ring has only the low byte of its time: the step timer is timer 0, which wraps every
+// 256 ticks. Where events are further apart, entries in between toggle nothing: waits. long_times.hpp is the
+// counterpart with the same functions.
 //
 // A wait is at most 256 ticks after the entry before it, and the event at least 129 after the last wait, so that the
-// interrupt is never late for it. Timer 1 runs beside timer 0 and gives the main loop the time in 16 bits. Between two
-// pieces of work all times are known in 16 bits: expansion.time is that of the last event made, or of the next one amid
-// a wait.
+// interrupt is never late for it. Timer 1 runs in parallel with timer 0 and gives the main loop the time in 16 bits.
+// Between two pieces of work all times are known in 16 bits: expansion.time is that of the last event made, or during a
+// wait that of the next event.
 #pragma once
 
 #include "event_ring.hpp"
@@ -17,7 +17,7 @@ namespace passo::chip {
 
 class RingTimes {
  public:
-  // While the interrupt plays it comes so often that it sees every byte off the line.
+  // During playback the interrupt comes often enough to read every byte from the serial port.
   static constexpr bool are_short = true;
 
   static void prepare() {
@@ -52,25 +52,25 @@ class RingTimes {
     }
   };
 
-  // A segment was loaded.
+  // Call after a segment was loaded.
   static void load() { reach_ = reach(); }
-  // Slow entries last long enough for the way in.
+  // Entries far apart last long enough to cover the call overhead.
   static uint8_t way_in() { return reach_ == Reach::near ? way_in_events : uint8_t{0}; }
-  // Whether an entry takes about as long to make as to play, at its shortest: 100 and 129 cycles.
+  // Whether making an entry takes about as long as playing it at the shortest interval: 100 and 129 cycles.
   static bool are_slow() { return reach_ == Reach::far; }
-  // What to make at once where hardly any wait.
+  // Returns the number of entries to make at once when few or none are waiting.
   static uint8_t few() { return reach_ == Reach::near ? few_events : most_waits_at_once; }
   // The ring's size limits the time.
   static uint8_t most_ahead(uint16_t /*ticks*/) { return most_events; }
-  // Room in the ring for which it is worth making some. Slow events leave time, and the loop may be away for long: what
-  // is left must last while a status is answered.
+  // Returns the smallest room in the ring for which making events is worth the work. With events far apart, the loop
+  // may do other work for long, and the remaining entries must last while a status is answered.
   static uint8_t least_room(uint8_t /*most_ahead*/) {
     if (reach_ == Reach::near) return most_events / 2;
     return reach_ == Reach::middle ? most_events / 3 : most_events / 6;
   }
-  // Whether that many events have that much room.
+  // Whether `events` events fit into `room` entries.
   static bool fit(uint8_t events, uint8_t room) { return room >> (reach_ == Reach::near ? 0 : 1) >= events; }
-  // The line cannot wait for many slow events.
+  // Making many events far apart in one batch would delay reading the serial port too long.
   static uint8_t at_once(uint8_t count) {
     return line_is_watched != 0 || count <= most_waits_at_once || reach_ == Reach::near ? count : most_waits_at_once;
   }
@@ -108,7 +108,7 @@ class RingTimes {
     add(count);
     return count;
   }
-  // A walk, if there are waits: from the entry at which the last walk ended, if it is still in the ring.
+  // Walks through the ring if there are waits: from the entry at which the last walk ended, if it is still in the ring.
   [[gnu::noinline]] static uint16_t played(uint8_t from, uint8_t entries, uint16_t made) {
     uint16_t played;
     if (entries <= since_wait_) {
@@ -130,7 +130,7 @@ class RingTimes {
   }
   static uint8_t toggles_of(uint8_t flagged) { return static_cast<uint8_t>(flagged & ~(flag_special | first_waits)); }
 
-  // A walk, while the interrupt stands.
+  // Walks through the ring; the interrupt must be stopped.
   [[gnu::noinline]] static uint16_t due(uint8_t first, uint8_t head) {
     uint16_t time = static_cast<uint16_t>(expansion.time >> 16);
     if (expansion.is_amid != 0) time = static_cast<uint16_t>(time - (expansion.waits << 8) - expansion.rest - 129);
@@ -154,7 +154,7 @@ class RingTimes {
   static void delay(uint8_t index, uint16_t ticks) {
     *time_low_of(index) = static_cast<uint8_t>(*time_low_of(index) + ticks);
   }
-  // What is made amid a wait counts from the last entry.
+  // An event made during a wait is timed from the last entry.
   static void delay_next(uint16_t ticks) { expansion.at = static_cast<uint8_t>(expansion.at + ticks); }
 
  private:
@@ -169,8 +169,8 @@ class RingTimes {
     made_ = static_cast<uint16_t>(made_ + entries);
     since_count_ = no_more_than_255(since_count_, entries);
   }
-  // Those that do not only wait, among so many entries from this one on: 12 cycles an entry. The interrupt may stand
-  // still, so the line cannot wait for all of them.
+  // Returns the number of events among `entries` entries from this one on, without the waits: 12 cycles per entry. The
+  // interrupt may be stopped, so the serial port is read during the loop.
   static uint8_t events(uint8_t from, uint8_t entries) {
     constexpr uint8_t piece = 24;
     uint8_t events = 0;
@@ -183,7 +183,7 @@ class RingTimes {
     }
     return events;
   }
-  // Adds them to `events`. At least one entry.
+  // Adds the events among them to `events`. At least one entry.
   static uint8_t events_among(uint8_t from, uint8_t entries, uint8_t events) {
     uint16_t at = toggles_address(from);
     asm volatile(R"(
@@ -208,7 +208,7 @@ class RingTimes {
     return events;
   }
   static_assert(flag_special == 1 << 0 && flag_stop == 1 << 1 && first_waits == 1 << 7 && ring_address == 0x100);
-  // What the next 255 intervals are all under: 256 ticks, 512, or none of these.
+  // The upper limit of the next 255 intervals: 256 ticks, 512 ticks, or none of these.
   enum class Reach : uint8_t { near, middle, far };
   [[gnu::noinline]] static Reach reach() {
     const int32_t change = expansion.change;
@@ -223,10 +223,10 @@ class RingTimes {
   static constexpr uint8_t most_waits_at_once = 4;
 
   static inline Reach reach_ = Reach::far;
-  static inline uint16_t made_ = 0;          // entries ever made
-  static inline uint8_t since_wait_ = 255;   // entries made since one that may be a wait; 255: or more
-  static inline uint8_t since_count_ = 255;  // entries made since the one before which events were counted, and
-  static inline uint16_t counted_ = 0;       // how many
+  static inline uint16_t made_ = 0;          // total number of entries made
+  static inline uint8_t since_wait_ = 255;   // entries made since one that may be a wait; 255: at least 255
+  static inline uint8_t since_count_ = 255;  // entries made since the one up to which events were counted, and
+  static inline uint16_t counted_ = 0;       // their number of events
 };
 
 }  // namespace passo::chip

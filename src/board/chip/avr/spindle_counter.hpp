@@ -1,8 +1,8 @@
-// SpindleCounter: an encoder at the spindle, counted by a timer. Pulses cost the program nothing, however many come.
+// SpindleCounter: a spindle encoder, counted by a timer. Pulses take no processor time, at any rate.
 //
 // The index sets the capture flag of another timer, which is polled. While nothing is played, the flag is seen within a
 // few microseconds; during motion the count at the index may be read some thousand cycles too late. Timer 1, whose
-// alarms make the steps, tells the time.
+// compare matches make the steps, gives the time.
 #pragma once
 
 #include "event_ring.hpp"
@@ -17,7 +17,7 @@ class SpindleCounter {
  public:
   static constexpr bool exists() { return pins.encoder.exists(); }
 
-  // Timer 5 counts rising edges. Timer 4 captures the index: a falling edge that reads the same four times.
+  // Timer 5 counts rising edges. Timer 4 captures the index: a falling edge that is sampled low four times in a row.
   static void prepare() {
     if (!exists()) return;
     Tccr5a::write(0);
@@ -26,7 +26,7 @@ class SpindleCounter {
     Tifr4::write(input_captured);
   }
 
-  // Must be called before 65,536 pulses or ticks have passed.
+  // Call before 65,536 pulses or ticks have passed.
   [[gnu::always_inline]] static void poll() {
     if (!exists()) return;
     if ((Tifr4::read() & input_captured) != 0) on_index();
@@ -44,7 +44,7 @@ class SpindleCounter {
     SerialLine::breathe();
     const uint16_t time = time_now();
     count_pulses();
-    // An overflow that is not noted yet counts only if the time is after it.
+    // An overflow that is not counted yet is added only if the time is after it.
     const bool overflowed = (Tifr1::read() & timer_overflow) != 0 && time < 0x8000;
     const uint16_t overflows = static_cast<uint16_t>(overflows_ + (overflowed ? 1 : 0));
     return {.count = count_,
@@ -75,7 +75,8 @@ class SpindleCounter {
     const uint8_t low = Tcnt5l::read();
     return static_cast<uint16_t>(low | Tcnt5h::read() << 8);
   }
-  // The interrupt writes its alarm through the same byte that reading the count needs, so it must not come between.
+  // The interrupt writes its compare register through the same temporary byte that reading the count needs, so it must
+  // not come in between.
   static uint16_t time_now() {
     constexpr uint16_t without_interrupt = 40;  // cycles from one reading to the next
     for (;;) {

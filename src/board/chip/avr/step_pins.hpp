@@ -1,5 +1,5 @@
-// StepPins: the part of the player for motors with step and direction pins. A step is a byte written to PINx twice. The
-// interrupt toggles direction pins, taken from the queue of turns.
+// StepPins: the part of the player for motors with step and direction pins. A step is one byte written to PINx twice.
+// The interrupt toggles direction pins as the queue of direction changes specifies.
 //
 // WindingPins (winding_pins.hpp) is the counterpart for motors whose windings the board switches itself.
 #pragma once
@@ -17,7 +17,7 @@ class StepPins {
  public:
   static constexpr uint8_t turn_bytes = step_port_count;
 
-  // Reads the pins, because a queued turn may not have been made.
+  // Reads the pins, because a queued direction change may not have been made.
   static uint8_t directions() {
     uint8_t down = 0;
     for (uint8_t m = 0; m < pins.motors; ++m) {
@@ -41,7 +41,7 @@ class StepPins {
     }
   }
 
-  // Sets the levels of the step pins between steps. Bit m: that of motor m is high. Returns what was set. At rest.
+  // Sets the idle levels of the step pins. Bit m: motor m idles high. Returns the levels set. Call only at standstill.
   [[gnu::noinline]] static uint8_t set_idle(uint8_t high) {
     for (uint8_t m = 0; m < pins.motors; ++m) {
       const Pin pin = pins.motor[m].step;

@@ -1,7 +1,8 @@
-// StepTimes: how long the interrupt's step pulses are, how soon directions change behind them, and what that costs.
+// StepTimes: the length of the step pulses, the hold time before direction changes, and the processor time that they
+// cost.
 //
-// Without padding a pulse is as long as the interrupt's own work. With padding it waits in a loop, three cycles a turn.
-// While it waits nobody else works, so events must be as much further apart.
+// Without padding a pulse is as long as the interrupt's own work. With padding the interrupt waits in a loop of three
+// cycles per pass. All other work waits too, so the events must be further apart by that time.
 #pragma once
 
 #include "registers.hpp"
@@ -11,20 +12,22 @@
 
 namespace passo::chip {
 
-// In EECR: the interrupt pads its pulses, by as many turns as EEDR says.
+// In EECR: the interrupt pads its pulses, by the number of passes in EEDR.
 inline constexpr uint8_t padding_bit = 4;
 
 struct StepTimes {
   uint8_t shortest_pulse;  // cycles, without padding
-  uint8_t first_padding;   // a pulse with one turn of the loop
-  uint8_t event_ticks;     // the fewest from event to event, without padding
-  uint8_t first_turn;      // from a pulse's end to the first change of a direction, at least
-  uint8_t last_turn;       // and to the last one, at most
-  uint8_t beside_wait;     // ticks an event beside its pulse where waits come between events; 0: there are no waits
+  uint8_t first_padding;   // length of a pulse with one pass of the loop
+  uint8_t event_ticks;     // the shortest interval between events, without padding
+  uint8_t first_turn;      // minimum time from a pulse's end to the first direction change
+  uint8_t last_turn;       // maximum time from there to the last direction change
+  uint8_t beside_wait;     // ticks per event in addition to its pulse where waits come between events; 0: there are no
+                           // waits
 
   static constexpr uint8_t cycles_a_turn = 3;
 
-  // Sets pulses at least as long as wanted, and as the hold time needs. Returns what the pins then have. At rest.
+  // Sets pulses at least as long as `wanted`, and as the hold time needs. Returns the resulting times. Call only at
+  // standstill.
   [[gnu::always_inline]] StepTiming set(const StepTiming& wanted) const {
     uint8_t pulse = shortest_pulse;
     uint8_t turns = 0;
@@ -40,7 +43,7 @@ struct StepTimes {
     const uint16_t around_turn = static_cast<uint16_t>(pulse + last_turn);
     uint16_t ticks = static_cast<uint16_t>(around_turn + wanted.set_up);
     if (ticks < padded) ticks = padded;
-    // Beyond the timer's 256 ticks an event costs more, so what is left beside a long pulse is not enough there at
+    // Beyond the timer's 256 ticks an event costs more, so the time left after a long pulse is too short there at
     // first.
     const uint16_t with_wait = static_cast<uint16_t>(pulse + beside_wait);
     if (beside_wait != 0 && with_wait > 256) {
@@ -55,7 +58,7 @@ struct StepTimes {
   }
 
  private:
-  // 10 microseconds: beyond that an interrupt would be longer than the UART can wait.
+  // 10 microseconds: the interrupt after a longer pulse would outlast the UART's buffer.
   static constexpr uint8_t longest_pulse = 160;
 };
 

@@ -8,7 +8,7 @@
 
 namespace passo::chip {
 
-// The levels of a port's pins while their switches are off.
+// The levels of a port's pins while their switches are open.
 #ifdef __AVR_ATmega2560__
 inline constexpr char input_ports[] = {'B', 'D', 'E', 'J'};
 [[gnu::always_inline]] inline uint8_t quiet_levels(char port) {
@@ -30,7 +30,7 @@ inline constexpr char input_ports[] = {'B', 'C'};
 }
 #endif
 
-// The pins of a port whose switches are on.
+// The pins of a port whose switches are triggered.
 [[gnu::always_inline]] inline uint8_t pins_that_are_on(char port) {
   return static_cast<uint8_t>(*reinterpret_cast<volatile uint8_t*>(port_registers(port)) ^ quiet_levels(port));
 }
@@ -47,7 +47,7 @@ template <char port>
   return mask;
 }
 
-// The inputs that a host may say are alarms of drives.
+// The inputs that a host may configure as drive alarms.
 inline constexpr uint16_t may_be_alarms = [] {
   uint16_t known = 0;
   for (uint8_t i = 0; i < most_axis_switches; ++i) {
@@ -58,7 +58,7 @@ inline constexpr uint16_t may_be_alarms = [] {
   return known;
 }();
 
-// The pins of buttons on a port that are alarms of drives.
+// The pins of buttons on a port that are drive alarms.
 template <char port>
 [[gnu::always_inline]] inline uint8_t buttons_of(uint16_t alarms) {
   uint8_t mask = 0;
@@ -67,8 +67,8 @@ template <char port>
   return mask;
 }
 
-// The pins that stop the motors while `watched` is captured. If that is a limit switch, an axis is being homed, and
-// other axes may still be on their switches. So closed switches do not count.
+// Returns the pins that stop the motors while `watched` is captured. If `watched` is a limit switch, an axis is being
+// homed, and other axes may still be on their switches. So switches that are already triggered are ignored.
 template <char port>
 [[gnu::noinline]] uint8_t stops_beside(uint16_t watched, uint16_t alarms) {
   constexpr uint8_t always = pins.stops_on(port);
@@ -78,7 +78,7 @@ template <char port>
   return static_cast<uint8_t>(stops & ~(limits & pins_that_are_on(port)) & ~pins_of<port>(watched));
 }
 
-// The interrupt looks at one port.
+// The interrupt can watch only one port.
 [[gnu::noinline]] inline bool are_on_one_port(uint8_t limits) {
   char port = 0;
   bool good = limits >> most_axis_switches == 0;
@@ -92,7 +92,7 @@ template <char port>
   return good;
 }
 
-// Chooses what the interrupt waits for: that the input goes on, or off. Only while nothing is armed.
+// Chooses the change that the interrupt waits for: the input becomes triggered, or open. Only while nothing is armed.
 [[gnu::noinline]] inline void choose_watch(uint16_t watched, bool is_on) {
   char port = pins.probe.port;
   uint8_t mask = (watched & input_probe) != 0 ? pins.probe.mask() : uint8_t{0};
@@ -104,14 +104,15 @@ template <char port>
   }
   const uint8_t quiet = quiet_levels(port);
   const uint16_t address = port_registers(port);
-  // If it is on: the pins that put it on.
+  // If the input is triggered: the pins that trigger it.
   if (is_on) mask = static_cast<uint8_t>(mask & (*reinterpret_cast<volatile uint8_t*>(address) ^ quiet));
   watch_port = address;
   watch_pins = mask;
   watch_quiet = is_on ? static_cast<uint8_t>(~quiet) : quiet;
 }
 
-// After the interrupt has captured: which of the watched inputs it saw change. Several are limit switches of one port.
+// Returns which of the watched inputs changed when the interrupt captured. Several inputs are limit switches of one
+// port.
 [[gnu::noinline]] inline uint16_t inputs_that_moved(uint16_t watched) {
   if ((watched & (watched - 1)) == 0) return watched;
   uint16_t moved = 0;

@@ -1,5 +1,5 @@
-// TurnQueue: the changes of directions, and the outputs' actions, that wait for the flagged events before which they
-// are due. The step timer's interrupt takes them; where it stands still, make_next() does.
+// TurnQueue: the direction changes and output actions that wait for their flagged events. The step timer's interrupt
+// makes them; while it is stopped, make_next() does.
 #pragma once
 
 #include "event_ring.hpp"
@@ -22,7 +22,7 @@ using MotorOutputs = StepPins;
 class TurnQueue {
  public:
   static void clear() { head_ = turns_tail; }
-  // Adds the motors that turn, and the action that rides on them. False: there is no room.
+  // Adds the motors that reverse, and the action attached to them. Returns false if there is no room.
   static bool put(uint8_t motors) {
     const uint8_t head = behind(head_);
     if (head == turns_tail) return false;
@@ -32,7 +32,7 @@ class TurnQueue {
     head_ = head;
     return true;
   }
-  // Makes the oldest one.
+  // Makes the oldest direction change.
   static void make_next() {
     const uint8_t tail = turns_tail;
     const volatile uint8_t* const turn = at(tail);

@@ -1,5 +1,5 @@
-// The parts of the Uno's wiring that depend on the chip: the timer for the spindle's PWM, and the flags that tell that
-// a switch moved.
+// The chip-specific parts of the Uno's wiring: the timer for the spindle's PWM, and the flags that report a switch
+// change.
 #pragma once
 
 #include "registers.hpp"
@@ -7,7 +7,7 @@
 
 namespace passo::chip {
 
-// The ports of an action, and the PWM's duty and control registers.
+// The ports of an output action, and the PWM's duty and control registers.
 inline constexpr char output_ports[] = {pins.switched_on('B') != 0 ? 'B' : 'C', 'C'};
 using SpindleDuty = Ocr2a;
 using SpindleControl = Tccr2a;
@@ -15,14 +15,14 @@ inline constexpr uint8_t spindle_connected = 1 << 7 | 1 << 1 | 1 << 0;
 inline constexpr uint8_t spindle_disconnected = 1 << 1 | 1 << 0;
 inline constexpr uint8_t spindle_inverting = 1 << 6;
 
-// PWM of 7.8 kHz at the spindle's pin, off at first.
+// Sets up PWM of 7.8 kHz at the spindle's pin, initially off.
 inline void prepare_spindle() {
   SpindleDuty::write(0);
   SpindleControl::write(spindle_disconnected);
   Tccr2b::write(1 << 1);
 }
 
-// Sets the pins that stop the motors while `watched` is captured. `alarms`: inputs that are alarms of drives.
+// Sets the pins that stop the motors while `watched` is captured. `alarms`: inputs that are drive alarms.
 inline void stop_on(uint16_t watched, uint16_t alarms = 0) {
   stops_b = stops_beside<'B'>(watched, alarms);
   stops_c = stops_beside<'C'>(watched, alarms);

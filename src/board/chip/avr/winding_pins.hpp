@@ -1,8 +1,8 @@
 // WindingPins: the counterpart of StepPins for motors whose windings the board switches itself. There are no direction
-// pins to toggle: the expander turns each step into the bits of the windings that change.
+// pins to toggle: the expander turns each step into the winding bits that change.
 //
-// Invariant: while the ring is empty, expansion.held tells the current of each motor. A motor has no current before its
-// first step. Its place in the table goes on from where it was.
+// Invariant: while the ring is empty, expansion.held gives the current of each motor. A motor has no current before its
+// first step. Its index in the table then continues from its last value.
 #pragma once
 
 #include "event_ring.hpp"
@@ -31,7 +31,7 @@ class WindingPins {
  public:
   static constexpr uint8_t turn_bytes = 1;
 
-  // Events in the ring that were not played have moved nothing. So the places are read from the pins.
+  // Events in the ring that were not played have moved nothing. So the table indices are read from the pins.
   static uint8_t directions() {
     find_places<0>();
     return 0;
@@ -51,7 +51,7 @@ class WindingPins {
     return wanted;
   }
 
-  // Switches all windings off; each motor stays at its place. Only while the interrupt does not play.
+  // Switches all windings off; each motor keeps its table index. Call only while the interrupt is not playing.
   static void release() {
     clear_windings<0>();
     for (uint8_t& held : expansion.held) held = windings_off;
@@ -74,7 +74,7 @@ class WindingPins {
       find_places<motor + 1>();
     }
   }
-  // Looks at the motor's last place first, because it is the likeliest.
+  // Tries the motor's last table index first, because it is the most likely.
   template <uint8_t motor>
   [[gnu::noinline]] static void find_place() {
     constexpr uint8_t mask = winding_table(pins.motor[motor].drive).mask;

@@ -1,5 +1,5 @@
 // The event ring of boards that switch windings themselves, for both chips. It need not be as fast as with step pins:
-// one layout, any number of step ports, and no registers of the interrupt's own.
+// it has one layout, any number of step ports, and reserves no registers for the interrupt.
 #pragma once
 
 #include "registers.hpp"
@@ -15,7 +15,7 @@
 
 namespace passo::chip {
 
-// PASSO_WINDINGS tells how each motor is driven: a list of their Drives, in order.
+// PASSO_WINDINGS gives the drive mode of each motor: a list of DriveMode values, in order.
 using enum DriveMode;
 #ifdef __AVR_ATmega2560__
 inline constexpr PinMap<4> pins = driven(mega_windings, {PASSO_WINDINGS});
@@ -32,30 +32,31 @@ inline constexpr uint16_t ram_address = 0x100;
 
 using StepAlarm = Ocr1al;
 using StepCount = Tcnt1l;
-inline constexpr uint8_t windings_off = 8;  // takes the place of a motor's place: no current
+inline constexpr uint8_t windings_off = 8;  // used instead of a motor's table index: no current
 inline constexpr uint8_t flag_special = 2;
 inline constexpr uint8_t flag_stop = 1;
 
 // The ring is at the start of RAM, before everything that the linker places: a page for received bytes, then rows with
-// one byte of every entry each. The rows are times (high and low), flags, and the bits to toggle on each step port.
+// one byte per entry. The rows are times (high and low), flags, and the bits to toggle on each step port.
 inline constexpr uint16_t received_address = ram_address;
 inline constexpr uint16_t ring_address = ram_address + 0x100;
 inline constexpr uint8_t ring_entries = 64;
 inline constexpr uint8_t most_events = 62;
-inline constexpr bool ring_is_short = false;  // an event takes longer to make than may be spent between two bytes
+inline constexpr bool ring_is_short = false;  // making an event takes longer than the time allowed between two reads of
+                                              // the UART
 inline constexpr uint8_t flags_row = 2;
 inline constexpr uint8_t toggles_row = 3;
 
-// As on the other boards. A turn only carries an action.
+// As on the other boards. A direction change only carries an action.
 inline constexpr uint16_t actions_address = ring_address + ring_entries * (toggles_row + pins.ports());
 inline constexpr uint8_t action_bits = (actions_address & 0xff) | 0x1c;
 inline constexpr uint16_t turns_address = actions_address + 0x20;
 inline constexpr uint8_t turns_mask = 0x07;
-// The interrupt takes all received bytes.
+// The interrupt reads all received bytes.
 inline constexpr uint16_t often = 500;
-inline constexpr uint8_t most_begun = 4;     // items that were begun and are not finished
-inline constexpr uint8_t most_at_once = 8;   // the expander reads the line at every event
-inline constexpr uint8_t way_in_events = 8;  // about what is played while events are begun to be made
+inline constexpr uint8_t most_begun = 4;     // items begun and not finished
+inline constexpr uint8_t most_at_once = 8;   // the expander reads the serial port at every event
+inline constexpr uint8_t way_in_events = 8;  // about the number played during the call overhead of making events
 inline constexpr uint16_t first_free_address = turns_address + turns_mask + 1;
 
 inline uint16_t entry_address(uint8_t index) {

@@ -1,4 +1,4 @@
-// Wiring: all pins except the motors', taken from the board's pin map: switches, and switched outputs.
+// Wiring: all pins except the motors', taken from the board's pin map: switches and switched outputs.
 #pragma once
 
 #include "event_ring.hpp"
@@ -51,7 +51,8 @@ class Wiring {
     for (const MotorPins& motor : pins.motor) set(motor.enable, high);
   }
 
-  // Sets the levels of the pins as a host says, as far as there are such pins. Returns what was set. Only at rest.
+  // Sets the pin levels that a host specifies, for the pins that exist. Returns the levels set. Call only at
+  // standstill.
   [[gnu::noinline]] static PinSetup set_up(const PinSetup& wanted) {
     PinSetup done;
     done.inputs = set_quiet(wanted.inputs);
@@ -74,12 +75,12 @@ class Wiring {
   static uint8_t drivers_rest() {
     return Twar::read();
   }
-  // Microseconds for which a switch must stay in its new state. Like other parts of the setup it is in a register that
-  // nobody else uses.
+  // Returns for how many microseconds a switch must stay in its new state. Like other parts of the setup, the value is
+  // in an otherwise unused register.
   [[gnu::always_inline]] static uint8_t filter() {
     return Ocr2b::read();
   }
-  // Inputs that are alarms of drives. Nobody waits for this match either.
+  // Returns the inputs that are drive alarms. This compare register is unused too.
   [[gnu::always_inline]] static uint16_t alarms() {
     return static_cast<uint16_t>(Ocr1bl::read() | Ocr1bh::read() << 8);
   }
@@ -91,7 +92,7 @@ class Wiring {
     SerialLine::breathe();
   }
 
-  // The action that switches the outputs to this and keeps everything else on their ports.
+  // Returns the action that switches the outputs to this state and keeps all other pins of their ports.
   static OutputAction action_of(const BoardOutputs& outputs) {
     const bool turns = pins.spindle_pwm.exists() && (outputs.switches & spindle_on) != 0;
     const uint8_t duty = turns ? duty_of(outputs.spindle_rpm) : uint8_t{0};
@@ -101,7 +102,7 @@ class Wiring {
             .duty = duty,
             .control = duty != 0 ? connected : spindle_disconnected};
   }
-  // Only while the interrupt does not play, because the interrupt does the same.
+  // Call only while the interrupt is not playing, because the interrupt applies actions too.
   [[gnu::always_inline]] static void act(const volatile OutputAction& action) {
     port_register(output_ports[0], 2) = action.first_port;
     port_register(output_ports[1], 2) = action.second_port;
@@ -109,7 +110,7 @@ class Wiring {
     SpindleControl::write(action.control);
   }
 
-  // Switches these outputs off at rest, and tells whether one was on. A spindle that turns at no speed counts as off.
+  // Switches these outputs off at standstill, and returns whether one was on. A spindle at speed 0 counts as off.
   [[gnu::noinline]] static bool switch_off(uint8_t switches) {
     bool was_on = false;
     if ((switches & spindle_on) != 0) {
@@ -142,7 +143,7 @@ class Wiring {
   [[gnu::always_inline]] static bool closed(Pin pin) {
     return pin.exists() && (pins_that_are_on(pin.port) & pin.mask()) != 0;
   }
-  // A one written to PINx toggles the pin: no neighbour changes, even if the interrupt comes between.
+  // A one written to PINx toggles the pin: neighbouring pins stay unchanged, even if the interrupt comes in between.
   [[gnu::always_inline]] static void set(Pin pin, bool high) {
     if (!pin.exists()) return;
     const uint8_t now = port_register(pin.port, 2);
@@ -150,7 +151,7 @@ class Wiring {
   }
 
  private:
-  // Bits of PinSetup's outputs. They are in a register that nobody else uses: the Uno's memory has no byte left.
+  // Bits of PinSetup's outputs. They are in an otherwise unused register, because the Uno's memory has no byte left.
   [[gnu::always_inline]] static bool is_inverted(uint8_t output) {
     return (Twbr::read() & output) != 0;
   }
@@ -173,7 +174,7 @@ class Wiring {
     if (pins.motor[0].enable.exists()) known |= inverted_enable;
     return known;
   }
-  // Sets which inputs are on when they are high. Returns those that there are.
+  // Sets which inputs are active high. Returns those that exist.
   [[gnu::noinline]] static uint16_t set_quiet(uint16_t inputs) {
     constexpr struct {
       Pin pin;

@@ -1,7 +1,7 @@
-// PicoLine: the serial line, by UART0 or by USB: the board answers on the line on which it is spoken to.
+// PicoLine: the serial link, by UART0 or by USB: the board answers on the port on which a host speaks to it.
 //
-// Who speaks first has the line, and keeps it until two seconds have passed without a byte of his. Bytes of the other
-// line are dropped meanwhile, so a second program cannot cut into a running job.
+// The first host to send owns the link, until it has sent nothing for two seconds. Bytes of the other port are dropped
+// meanwhile, so a second program cannot disturb a running job.
 #pragma once
 
 #include "pico_player.hpp"
@@ -10,11 +10,11 @@
 
 namespace passo::chip {
 
-// UART0 holds 32 bytes each way; what is to be sent waits in a ring beside it.
+// UART0 holds 32 bytes each way; a ring holds further bytes to send.
 class UartLine {
  public:
   static constexpr bool exists() { return pins.line_in != no_gpio; }
-  // `clock` is the chip's.
+  // `clock` is the chip's clock in Hz.
   static void open(uint32_t clock, uint32_t baud) {
     const uint32_t divisor = clock * 4 / baud;  // in 64ths of sixteen cycles
     UartIbrd::write(divisor >> 6);
@@ -63,7 +63,7 @@ class PicoLine {
   uint8_t room() const { return by_usb_ ? usb_.room() : uart_.room(); }
   bool can_send() const { return room() >= 63; }
 
-  // Lets a byte of either line wake the sleeping loop.
+  // Enables wake-up of the sleeping loop by a byte from either port.
   static void wake_on_news() {
     if (UartLine::exists()) UartImsc::write(uart_received);
     UsbSerial::wake_on_news();
@@ -76,7 +76,7 @@ class PicoLine {
     const bool other_speaks = by_usb_ ? UartLine::exists() && UartLine::has_byte() : usb_.has_byte();
     if (!other_speaks) return;
     if (taken_ && TimerLow::read() - heard_at_ < silence) {
-      // Dropped.
+      // The bytes of the other port are dropped.
       for (uint32_t i = 0; i < usb_packet && (by_usb_ ? UartLine::has_byte() : usb_.has_byte()); ++i) {
         by_usb_ ? UartLine::take() : usb_.take();
       }
@@ -88,7 +88,7 @@ class PicoLine {
   UartLine uart_;
   UsbSerial usb_;
   bool by_usb_ = !UartLine::exists();
-  bool taken_ = false;  // somebody has spoken
+  bool taken_ = false;  // a host has sent something
   uint32_t heard_at_ = 0;
 };
 

@@ -1,11 +1,11 @@
-// PicoPlayer: does on the RP2040 what Player does on the host. It makes the events of segments ahead of time, as words
+// PicoPlayer: the RP2040's counterpart of the host's Player. It makes the events of segments ahead of time, as words
 // for the StepStream.
 //
 // An event is two words: the step pins rise, and fall again. Before the first event of a segment that reverses a motor,
-// a word of its own sets the direction pins. Events are made until two milliseconds are ahead: all that is in the ring
-// will be played, so a slow motion must not have seconds in it.
+// a separate word sets the direction pins. Events are made up to two milliseconds ahead: everything in the ring is
+// played, so the ring must not hold seconds of a slow motion.
 //
-// Invariant: from the first event after a rest on, it makes the same steps at the same ticks as Player.
+// Invariant: from the first event after a standstill, it makes the same steps at the same ticks as Player.
 #pragma once
 
 #include "step_stream.hpp"
@@ -16,7 +16,7 @@
 
 namespace passo::chip {
 
-// The image is for this board.
+// The board for which the image is built.
 #ifndef PASSO_PICO_PINS
 #error "PASSO_PICO_PINS: a pin map of pico_pins.hpp"
 #endif
@@ -25,7 +25,7 @@ inline constexpr const PicoPins& pins = PASSO_PICO_PINS;
 // The words' bits for each set of motors.
 struct PicoPinTables {
   static constexpr uint32_t all = (1U << pins.motors) - 1;
-  uint32_t steps[all + 1] = {};  // as they lie in a word
+  uint32_t steps[all + 1] = {};  // in the layout of a word
   uint16_t directions[all + 1] = {};
   constexpr PicoPinTables() {
     for (uint32_t set = 0; set <= all; ++set) {
@@ -36,7 +36,7 @@ struct PicoPinTables {
 };
 inline constexpr PicoPinTables pin_tables;
 
-// What put_words.S does: so many events, from `carries` to `end`. It changes fraction and interval.
+// The work of put_words.S: a run of events, from `carries` to `end`. It changes fraction and interval.
 struct WordJob {
   uint32_t change;
   uint32_t offset;
@@ -57,14 +57,14 @@ class PicoPlayer {
 
   explicit PicoPlayer(uint8_t /*motors*/) {}
 
-  // Sets the pulses. Returns what the pins then have. At rest.
+  // Sets the pulse times. Returns the resulting times. Call only at standstill.
   static StepTiming set_timing(const StepTiming& wanted) {
     const uint32_t before_turn = StepStream::ticks_of_word;
     uint32_t pulse = wanted.hold > before_turn ? wanted.hold - before_turn : 0;
     if (pulse < wanted.pulse) pulse = wanted.pulse;
     if (pulse < shortest_pulse) pulse = shortest_pulse;
     longest_pulse_ = wanted.pulse == 0 && pulse < usual_pulse ? usual_pulse : pulse;
-    // A pulse takes half of an interval at most.
+    // A pulse takes at most half of an interval.
     uint32_t ticks = 2 * pulse;
     if (ticks < pulse + before_turn + wanted.set_up) ticks = pulse + before_turn + wanted.set_up;
     const uint32_t set_up = ticks - pulse - before_turn;
@@ -75,7 +75,7 @@ class PicoPlayer {
             .event_ticks = static_cast<uint16_t>(ticks)};
   }
 
-  // Breaks off at once whatever it played.
+  // Interrupts playback at once.
   static void restart(uint8_t motors) {
     StepStream::restart(direction_pins_);
     motors_ = motors;
@@ -100,7 +100,7 @@ class PicoPlayer {
     publish();
     if (rests) {
       rest_ = StepStream::published();
-      fell_ = 0;  // long ago
+      fell_ = 0;  // in the distant past
       fresh_ = true;
     }
     segment_ = segment;
@@ -113,7 +113,7 @@ class PicoPlayer {
     const uint32_t longest = (segment.interval < last ? last : segment.interval) >> 16;
     const uint32_t half = (shortest + 1) / 2;
     pulse_ = half < longest_pulse_ ? half : longest_pulse_;
-    // What is still in the ring may be closer together than the events of this segment.
+    // Events still in the ring may be closer together than the events of this segment.
     const uint32_t before = begun_ == finished_ ? 2 : most_ahead_;
     most_ahead_ = 1;
     for (uint32_t ticks = longest | 1; ticks < ticks_ahead; ticks <<= 1) most_ahead_ <<= 1;
@@ -133,7 +133,7 @@ class PicoPlayer {
     item.flips = segment.flips;
     for (uint32_t m = 0; m < pins.motors; ++m) item.increments[m] = static_cast<uint16_t>(increments_[m] >> 16);
   }
-  // Takes outputs: the board switches them when all motion before them is played.
+  // Accepts outputs: the board switches them when all motion before them is played.
   static void pass(const BoardOutputs& /*outputs*/) {
     Item& item = items_[begun_++ % most_begun];
     item.first = StepStream::pushed() + (pending_ ? 1 : 0);
@@ -155,7 +155,7 @@ class PicoPlayer {
       at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
     }
   }
-  // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
+  // For the oldest item: the events played, and the signed number of steps of a motor in these events.
   static uint8_t played() {
     if (begun_ == finished_) return 0;
     const Item& item = items_[finished_ % most_begun];
@@ -179,7 +179,7 @@ class PicoPlayer {
 
   static bool slipped() { return slipped_; }
 
-  // Whether there is nothing to make for a while: all is played, or as much is made as may be.
+  // Whether no events need to be made for a while: all are played, or as many as allowed are made.
   static bool is_ahead() {
     if (left_ == 0) return begun_ == finished_ && StepStream::dry();
     return (StepStream::pushed() - StepStream::played()) / 2 >= most_ahead_;
@@ -195,14 +195,14 @@ class PicoPlayer {
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
-    // A turn waits with the only event behind it: the pins follow each word as soon as they have it.
+    // A direction change waits until an event follows it: the pins follow each word as soon as it is available.
     const uint32_t last_words = turned_ != 0 && count == 1 ? 2 : 1;
     make(count);
     left_ -= count;
     pending_ = left_ == 0;
     publish(pending_ ? last_words : 0);
   }
-  // Call when the board has given it all that it could take: nothing follows the last event soon, and the motors rest.
+  // Call when the board has passed on all available items: no event follows the last one soon, and the motors stop.
   static void end() {
     if (!pending_ || !ready()) return;
     end_pulse(longest_pulse_);
@@ -211,8 +211,8 @@ class PicoPlayer {
     rest_ = StepStream::published();
   }
 
-  // Waits for the first change of the watched pin. Until watch() is called again, everything that is told of the oldest
-  // item is as it was at that change.
+  // Waits for the first change of the watched pin. Until watch() is called again, all values reported for the oldest
+  // item are those at that change.
   static void watch(bool on) {
     captured_ = false;
     armed_ = on;
@@ -220,7 +220,7 @@ class PicoPlayer {
   static bool captured() { return captured_; }
   static bool watches() { return armed_ || captured_; }
 
-  // The switches' interrupt: the watched pin has changed, or a switch stops the motors. capture() tells whether this is
+  // Handles the switches' interrupt: the watched pin has changed, or a switch stops the motors. Returns whether this is
   // the first change.
   [[gnu::always_inline]] static bool capture() {
     if (!armed_) return false;
@@ -239,10 +239,10 @@ class PicoPlayer {
   static constexpr uint32_t most_begun = 32;
   static constexpr uint32_t most_at_once = 128;
   static constexpr uint32_t ticks_ahead = 32'768;
-  static constexpr uint32_t first_words = 16;  // two an event
+  static constexpr uint32_t first_words = 16;  // two per event
   static constexpr uint32_t most_events_ahead = 2'048;
 
-  // An item that was begun and is not finished.
+  // An item begun and not finished.
   struct Item {
     uint32_t first;  // the number of its first event's first word
     uint8_t events;
@@ -256,8 +256,8 @@ class PicoPlayer {
     return captured_ ? captured_at_ : played;
   }
 
-  // A motion begins when the ring holds some events, or all that there is room for: its first segments may have one
-  // event each, and these may be closer together than the loop can make them.
+  // A motion begins when the ring holds some events, or is full: its first segments may have one event each, closer
+  // together than the loop can make them.
   static void publish(uint32_t kept_back = 0) {
     if (fresh_ && StepStream::pushed() - rest_ < first_words) return;
     fresh_ = false;
@@ -269,13 +269,13 @@ class PicoPlayer {
     StepStream::publish();
   }
 
-  // All that was published is played, and more belongs to the same motion: it comes too late.
+  // Detects a late event: all published words are played, and the same motion has more events.
   static void check_slip(uint32_t played) {
     if (played == StepStream::published() && played != rest_) slipped_ = true;
   }
 
-  // The pins fall after the last event of a segment. How soon they must depends on the next one. Until then the event
-  // itself is kept back.
+  // Adds the falling edge after the last event of a segment. Its latest time depends on the next segment. Until then
+  // the event itself is held back.
   static void end_pulse(uint32_t most) {
     check_slip(StepStream::played());
     fell_ = most < longest_pulse_ ? most : longest_pulse_;
@@ -283,21 +283,21 @@ class PicoPlayer {
     pending_ = false;
   }
 
-  // All carries first, then the words: a million events a second leave 128 cycles for each.
+  // First makes all carries, then the words: a million events a second leave 128 cycles for each.
   [[gnu::noinline]] static void make(uint32_t count) {
     for (uint32_t i = 0; i < count; i += 4) carries_[i / 4] = 0;
-    // The last motors first: each carry goes in at the lowest bit.
+    // Starts with the last motors, because each carry is shifted in at the lowest bit.
     for (uint32_t pair = (motors_ + 1U) / 2; pair-- > 0;) carry(2 * pair, count);
     const uint8_t* carries = reinterpret_cast<const uint8_t*>(carries_);
     const uint32_t directions = static_cast<uint32_t>(direction_pins_) << 16;
     const uint32_t fall = StepStream::word(pulse_, direction_pins_);
-    // The pins fell so many ticks after the event before, and a turn took its ticks.
+    // The pins fell this many ticks after the event before, and a direction change took its ticks.
     uint32_t gone = fell_ + turned_;
-    // A new motion may begin sooner than the long pulse at the end of the one before allows. Then it begins later.
+    // A new motion may be due before the long pulse at the end of the previous one is over. Then it begins later.
     const uint32_t first = (segment_.interval >> 16) + (((segment_.interval & 0xffff) + fraction_) >> 16);
     if (gone + StepStream::ticks_of_word > first) gone = first - StepStream::ticks_of_word;
     for (uint32_t done = 0; done < count;) {
-      // A run ends where the ring does. The first event is a run of its own.
+      // A run ends at the ring's end. The first event is a run of its own.
       uint32_t run = done == 0 ? 1 : count - done;
       uint32_t* const to = StepStream::space(run);
       WordJob job{.change = static_cast<uint32_t>(segment_.change),
@@ -343,32 +343,32 @@ class PicoPlayer {
     accumulators_[motor + 1] = second;
   }
 
-  // Ticks. At a million events a second pulses take half of the interval.
+  // In ticks. At a million events a second pulses take half of the interval.
   static constexpr uint32_t shortest_pulse = 8;
-  static constexpr uint32_t usual_pulse = 32;  // without a host that says what it needs: enough for most drivers
+  static constexpr uint32_t usual_pulse = 32;  // until a host sets its own times; long enough for most drivers
   static inline uint32_t longest_pulse_ = usual_pulse;
 
   static inline Segment segment_;
   static inline uint32_t left_ = 0;  // events of the loaded segment that are not made yet
   static inline uint8_t motors_ = 0;
-  // In the upper half, so that the carry is the processor's. One more, so that they are pairs.
+  // In the upper half, so that the overflow sets the processor's carry flag. One more entry, so that they form pairs.
   static inline uint32_t accumulators_[pins.motors + 1] = {};
   static inline uint32_t increments_[pins.motors + 1] = {};
   static inline uint32_t carries_[most_at_once / 4] = {};  // bytes, of the events that are being made
   static inline uint32_t fraction_ = 0x8000;
   static inline uint32_t pulse_ = 0;
-  static inline uint32_t fell_ = 0;    // how many ticks after the last event the pins fell
-  static inline uint32_t turned_ = 0;  // ticks of the word that set the directions since
+  static inline uint32_t fell_ = 0;    // ticks from the last event to the falling edge
+  static inline uint32_t turned_ = 0;  // ticks of the word that set the directions since then
   static inline uint32_t most_ahead_ = 0;
   static inline bool pending_ = false;  // the last event's pulse has no end yet
-  static inline bool fresh_ = false;    // the motors rest before the events that were made last
+  static inline bool fresh_ = false;    // the motors are stopped before the newest events
   static inline uint16_t direction_pins_ = 0;
-  static inline uint32_t rest_ = 0;  // words that were published when the motors last stood
+  static inline uint32_t rest_ = 0;  // words published when the motors last stopped
   static inline bool slipped_ = false;
   static inline Item items_[most_begun];
-  static inline uint32_t begun_ = 0;  // items ever begun
+  static inline uint32_t begun_ = 0;  // total number of items begun
   static inline uint32_t finished_ = 0;
-  static inline bool whole_ = false;                   // the oldest item is done, and not forgotten yet
+  static inline bool whole_ = false;                   // the oldest item is done, and not dropped yet
   static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
   static inline volatile bool armed_ = false;
   static inline volatile bool captured_ = false;

@@ -9,7 +9,7 @@
 
 namespace passo::chip {
 
-// Which pin is which input.
+// The pin of an input.
 struct PicoInput {
   uint8_t gpio;
   uint16_t which;
@@ -32,7 +32,7 @@ class PicoWiring {
       if ((pins.switched() & bit) != 0) gpio_ctrl(gpio) = function_sio;
     }
     if (pins.line_in != no_gpio) {
-      // A line that is not connected must not look like one that says something.
+      // An unconnected receive pin must not look like one that receives data.
       gpio_pad(pins.line_in) = pad_input | pad_4_ma | pad_pull_up | pad_schmitt;
       gpio_ctrl(pins.line_out) = function_uart;
       gpio_ctrl(pins.line_in) = function_uart;
@@ -48,10 +48,11 @@ class PicoWiring {
     SpindleCounter::prepare();
   }
 
-  // Sets the levels of the pins as a host says, as far as there are such pins. Returns what was set. Only at rest.
+  // Sets the pin levels that a host specifies, for the pins that exist. Returns the levels set. Call only at
+  // standstill.
   //
-  // The chip itself inverts an output, between its function and its pad. So nothing else knows of it: neither the state
-  // machine nor the PWM nor what is read back.
+  // The chip itself inverts an output, between its peripheral and its pad. So the inversion is invisible to the state
+  // machine, the PWM and any value read back.
   static PinSetup set_up(const PinSetup& wanted) {
     PinSetup done;
     on_when_high_ = 0;
@@ -87,7 +88,7 @@ class PicoWiring {
   static uint8_t drivers_rest() { return drivers_rest_; }
   // Microseconds for which a switch must stay in its new state.
   static uint8_t filter() { return filter_; }
-  // Inputs that are alarms of drives.
+  // Inputs that are drive alarms.
   static uint16_t alarms() { return alarms_; }
   static uint8_t microseconds() { return TimerLow::read() & 0x7f; }
   static void breathe() {}
@@ -107,7 +108,7 @@ class PicoWiring {
     const bool turns = (outputs.switches & spindle_on) != 0;
     set_duty(turns ? static_cast<uint32_t>(outputs.spindle_rpm) * (256 * 65536 / full_rpm + 1) >> 16 : 0);
   }
-  // Switches these outputs off at rest, and tells whether one was on.
+  // Switches these outputs off at standstill, and returns whether one was on.
   static bool switch_off(uint8_t switches) {
     bool was_on = false;
     if ((switches & spindle_on) != 0) {
@@ -120,12 +121,12 @@ class PicoWiring {
   }
   // Bits of BoardInput, set where a switch is on.
   static uint16_t inputs() { return inputs_of(pins_that_are_on()); }
-  // Those that were on when the interrupt captured.
+  // Returns the inputs that were on when the interrupt captured.
   static uint16_t captured_inputs() { return inputs_of(captured_); }
 
-  // From now on the interrupt is told of the pins in `stopping` when they go on, and of those in `watched` when they
-  // leave the state `closed`, which means that any of them is on. Both are bits of BoardInput. While an axis is homed,
-  // other axes may still be on their switches: those that are on do not count.
+  // From now on the interrupt reacts to the pins in `stopping` when they become triggered, and to those in `watched`
+  // when they leave the state `closed` (true: at least one is triggered). Both are bits of BoardInput. While an axis is
+  // homed, other axes may still be on their switches: those already triggered are ignored.
   static void watch(uint16_t stopping, uint16_t watched, bool closed) {
     if ((watched & input_probe) == 0) stopping &= static_cast<uint16_t>(~(inputs() & all_limits));
     interrupts_off();
@@ -136,12 +137,12 @@ class PicoWiring {
     SpindleCounter::listen();
     interrupts_on();
   }
-  // The inputs that stop, as bits of BoardInput.
+  // Returns the inputs that stop the motors, as bits of BoardInput.
   static uint16_t stopping() { return inputs_of(stops_); }
-  // The interrupt of the pins.
+  // Handles the pin interrupt.
   [[gnu::always_inline]] static void switch_moved() {
     const uint32_t on = pins_that_are_on();
-    // With a filter the loop finds out whether the switch stays on.
+    // With a filter, the main loop checks whether the switch stays triggered.
     if ((on & stops_) != 0 && filter_ == 0 && !StepStream::dry()) PicoPlayer::halt();
     if (watched_ != 0 && ((on & watched_) != 0) != was_closed_ && PicoPlayer::capture()) captured_ = on;
     SpindleCounter::index_moved();
@@ -206,7 +207,7 @@ class PicoWiring {
   static inline volatile uint32_t watched_ = 0;
   static inline volatile bool was_closed_ = false;
   static inline volatile uint32_t captured_ = 0;      // the pins that were on at a capture
-  static inline volatile uint32_t on_when_high_ = 0;  // inputs whose switches are on when they are high
+  static inline volatile uint32_t on_when_high_ = 0;  // active-high inputs
   static inline uint8_t inverted_outputs_ = 0;        // bits of PinSetup's outputs
   static inline uint8_t drivers_rest_ = 0;
   static inline volatile uint8_t filter_ = 0;

@@ -1,5 +1,5 @@
-// The registers of the RP2040 that the firmware uses. Source: RP2040 datasheet, Raspberry Pi Ltd; the names are its
-// own.
+// The registers of the RP2040 that the firmware uses. Source: RP2040 datasheet, Raspberry Pi Ltd, which defines the
+// names.
 #pragma once
 
 #include <stdint.h>
@@ -11,7 +11,7 @@ struct Register {
   static constexpr uint32_t where = address;
   [[gnu::always_inline]] static uint32_t read() { return *reinterpret_cast<volatile uint32_t*>(address); }
   [[gnu::always_inline]] static void write(uint32_t value) { *reinterpret_cast<volatile uint32_t*>(address) = value; }
-  // Peripherals have aliases of each register that set or clear the ones written (2.1.2).
+  // Peripheral registers have aliases that set or clear the bits written (2.1.2).
   [[gnu::always_inline]] static void set(uint32_t bits) {
     *reinterpret_cast<volatile uint32_t*>(address + 0x2000) = bits;
   }
@@ -63,7 +63,7 @@ using WatchdogReason = Register<0x40058008>;
 using WatchdogTick = Register<0x4005802c>;
 using TimerLow = Register<0x40054028>;
 
-// 2.19 GPIO: a function for each pin, the pad's pull-ups, interrupts of edges (four bits a pin), 2.3.1.7 SIO
+// 2.19 GPIO: a function for each pin, the pad's pull-ups, edge interrupts (four bits per pin), 2.3.1.7 SIO
 inline volatile uint32_t& gpio_ctrl(uint32_t gpio) {
   return *reinterpret_cast<volatile uint32_t*>(0x40014004 + 8 * gpio);
 }
@@ -82,7 +82,7 @@ constexpr uint32_t edge_bits(uint32_t gpio, uint32_t edges) {
   return edges << 4 * (gpio % 8);
 }
 enum GpioFunction : uint32_t { function_uart = 2, function_pwm = 4, function_sio = 5, function_pio0 = 6 };
-// In a pin's control: the pad has the opposite of what its function puts out (OUTOVER).
+// In a pin's control register: the pad outputs the inverse of the peripheral's signal (OUTOVER).
 inline constexpr uint32_t output_inverted = 1U << 8;
 inline constexpr uint32_t pad_pull_up = 1U << 3;
 inline constexpr uint32_t pad_input = 1U << 6;
@@ -125,23 +125,23 @@ using UartFbrd = Register<0x40034028>;
 using UartLcr = Register<0x4003402c>;
 using UartCr = Register<0x40034030>;
 using UartImsc = Register<0x40034038>;
-inline constexpr uint32_t uart_received = 1U << 4 | 1U << 6;  // some bytes, or one that nothing followed
+inline constexpr uint32_t uart_received = 1U << 4 | 1U << 6;  // enough bytes, or a receive timeout
 inline constexpr uint32_t uart_nothing_received = 1U << 4;
 inline constexpr uint32_t uart_full = 1U << 5;
 
-// 4.5 PWM: five registers a slice
+// 4.5 PWM: five registers per slice
 inline volatile uint32_t& pwm(uint32_t slice, uint32_t which) {
   return *reinterpret_cast<volatile uint32_t*>(0x40050000 + 0x14 * slice + 4 * which);
 }
 enum PwmRegister : uint32_t { pwm_csr, pwm_div, pwm_ctr, pwm_cc, pwm_top };
 
-// 4.1 USB device: its registers, and four kilobytes of memory that it shares with the processor: the last setup packet,
-// two words for each endpoint's directions, and the buffers (4.1.3.1).
+// 4.1 USB device: its registers, and four kilobytes of memory that it shares with the processor. They hold the last
+// setup packet, two words for each endpoint's directions, and the buffers (4.1.3.1).
 using UsbAddress = Register<0x50110000>;
 using UsbMain = Register<0x50110040>;
 using UsbSieControl = Register<0x5011004c>;
 using UsbSieStatus = Register<0x50110050>;
-using UsbBuffers = Register<0x50110058>;  // a bit for each endpoint and direction: the buffer is the processor's again
+using UsbBuffers = Register<0x50110058>;  // one bit per endpoint and direction: the processor owns the buffer again
 using UsbStallArm = Register<0x50110068>;
 using UsbMuxing = Register<0x50110074>;
 using UsbPower = Register<0x50110078>;

@@ -1,5 +1,5 @@
-// SpindleCounter: an encoder at the spindle, counted by a slice of the PWM. Pulses cost the program nothing, however
-// many come. The index is an interrupt, which notes the count a fraction of a microsecond after the edge.
+// SpindleCounter: a spindle encoder, counted by a PWM slice. Pulses take no processor time, at any rate. The index
+// triggers an interrupt, which stores the count a fraction of a microsecond after the edge.
 #pragma once
 
 #include "pico_player.hpp"
@@ -25,14 +25,14 @@ class SpindleCounter {
     if (exists()) gpio_interrupts(pins.encoder_index) = gpio_interrupts(pins.encoder_index) | falls;
   }
 
-  // Must be called before 65,536 pulses have passed.
+  // Call before 65,536 pulses have passed.
   static void poll() {
     if (!exists()) return;
     interrupts_off();
     count_pulses();
     interrupts_on();
   }
-  // The interrupt of the pins.
+  // Handles the pin interrupt.
   [[gnu::always_inline]] static void index_moved() {
     if (!exists() || (gpio_edges(pins.encoder_index) & falls) == 0) return;
     count_pulses();
@@ -43,7 +43,7 @@ class SpindleCounter {
   static SpindleCount count() {
     interrupts_off();
     count_pulses();
-    // The board's clock ticks 16 times in a microsecond.
+    // The board's clock ticks 16 times per microsecond.
     const SpindleCount now = {
         .count = count_, .tick = TimerLow::read() * 16, .at_index = at_index_, .indexes = indexes_};
     interrupts_on();

@@ -1,5 +1,5 @@
-// StepStream: puts the step and direction pins into the states of a list, each at its very tick, whatever the processor
-// does meanwhile. A state machine of the PIO plays the list; the DMA brings it word after word.
+// StepStream: sets the step and direction pins to the states of a list, each at its exact tick, independent of the
+// processor. A state machine of the PIO plays the list; the DMA transfers it word by word.
 //
 //   word    delay (16 bits) | pins (16 bits): the pins are set delay + 4 ticks after those of the word before
 //
@@ -8,8 +8,8 @@
 //   jmp x--         counts it down                                delay + 1
 //   out pins, 16    all motors' pins change at the same moment    1
 //
-// The words lie in a ring. Main loop: push() and publish(). The DMA's interrupt hands the DMA what was published since.
-// One tick is eight cycles of the chip.
+// The words lie in a ring. The main loop calls push() and publish(). The DMA's interrupt passes newly published words
+// to the DMA. One tick is eight cycles of the chip.
 #pragma once
 
 #include "registers.hpp"
@@ -18,11 +18,11 @@ namespace passo::chip {
 
 class StepStream {
  public:
-  static constexpr uint32_t words = 8192;  // 32 KiB, the largest ring that the DMA knows
+  static constexpr uint32_t words = 8192;  // 32 KiB, the largest ring that the DMA supports
   static constexpr uint32_t ticks_of_word = 4;
   static constexpr uint32_t cycles_of_tick = 8;
 
-  // `first`: the GPIO of bit 0. `pins`: those of them that it drives.
+  // `first`: the GPIO of bit 0. `pins`: the driven pins, relative to `first`.
   static void prepare(uint32_t first, uint32_t pins) {
     pio_program(0) = 0x80a0;
     pio_program(1) = 0x6030;
@@ -40,7 +40,7 @@ class StepStream {
     restart();
   }
 
-  // Drops everything that was not played, and begins anew with these pins.
+  // Drops everything that was not played, and restarts with these pin levels.
   static void restart(uint16_t pins = 0) {
     interrupts_off();
     halt();
@@ -62,10 +62,10 @@ class StepStream {
     PioCtrl::write(1);
     interrupts_on();
   }
-  // Stops at once: no pin changes any more, until restart().
+  // Stops at once: the pins do not change until restart().
   [[gnu::always_inline]] static void halt() { PioCtrl::write(0); }
 
-  // Words ever pushed, and how many of them are out at the pins.
+  // Returns the number of words ever pushed, and the number already output at the pins.
   static uint32_t pushed() { return head_; }
   static uint32_t played() {
     while (true) {
@@ -73,7 +73,7 @@ class StepStream {
       const uint32_t place = PioAddr::read();
       const uint32_t level = PioFlevel::read() & 15;
       const uint32_t handed = handed_;
-      // None of the three changed meanwhile.
+      // None of the three values changed between the two readings.
       if (place != PioAddr::read() || level != (PioFlevel::read() & 15) || address != DmaReadAddr::read()) continue;
       const uint32_t read = (address - reinterpret_cast<uint32_t>(ring_)) / 4;
       const uint32_t taken = handed - ((handed - read) & (words - 1));
@@ -83,14 +83,14 @@ class StepStream {
   static bool dry() { return played() == head_; }
   static uint32_t room() { return words - 1 - (head_ - played()); }
 
-  // `ticks`: since the word before, four at least.
+  // `ticks`: ticks since the word before, at least four.
   static constexpr uint32_t word(uint32_t ticks, uint32_t pins) { return (ticks - ticks_of_word) | pins << 16; }
   [[gnu::always_inline]] static void push(uint32_t ticks, uint32_t pins) {
     ring_[head_ & (words - 1)] = word(ticks, pins);
     head_ = head_ + 1;
   }
-  // To push many words at once: where they go, two for each of `pairs`, of which fewer may fit before the ring ends.
-  // They count as pushed when they are kept.
+  // For pushing many words at once: returns the address for up to `pairs` pairs of words, fewer if the ring ends
+  // before. Call keep() afterwards to push the words.
   static uint32_t* space(uint32_t& pairs) {
     const uint32_t place = head_ & (words - 1);
     const uint32_t fit = (words - place) / 2;
@@ -105,7 +105,7 @@ class StepStream {
     head_ = head_ + 2 * pairs;
   }
   static void drop() { head_ = head_ - 1; }
-  // Words that the pins will follow: all that were pushed, except for the last `kept_back` ones.
+  // Publishes the words that the pins will follow: all words pushed, except for the last `kept_back` ones.
   static uint32_t published() { return published_; }
   static void publish(uint32_t kept_back = 0) {
     interrupts_off();
@@ -113,7 +113,7 @@ class StepStream {
     if ((DmaCtrl::read() & dma_busy) == 0) hand_over();
     interrupts_on();
   }
-  // The DMA's interrupt.
+  // Handles the DMA's interrupt.
   [[gnu::always_inline]] static void refill_done() {
     DmaInts0::write(1);
     if ((DmaCtrl::read() & dma_busy) == 0) hand_over();
@@ -121,8 +121,8 @@ class StepStream {
 
  private:
   static constexpr uint32_t dma_busy = 1U << 24;
-  // Enabled, first in line, 32 bits, reads on within the ring, when the state machine has room (DREQ_PIO0_TX0), chained
-  // to itself: to nothing.
+  // Enabled, high priority, 32 bits, read address incremented and wrapped within the ring, paced by the state machine
+  // (DREQ_PIO0_TX0), chained to itself, that is, not chained.
   static constexpr uint32_t dma_settings = 1U << 0 | 1U << 1 | 2U << 2 | 1U << 4 | 15U << 6 | 0U << 11 | 0U << 15;
   static constexpr uint32_t restart_machine = 1U << 4;
   static constexpr uint32_t pull_if_any = 0x8080;
@@ -139,7 +139,7 @@ class StepStream {
     PioInstr::write(0x6070);  // out null, 16
     PioInstr::write(0x6010);
   }
-  // Makes one pin of the window an output, or not: set pindirs, 1.
+  // Makes one pin of the window an output or an input: set pindirs, 1.
   static void execute_direction(uint32_t first, uint32_t bit, bool output) {
     if (!output) return;
     PioPinctrl::write(1U << 26 | (first + bit) << 5);
@@ -147,7 +147,7 @@ class StepStream {
   }
 
   [[gnu::section(".bss.ring")]] static inline uint32_t ring_[words];
-  static inline uint32_t across_[2];  // a pair of which one word is the ring's last
+  static inline uint32_t across_[2];  // a pair whose first word is the ring's last
   static inline volatile uint32_t head_ = 0;
   static inline volatile uint32_t published_ = 0;
   static inline volatile uint32_t handed_ = 0;

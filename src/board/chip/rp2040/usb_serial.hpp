@@ -1,11 +1,12 @@
-// UsbSerial: a serial line over the chip's own USB socket, without a library: the device's side of USB 2.0 at full
-// speed, as far as a serial line (CDC ACM) needs it.
+// UsbSerial: a serial port over the chip's own USB connector, without a library: the device side of USB 2.0 at full
+// speed, as far as a serial port (CDC ACM) needs it.
 //
-// Everything is done in poll(), which the main loop calls; the interrupt only wakes it. A host waits milliseconds for
-// an answer, and a turn of the loop takes microseconds. Each direction has one buffer in the controller's memory: it is
-// read where it lies, and given back when it is empty. Meanwhile the host is told to wait, and loses nothing.
+// All work is done in poll(), which the main loop calls; the interrupt only wakes the loop. A host waits milliseconds
+// for an answer, and a pass of the loop takes microseconds. Each direction has one buffer in the controller's memory:
+// it is read in place, and given back when it is empty. Until then the controller makes the host wait (NAK), and no
+// data is lost.
 //
-// Invariant: a buffer is either the controller's or the program's.
+// Invariant: a buffer belongs either to the controller or to the program.
 #pragma once
 
 #include "registers.hpp"
@@ -18,8 +19,8 @@ class UsbSerial {
   // The controller must be out of reset, and its clock at 48 MHz.
   static void open() {
     for (uint32_t at = 0; at < usb_memory_size; at += 4) usb_word(at) = 0;
-    UsbMuxing::write(1U << 3 | 1U << 0);  // to the pins
-    UsbPower::write(1U << 3 | 1U << 2);   // as if the bus had power: this pin is not wired
+    UsbMuxing::write(1U << 3 | 1U << 0);  // connects the controller to the pins
+    UsbPower::write(1U << 3 | 1U << 2);   // as if the bus had power: the VBUS pin is not connected
     UsbMain::write(1);
     UsbSieControl::write(usb_interrupt_per_buffer | usb_pull_up);
     UsbInterrupts::write(1U << 16 | 1U << 12 | 1U << 4);  // setup, reset, buffers
@@ -39,7 +40,7 @@ class UsbSerial {
     if ((status & usb_setup_received) != 0) handle_setup();
     send_packet();
   }
-  // Lets the interrupt wake the loop.
+  // Enables wake-up of the loop by the interrupt.
   static void wake_on_news() { NvicEnable::write(1U << irq_usb); }
   static bool has_news() {
     return UsbBuffers::read() != 0 || (UsbSieStatus::read() & (usb_bus_reset | usb_setup_received)) != 0;
@@ -53,7 +54,7 @@ class UsbSerial {
     return byte;
   }
 
-  // What nobody fetches is dropped: a cable may be pulled.
+  // Bytes that the host does not fetch are dropped, because the cable may be unplugged.
   void send(uint8_t byte) {
     if (room() == 0) return;
     ring_[head_++ & ring_mask] = byte;
@@ -61,18 +62,18 @@ class UsbSerial {
   uint8_t room() const { return static_cast<uint8_t>(ring_mask - static_cast<uint8_t>(head_ - tail_)); }
 
  private:
-  // In the controller's memory.
+  // Addresses in the controller's memory.
   static constexpr uint32_t control_buffer = 0x100;
   static constexpr uint32_t notices_buffer = 0x180;
   static constexpr uint32_t out_buffer = 0x1c0;
   static constexpr uint32_t in_buffer = 0x200;
-  // Bits of a buffer's word.
+  // Bits of a buffer control word.
   static constexpr uint32_t full = 1U << 15;
   static constexpr uint32_t second = 1U << 13;  // DATA1
   static constexpr uint32_t stall = 1U << 11;
   static constexpr uint32_t available = 1U << 10;
   static constexpr uint32_t length_mask = 0x3ff;
-  // A packet that is full would say that more follows, and the host would wait for it.
+  // A full packet would announce another one, and the host would wait for it.
   static constexpr uint32_t most_sent = usb_packet - 1;
   static constexpr uint8_t ring_mask = 255;
   static constexpr uint32_t line_coding_size = 7;
@@ -95,7 +96,7 @@ class UsbSerial {
   static constexpr uint32_t word_of(uint32_t endpoint, bool in) { return 0x80 + 8 * endpoint + (in ? 0 : 4); }
   static constexpr uint32_t control_of(uint32_t endpoint, bool in) { return 8 * endpoint + (in ? 0 : 4); }
 
-  // The controller runs at another clock: it must see the word before it sees that the buffer is its own (4.1.2.5.1).
+  // The controller runs at another clock: it must see the word before it sees that it owns the buffer (4.1.2.5.1).
   static void arm(uint32_t endpoint, bool in, uint32_t word) {
     usb_word(word_of(endpoint, in)) = word;
     asm volatile("nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop\n nop");
@@ -146,10 +147,10 @@ class UsbSerial {
     sending_ = true;
   }
 
-  // Endpoint 0: a setup packet, data one way or none, and an empty packet the other way.
+  // Endpoint 0: a setup packet, data in one direction or none, and an empty packet in the other direction.
   void handle_setup() {
     UsbSieStatus::write(usb_setup_received);
-    // Whatever an earlier request left is void.
+    // Discards everything left by an earlier request.
     usb_word(word_of(0, true)) = 0;
     usb_word(word_of(0, false)) = 0;
     left_ = 0;
@@ -170,7 +171,7 @@ class UsbSerial {
       case Request::get_status: return answer(zeros, 2);
       case Request::clear_feature:
         if ((setup_type_ & 0x1f) != 2) return refuse();
-        // The host begins to count packets anew.
+        // The host restarts its packet numbering.
         if (index_ == (usb_in | usb_data)) in_pid_ = 0;
         if (index_ == usb_data && !has_byte()) {
           out_pid_ = 0;
@@ -200,13 +201,13 @@ class UsbSerial {
       default: refuse();
     }
   }
-  // The rate means nothing here, but hosts want to read what they wrote.
+  // The baud rate has no effect here, but hosts want to read back the value that they wrote.
   void of_the_line() {
     switch (request_) {
       case Request::set_line_coding: return arm(0, false, second | usb_packet);
       case Request::get_line_coding: return answer(line_coding_, line_coding_size);
       case Request::set_line_state:
-        tail_ = head_;  // whoever opens the line wants nothing that was said to somebody else
+        tail_ = head_;  // a host that opens the port must not receive bytes meant for another host
         return acknowledge();
       default: refuse();
     }
@@ -248,12 +249,12 @@ class UsbSerial {
   uint8_t head_ = 0;
   uint8_t tail_ = 0;
   bool configured_ = false;
-  bool sending_ = false;  // the buffer to the host is the controller's
+  bool sending_ = false;  // the controller owns the buffer to the host
   uint32_t out_pid_ = 0;
   uint32_t in_pid_ = 0;
   uint32_t received_ = 0;  // bytes in the buffer from the host
-  uint32_t read_ = 0;      // how many of them are taken
-  // Of the request at hand.
+  uint32_t read_ = 0;      // bytes of it already read
+  // State of the current request.
   uint8_t setup_type_ = 0;
   Request request_ = {};
   uint16_t value_ = 0;

@@ -1,4 +1,4 @@
-// A board with four places, and a log instead of motors.
+// A test bench: a board with four queue places, and a log instead of motors.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ class RandomMessages {
   explicit RandomMessages(std::uint64_t seed) : random_(seed) {}
 
   unsigned below(unsigned limit) { return std::uniform_int_distribution<unsigned>(0, limit - 1)(random_); }
-  // Sync bytes, and the distances that replace them, come far more often than by chance.
+  // Makes sync bytes, and the distances that replace them, far more frequent than by chance.
   std::uint8_t byte() {
     switch (below(4)) {
       case 0: return sync_byte;
@@ -92,7 +92,7 @@ class RandomMessages {
     return about;
   }
 
-  // A frame of any kind.
+  // Returns a frame of a random type.
   Bytes frame(std::uint8_t motors) {
     std::array<std::uint8_t, largest_frame> frame{};
     std::uint8_t size = 0;

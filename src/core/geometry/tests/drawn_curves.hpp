@@ -1,6 +1,6 @@
 // Random curves of every kind, each with an oracle. The oracle is the same curve from the textbook's formula in long
-// double, and shares no code with what it checks: Bernstein's and Cox's sums instead of de Boor's pyramid, polar forms
-// instead of Curve's.
+// double, and shares no code with the code under test: Bernstein's and Cox's sums instead of de Boor's pyramid, polar
+// forms instead of Curve's.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ inline Real apart(const Place& a, const Place& b) {
   const Place d = minus(a, b);
   return std::sqrt(inner(d, d));
 }
-// Distance from the straight piece from a to b.
+// Returns the distance from the line segment from a to b.
 inline Real distance(const Place& p, const Place& a, const Place& b) {
   const Place way = minus(b, a);
   const Real square = inner(way, way);
@@ -58,7 +58,7 @@ inline Real bernstein(int n, int i, Real u) {
   return binomial * std::pow(u, Real(i)) * std::pow(1 - u, Real(n - i));
 }
 
-// The basis function by Cox's recursion. The last span includes its right end.
+// Returns the basis function by Cox's recursion. The last span includes its right end.
 inline Real basis(const std::vector<double>& knots, std::size_t i, int degree, Real u, Real last) {
   if (degree == 0) {
     const bool inside = u >= knots[i] && (u < knots[i + 1] || (u == last && knots[i + 1] == last));
@@ -136,7 +136,7 @@ class CurveDrawer {
     const Real sweep = (whole(0, 1) == 0 ? 1 : -1) * (helix ? between(0.1, 80) : between(0.01, 6.28));
     const double c1 = between(-100, 100);
     const double c2 = between(-100, 100);
-    // Programs round their numbers, so the ends lie on slightly different circles.
+    // CAM programs round their numbers, so the ends lie on slightly different circles.
     const Real grown = r * (1 + (whole(0, 1) == 0 ? 0 : 0.001 * between(-1, 1)));
     Point start;
     Point end;
@@ -177,7 +177,7 @@ class CurveDrawer {
     return {"ellipse", *Ellipse::flat(centre, Mm(a), Mm(b), {turned}, {start}, {sweep}), oracle};
   }
 
-  // y = x² / 4f in its own frame.
+  // y = x² / 4f in the parabola's own coordinate system.
   DrawnCurve drawn_parabola() {
     const Vector3 vertex = place(100);
     const double turned = between(-3, 3);
@@ -204,7 +204,7 @@ class CurveDrawer {
   DrawnCurve cubic() {
     const double size = std::exp(between(-1, 5));
     std::array<Vector3, 4> control = {place(size), place(size), place(size), place(size)};
-    if (whole(0, 2) == 0) {  // in one plane, where inflections and loops occur
+    if (whole(0, 2) == 0) {  // planar, where inflections and loops occur
       for (Vector3& point : control) point.z = 0;
     }
     return {"cubic", *CubicBezier::create(control), bezier_oracle<3>(control)};
@@ -223,7 +223,7 @@ class CurveDrawer {
     if (whole(0, 1) == 0) {
       const auto p = static_cast<std::size_t>(spline.degree);
       const auto n = static_cast<std::size_t>(count);
-      // Uneven knots, with double ones, and ends that are not clamped.
+      // Non-uniform knots, with double knots, and unclamped ends.
       double knot = between(-5, 5);
       const bool clamped = whole(0, 1) == 0;
       for (std::size_t i = 0; i < spline.knots.size(); ++i) {

@@ -1,4 +1,4 @@
-// A sound machine file as text, and functions that spoil it.
+// A valid machine file as text, and functions that make it invalid.
 #pragma once
 
 #include <string>
@@ -37,7 +37,7 @@ max_acceleration_deg_s2 = 300
 inverted = true
 )";
 
-// The text with the first `from` replaced. A missing `from` is a mistake of the test.
+// Returns the text with the first `from` replaced. A missing `from` is an error in the test.
 inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
   const std::size_t place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from;

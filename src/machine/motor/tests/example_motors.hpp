@@ -1,4 +1,4 @@
-// Motors for the tests: one of each size from typical data sheets, and random ones.
+// Motors for the tests: one of each size with typical data sheet values, and random ones.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,8 @@ inline MotorData large_motor() {
           .inductance = {3.6e-3}};
 }
 
-// A motor on the test bench: with a drive of 24 V, a load as heavy as the rotor, and that share of critical damping.
+// Returns a motor on the test bench: with a 24 V drive, a load inertia equal to the rotor's, and that fraction of
+// critical damping.
 inline MotorSetup on_the_bench(const MotorData& motor, const std::string& excitation, double damping,
                                Regulation regulation = Regulation::chopper) {
   MotorSetup setup{.motor = motor,
@@ -36,7 +37,7 @@ struct Driven {
   MotorDrive drive;
 };
 
-// Values that a motor may have, each over a decade or more, evenly in the logarithm.
+// Returns random plausible values, each over a decade or more, with a uniform distribution of the logarithm.
 inline Driven random_motor(std::mt19937_64& random) {
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));

@@ -1,4 +1,4 @@
-// PathTest: operations in, segments and diagnostics out.
+// PathTest: converts operations into segments and diagnostics.
 #pragma once
 
 #include <string>
@@ -48,7 +48,7 @@ class PathTest : public testing::Test {
     }
     return found;
   }
-  // With its corners rounded, as a job does.
+  // Returns the segments with rounded corners, as in a job.
   std::vector<Segment> smoothed_segments() {
     test::ListSource<PathItem> source(build());
     PathSmoother smoother(source);

@@ -1,4 +1,4 @@
-// Random paths for the smoother's tests, and an oracle of how far a smoothed path leaves the programmed one.
+// Random paths for the smoother's tests, and an oracle for the deviation of a smoothed path from the programmed one.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ inline double apart(const Point& a, const Point& b) {
   return euclid(a - b);
 }
 
-// A path by its length. The places are found by bisection in a table. Nothing is shared with the smoother.
+// A path, parametrised by its length. Points are found by bisection in a table, independent of the smoother.
 class ByLength {
  public:
   explicit ByLength(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -54,7 +54,7 @@ class ByLength {
     return segments_[i].curve.at(Mm(s - (i > 0 ? ends_[i - 1] : 0)));
   }
   double end_of(std::size_t i) const { return ends_[i]; }
-  // Where a line of the program and the lines beside it lie.
+  // Returns the range of a program line and the lines next to it.
   std::pair<double, double> around_line(std::uint32_t line) const {
     const auto found = std::ranges::lower_bound(segments_, line, {}, [](const Segment& s) { return s.source.line; });
     const auto i = std::min(static_cast<std::size_t>(found - segments_.begin()), segments_.size() - 1);
@@ -70,20 +70,20 @@ class ByLength {
 
 struct Faults {
   double excess = -1;       // the largest excess of the deviation over the tolerance
-  std::size_t gaps = 0;     // ends that differ from the next start; rests not met in order
-  double tangent_jump = 0;  // the largest one, where the path does not stop
+  std::size_t gaps = 0;     // ends that differ from the next start; stops not met in order
+  double tangent_jump = 0;  // the largest jump, where the path does not stop
   double bend_jump = 0;     // the jump of d²P/ds² there, relative to 1/mm and to itself
   std::string where;        // where the deviation is largest
 };
 
-// By how much the unit tangent changes at the junction after a segment.
+// Returns the change of the unit tangent at the junction after a segment.
 inline double turn_after(const ByLength& path, std::size_t k) {
   const Point in = path[k].curve.tangent(path[k].curve.length());
   const Point out = path[k + 1].curve.tangent(Mm(0));
   return apart(in * (1 / euclid(in)), out * (1 / euclid(out)));
 }
 
-// How far the junction after a segment may be rounded. 0: the junction is a rest.
+// Returns the tolerance for rounding the junction after a segment. 0: the junction is a stop.
 inline double junction_tolerance(const ByLength& path, std::size_t k) {
   if (k + 1 == path.size() || path[k].mode == PathMode::exact_stop) return 0;
   const double turn = turn_after(path, k);
@@ -92,8 +92,9 @@ inline double junction_tolerance(const ByLength& path, std::size_t k) {
   return path[k].tolerance.value();
 }
 
-// The least tolerance that applies to each segment, from the junctions at its ends that are no rests. In exact path
-// mode, a place that is straight except for rounding is no junction, so the ends are those of the whole line.
+// Returns the smallest tolerance that applies to each segment, from the junctions at its ends that are not stops. In
+// exact path mode, a point that is straight except for rounding is not a junction, so the ends are those of the whole
+// line.
 inline std::vector<double> tolerances_of(const ByLength& path) {
   constexpr double straight = 1e-6;
   std::vector<double> least(path.size(), 1e9);
@@ -112,7 +113,7 @@ inline std::vector<double> tolerances_of(const ByLength& path) {
   return least;
 }
 
-// The path with an exact stop before each action.
+// Returns the path with an exact stop before each action.
 inline ByLength by_length(const std::vector<PathItem>& items) {
   std::vector<Segment> segments;
   for (const PathItem& item : items) {
@@ -128,7 +129,7 @@ inline ByLength by_length(const std::vector<PathItem>& items) {
 struct Rest {
   double s = 0;
   Point place;
-  bool asked_for = true;  // false: the path turns back, and merged lines may move the place a little
+  bool asked_for = true;  // false: the path reverses, and merged lines may shift the point slightly
 };
 
 inline std::vector<Rest> rests_of(const ByLength& path) {
@@ -141,12 +142,12 @@ inline std::vector<Rest> rests_of(const ByLength& path) {
   return rests;
 }
 
-// Finds the place of the programmed path that belongs to a place of the smoothed path. Both have the same length,
-// except for merged lines, which are up to 1 % shorter. So the search goes from the place without merging to the
-// farthest place that merging since the last rest explains, and a little beyond for spans that were cut. For slow
-// bending the parameter advances faster than s at corners, so the search begins at the last place. `shift` is how far
-// off the last found place was. Where the path passes itself, the search may have found another place near by. So
-// `shift` is only a first guess, and ends at the next rest, which both paths meet.
+// Finds the point of the programmed path that corresponds to a point of the smoothed path. Both paths have the same
+// length, except for merged lines, which are up to 1 % shorter. So the search covers the range from the point without
+// merging to the farthest point that merging since the last stop explains, and slightly more for spans that were cut.
+// For slow bending the parameter advances faster than s at corners, so the search begins at the last point. `shift` is
+// the offset of the last point found. Where the path crosses itself, the search may have found another point nearby. So
+// `shift` is only a first guess, and ends at the next stop, which both paths reach.
 struct LengthAlong {
   double since_rest = 0;
   double rest = 0;
@@ -154,9 +155,9 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least value of a measure over the places of the path that may be meant. The search goes first close to the last
-  // place, then around it, then through the `likely` places, then anywhere. Where rotary axes turn hundreds of degrees
-  // a millimetre, only the likely places are dense enough.
+  // Returns the minimum of a measure over the candidate points of the path. The search covers first the neighbourhood
+  // of the last point, then a wider range around it, then the `likely` points, then all. Where rotary axes turn
+  // hundreds of degrees per millimetre, only the likely points are dense enough.
   template <class Measure>
   double search(const Measure& measure, double end, const std::pair<double, double>& likely) {
     constexpr double close = 1e-3;
@@ -176,7 +177,7 @@ struct LengthAlong {
   }
 
  private:
-  // Where the path is simple, a few steps find the place.
+  // Where the path is simple, a few steps find the point.
   template <class Measure>
   double descend(const Measure& measure, double end, double step) {
     const auto at = [&](double to) { return measure(std::clamp(rest + since_rest + to, 0.0, end)); };
@@ -219,7 +220,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
   const ByLength path = by_length(programmed);
   const std::vector<double> tolerances = tolerances_of(path);
   const std::vector<Rest> rests = rests_of(path);
-  auto rest = rests.begin();  // the next rest
+  auto rest = rests.begin();  // the next stop
   LengthAlong s;
   const Segment* before = nullptr;
   for (const PathItem& item : smoothed) {
@@ -236,7 +237,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       if (before->mode != PathMode::exact_stop) {
         faults.tangent_jump = std::max(faults.tangent_jump, apart(last.tangent(last.length()), curve.tangent(Mm(0))));
         const Point bend = last.second_derivative(last.length());
-        // Rounded coordinates round d²P/ds² of a short curve.
+        // Rounded coordinates cause rounding errors in d²P/ds² of a short curve.
         const double shortest = std::min(length, last.length().value());
         const double rounding = 1e-14 * (1 + euclid(curve.start())) / (shortest * shortest);
         const double jump = apart(bend, curve.second_derivative(Mm(0)));
@@ -379,7 +380,7 @@ class RandomPath {
     for (int i = 0; i < pieces; ++i) line_to(position_ + xyz(size, i % 2 == 0 ? height : -height));
   }
 
-  // Half of the arcs begin in the direction in which the path arrives, except for rounding in the program.
+  // Half of the arcs begin tangentially to the path, except for rounding in the program.
   void arc() {
     static constexpr std::array<std::array<Axis, 3>, 3> planes = {
         {{Axis::x, Axis::y, Axis::z}, {Axis::z, Axis::x, Axis::y}, {Axis::y, Axis::z, Axis::x}}};

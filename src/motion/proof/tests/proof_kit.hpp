@@ -1,4 +1,4 @@
-// Shared by the referee's tests: motion by hand, and its proof.
+// Shared by the tests of MotionProver: motion defined by hand, and its proof.
 #pragma once
 
 #include <cmath>
@@ -56,7 +56,7 @@ inline PlannedMove move(const Segment& segment, std::initializer_list<Phase> pha
   planned.to = segment.curve.length();
   return planned;
 }
-// The fastest motion from rest to rest, without a top speed.
+// Returns the fastest motion between two stops, without a speed limit.
 inline PlannedMove triangle(const Segment& segment, double acceleration) {
   const double length = segment.curve.length().value();
   const double half = std::sqrt(length / acceleration);

@@ -1,4 +1,4 @@
-// Shared by the tests of planning with limits of jerk: programs, and an oracle by formulas of its own.
+// Shared by the tests of planning with jerk limits: programs, and an oracle with independent formulas.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline MotionLimits jerk_limits(double velocity, double acceleration, double jer
   return limits;
 }
 
-// Flat up to a shoulder, then falling as a motor loses its torque.
+// Returns a curve that is flat up to a shoulder, and then falls like a motor's torque.
 inline AccelerationCurve draw_falling(Random& random, MmPerSecond velocity, MmPerSecond2 at_rest) {
   const double shoulder = velocity.value() * random.between(0.05, 0.7);
   const double power = random.between(0.3, 2);
@@ -37,7 +37,7 @@ inline AccelerationCurve draw_falling(Random& random, MmPerSecond velocity, MmPe
   return AccelerationCurve::below(samples, at_rest);
 }
 
-// On some machines the acceleration falls with the speed.
+// On some machines the acceleration limit falls with the speed.
 inline MotionLimits draw_jerk_limits(Random& random) {
   MotionLimits limits = jerk_limits(1, 1, 1);
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
@@ -52,8 +52,8 @@ inline MotionLimits draw_jerk_limits(Random& random) {
   return limits;
 }
 
-// Motors that X and Y share: one turns by their sum, the other one by their difference. They can do less than the axes
-// could.
+// Adds motors that X and Y share: one turns by their sum, the other by their difference. Their limits are lower than
+// those of the axes.
 inline void limit_shared_motors(Random& random, MotionLimits& limits) {
   for (const double sign : {1.0, -1.0}) {
     const double part = random.between(0.3, 1);
@@ -64,7 +64,7 @@ inline void limit_shared_motors(Random& random, MotionLimits& limits) {
   }
 }
 
-// Half of the axes have no limit of jerk, but at least one has.
+// Half of the axes have no jerk limit, but at least one has.
 inline MotionLimits draw_mixed_limits(Random& random) {
   MotionLimits limits = draw_jerk_limits(random);
   const Axis sure = random.chance(0.5) ? Axis::x : random.chance(0.5) ? Axis::y : Axis::z;
@@ -83,7 +83,7 @@ inline Segment segment_of(const Curve& curve, double speed) {
           .source = {}};
 }
 
-// Place and derivatives of an axis by s, from the formulas.
+// Position and derivatives of an axis by s, from the formulas.
 struct Derivatives {
   double place = 0;
   double first = 0;
@@ -130,8 +130,7 @@ inline AxisMotion motion_at(const Curve& curve, Axis axis, const Phase& phase, d
   return {q.first * v, q.first * a + q.second * v * v, q.first * j + 3 * q.second * v * a + q.third * v * v * v};
 }
 
-// Looks at 40 places of each phase, and at the changes from each phase to the next. A copy may watch another
-// continuation.
+// Checks 40 points of each phase, and the transitions between phases. A copy may check another continuation.
 class JerkOracle {
  public:
   explicit JerkOracle(const MotionLimits& limits) : limits_(limits) {}
@@ -229,7 +228,7 @@ inline void expect_within_limits(const std::vector<MotionItem>& motion, const Mo
   JerkOracle(limits).check(motion);
 }
 
-// Pieces of a uniform cubic B-spline: tangents and second derivatives are continuous.
+// Returns pieces of a uniform cubic B-spline: tangents and second derivatives are continuous.
 inline std::vector<PathItem> smooth_chain(Random& random, int pieces) {
   std::vector<Point> control{xyz(0, 0)};
   double direction = 0;

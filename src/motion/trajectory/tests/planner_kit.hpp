@@ -1,4 +1,4 @@
-// Shared by the planner's tests: plans, and velocities and accelerations computed by hand.
+// Shared by the planner's tests: plans, and independently computed velocities and accelerations.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ inline std::vector<MotionItem> plan(const std::vector<PathItem>& path, const Mot
   return drain(planner);
 }
 
-// Smooths corners as a job does.
+// Smooths corners as in a job.
 inline std::vector<PathItem> smoothed(const std::vector<PathItem>& path,
                                       Smoothness smoothness = Smoothness::least_bending) {
   ListSource<PathItem> source(path);
@@ -81,7 +81,8 @@ inline std::string to_text(const std::vector<MotionItem>& motion) {
   return text;
 }
 
-// Velocity and acceleration of every axis at the path speed v with its change a, by hand from the polar form.
+// Velocity and acceleration of every axis at the path speed v with acceleration a, computed independently in polar
+// form.
 struct Motion {
   PerAxis<Real> velocity;
   PerAxis<Real> acceleration;
@@ -186,8 +187,7 @@ struct LoneCell {
   CellPlace place() { return {cell, demands.data(), falling.data()}; }
 };
 
-// Plans the whole program at once: backwards over all cells, then forwards. Returns the squares of the speeds at their
-// ends.
+// Plans the whole program at once: backwards over all cells, then forwards. Returns the squared speeds at their ends.
 inline std::vector<double> exits_offline(const std::vector<PathItem>& path, const MotionLimits& limits) {
   struct Whole {
     LoneCell piece;

@@ -1,4 +1,4 @@
-// Random paths for the planner's tests: corners and smooth runs, dust and long moves, arcs of all kinds, actions.
+// Random paths for the planner's tests: corners and smooth runs, tiny and long moves, arcs of all kinds, actions.
 #pragma once
 
 #include <cmath>

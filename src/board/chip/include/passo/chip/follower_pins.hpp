@@ -1,6 +1,6 @@
 // FollowerPins: the follower's pins on an ATmega board, as data that is checked at compile time.
 //
-// The clock and direction lines are on one port, as on the first board, so that one read samples all of them.
+// The clock and direction signals are on one port, as on the first control board, so that one read samples all of them.
 // Portable.
 #pragma once
 
@@ -25,7 +25,7 @@ struct FollowerPins {
 
   constexpr bool has_keypad() const { return rows[0].exists(); }
 
-  // Calls visit(pin) for every pin except the lines.
+  // Calls visit(pin) for every pin except the clock and direction inputs.
   template <class Visit>
   constexpr void each(Visit visit) const {
     each_output(visit);
@@ -87,8 +87,8 @@ struct FollowerPins {
   }
 };
 
-// Arduino Uno (ATmega328P): all of its twenty pins are taken, so there is no keypad. D0, D1 and D13 drive windings,
-// because the boot loader sets D1 and blinks D13. That moves no tool; a relay would.
+// Arduino Uno (ATmega328P): all of its twenty pins are used, so there is no keypad. D0, D1 and D13 drive windings,
+// because the boot loader sets D1 and blinks D13. That moves no motor, but it would switch a relay.
 inline constexpr FollowerPins uno_follower = {
     .lines = 'C',                                            // A0 to A5
     .relay_line = {'B', 4},                                  // D12

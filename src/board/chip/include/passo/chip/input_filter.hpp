@@ -1,4 +1,5 @@
-// Tells a switch that has moved from noise on its wire: a change counts only when it has lasted for a time. Portable.
+// Distinguishes a switch change from noise on its wire: a change counts only after it has lasted for a given time.
+// Portable.
 #pragma once
 
 #include <stdint.h>
@@ -7,12 +8,13 @@ namespace passo {
 
 // Chip has
 //   static uint16_t inputs();       bits of BoardInput, set where a switch is on
-//   static uint8_t microseconds();  a clock that comes round after 128; a look may not take as long as that
-//   static uint8_t filter();        for how many microseconds a switch must stay in its new state
-//   static void breathe();          called after each look
+//   static uint8_t microseconds();  a clock that wraps after 128 µs; the time between two samples must be shorter
+//   static uint8_t filter();        microseconds for which a switch must stay in its new state
+//   static void breathe();          called after each sample
 
-// Those of the inputs in `moved` that go on to differ from `before` for that many microseconds. Looks at the pins again
-// and again, so it takes time only where a switch has truly moved. A function of its own: a chip has few registers.
+// Returns those inputs in `moved` that stay different from `before` for that many microseconds. Samples the pins
+// repeatedly, so it takes time only where a switch has truly changed. A separate function, because a chip has few
+// registers.
 template <class Chip>
 [[gnu::noinline]] uint16_t stay_moved(uint16_t before, uint16_t moved, uint8_t microseconds) {
   for (uint8_t last = Chip::microseconds(); moved != 0;) {
@@ -26,7 +28,7 @@ template <class Chip>
   return moved;
 }
 
-// The inputs now. Of those in `filtered`, one that differs from `before` counts only if it stays so.
+// Returns the present inputs. An input in `filtered` that differs from `before` counts as changed only if it stays so.
 template <class Chip>
 uint16_t settled_inputs(uint16_t before, uint16_t filtered) {
   const uint16_t now = Chip::inputs();

@@ -1,7 +1,7 @@
 // InputReader: finds the state of the board's switches from the state of its pins.
 //
-// Buttons that a person presses are debounced: a state counts after it has been the same for three looks, some
-// milliseconds apart. A limit switch or a probe counts at once. Portable.
+// Buttons that the operator presses are debounced: a state counts after three equal samples, some milliseconds apart. A
+// limit switch or a probe counts at once. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -16,7 +16,7 @@ class InputReader {
   static constexpr uint8_t steady_looks = 3;
 
   // `raw` has bits of BoardInput, set where the switch is on. `tick` means that some milliseconds have passed since the
-  // last tick. `by_people`: those that are debounced. Returns the inputs that have gone on.
+  // last tick. `by_people`: the debounced inputs. Returns the inputs that have just become triggered.
   uint16_t update(uint16_t raw, bool tick, uint16_t by_people = pressed_by_people) {
     const uint16_t before = inputs_;
     const uint16_t buttons = raw & by_people;

@@ -6,7 +6,7 @@
 namespace passo {
 
 // X, Y, Z, E0 and E1 have their drivers on RAMPS; the sixth motor is wired to AUX-2. The flags are two bits of port F
-// that move no motor; the interrupt never writes them to a pin.
+// that are connected to no motor; the interrupt never writes them to a pin.
 inline constexpr PinMap<6> mega_ramps = {
     .motor = {{.step = {'F', 0}, .direction = {'F', 1}, .enable = {'D', 7}},   // A0, A1, D38
               {.step = {'F', 6}, .direction = {'F', 7}, .enable = {'F', 2}},   // A6, A7, A2
@@ -32,7 +32,7 @@ inline constexpr PinMap<6> mega_ramps = {
                .tool_button = {'C', 6},                                      // D31
                .automatic_indicator = {'A', 7},                              // D29
                .manual_indicator = {'A', 5},                                 // D27
-               // Sixteen microsteps: half a turn a second from rest, up to five.
+               // Sixteen microsteps: 0.5 rev/s from standstill, up to 5 rev/s.
                .speeds = {.start_stop = 1'600, .highest = 16'000, .acceleration = 32'000, .tap = 16}},
     .encoder = {.pulses = {'L', 2}, .index = {'L', 0}},  // D47 on AUX-4, D49 on AUX-3
 };

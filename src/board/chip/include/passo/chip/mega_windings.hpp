@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// The first three motors, the keypad and the indicators have the follower's wiring.
+// The first three motors, the keypad and the indicators are wired as on the follower.
 inline constexpr PinMap<4> mega_windings = {
     .motor = {{.windings = {{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}}},   // D22 to D25
               {.windings = {{'A', 4}, {'A', 5}, {'A', 6}, {'A', 7}}},   // D26 to D29
@@ -27,7 +27,7 @@ inline constexpr PinMap<4> mega_windings = {
                .tool_button = {'L', 0},                                      // D49
                .automatic_indicator = {'C', 1},                              // D36
                .manual_indicator = {'C', 0},                                 // D37
-               // Half steps: from standstill to 1.5 rev/s, or to 5 rev/s.
+               // Half steps, 400 per revolution: 0.6 rev/s from standstill, up to 5 rev/s.
                .speeds = {.start_stop = 250, .highest = 2'000, .acceleration = 4'000, .tap = 1}},
 };
 static_assert(mega_windings.without_conflict(), "a pin has two jobs");

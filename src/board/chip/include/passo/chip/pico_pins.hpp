@@ -1,7 +1,7 @@
 // PicoPins: what each GPIO of an RP2040 is for, as data that is checked at compile time.
 //
-// A state machine of the PIO sets all step and direction pins by one word. So these pins lie within sixteen neighbours,
-// from `first` on; between them may lie pins with other jobs. Portable.
+// A PIO state machine sets all step and direction pins with one word. So these pins lie within sixteen consecutive
+// GPIOs, from `first` on; pins with other functions may lie between them. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -28,7 +28,7 @@ struct PicoPins {
   uint8_t motors = 0;
   uint8_t first = 0;
   PicoMotor motor[most_motors] = {};
-  uint8_t enable = no_gpio;  // low: the drivers are on
+  uint8_t enable = no_gpio;  // active low: the drivers are on
   uint8_t limits[pico_limits] = {no_gpio, no_gpio, no_gpio};
   uint8_t probe = no_gpio;
   uint8_t emergency_stop = no_gpio;
@@ -38,14 +38,15 @@ struct PicoPins {
   uint8_t spindle_direction = no_gpio;
   uint8_t mist = no_gpio;
   uint8_t flood = no_gpio;
-  // The encoder at the spindle. A PWM slice counts the pulses, which only its second pin can: an odd one.
+  // The spindle encoder. A PWM slice counts the pulses. Only the slice's second pin can do this, so the GPIO number is
+  // odd.
   uint8_t encoder_pulses = no_gpio;
   uint8_t encoder_index = no_gpio;
-  // A serial line beside USB.
+  // A serial port in addition to USB.
   uint8_t line_out = no_gpio;
   uint8_t line_in = no_gpio;
 
-  // Bits of the step or direction pins of `which` motors in a word for the state machine.
+  // Bits of the step or direction pins of the motors in `which`, in a word for the state machine.
   constexpr uint16_t steps_of(uint8_t which) const {
     uint32_t bits = 0;
     for (uint8_t m = 0; m < motors; ++m) {
@@ -60,8 +61,7 @@ struct PicoPins {
     }
     return static_cast<uint16_t>(bits);
   }
-  // As bits of GPIOs: the step and direction pins, and the inputs. All inputs have pull-ups: a switch connects to
-  // ground.
+  // As GPIO bits: the step and direction pins, and the inputs. All inputs have pull-ups: a switch connects to ground.
   constexpr uint32_t motor_pins() const { return (uint32_t{steps_of(0xff)} | uint32_t{directions_of(0xff)}) << first; }
   constexpr uint32_t inputs() const {
     uint32_t bits = gpio_bit(probe) | gpio_bit(emergency_stop) | gpio_bit(feed_hold) | gpio_bit(cycle_start) |
@@ -77,7 +77,7 @@ struct PicoPins {
   static constexpr uint8_t slice_of(uint8_t gpio) { return gpio / 2 % 8; }
   constexpr bool has_encoder() const { return encoder_pulses != no_gpio; }
 
-  // Whether every motor has its pins within the window, and no pin has two jobs.
+  // Whether every motor has its pins within the window, and no pin has two functions.
   constexpr bool is_sound() const {
     uint32_t taken = 0;
     bool sound = true;
@@ -125,7 +125,7 @@ inline constexpr PicoPins pico_bare = {
     .line_in = 1,
 };
 
-// The same with an encoder at the spindle, on the pins of the serial line.
+// The same with a spindle encoder on the pins of the serial port.
 constexpr PicoPins with_encoder(PicoPins pins) {
   pins.encoder_pulses = pins.line_in;
   pins.encoder_index = pins.line_out;
@@ -134,7 +134,7 @@ constexpr PicoPins with_encoder(PicoPins pins) {
 }
 inline constexpr PicoPins pico_lathe = with_encoder(pico_bare);
 
-// Eight drivers take all but ten pins: no serial line beside USB, and no buttons.
+// Eight drivers use all but ten pins: no serial port in addition to USB, and no buttons.
 inline constexpr PicoPins pico_eight = {
     .motors = 8,
     .first = 0,
@@ -149,8 +149,8 @@ inline constexpr PicoPins pico_eight = {
     .flood = 27,
 };
 
-// A Pico on the carrier PicoBOB (Expatria Technologies) drives a breakout board that was made for a parallel port. Its
-// inputs are three switches, probe and emergency stop. Source of the wiring: grblHAL, boards/picobob_map.h.
+// A Pico on the carrier PicoBOB (Expatria Technologies) drives a breakout board made for a parallel port. Its inputs
+// are three switches, probe and emergency stop. Source of the wiring: grblHAL, boards/picobob_map.h.
 inline constexpr PicoPins picobob = {
     .motors = 5,
     .first = 9,
@@ -164,7 +164,7 @@ inline constexpr PicoPins picobob = {
 static_assert(pico_bare.is_sound() && pico_lathe.is_sound() && pico_eight.is_sound() && picobob.is_sound(),
               "a pin has two jobs, a motor's pins are too far apart, or an encoder's cannot count");
 
-// The board's name, and its image's: motion_ and this name.
+// The board's name. Its image is named motion_ plus this name.
 struct PicoBoardPins {
   const char* name;
   const PicoPins& pins;

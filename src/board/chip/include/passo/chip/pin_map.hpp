@@ -2,8 +2,8 @@
 //
 // The step timer's interrupt writes a port's toggle register (PINx). A one there toggles the pin and leaves its
 // neighbours alone, so a step is two writes of the same byte. The checks follow from that: step and direction pins lie
-// on the step ports. The flag bits of each step port, by which the interrupt recognises other than plain events, belong
-// to no motor.
+// on the step ports. The flag bits of each step port, which mark all but plain events for the interrupt, belong to no
+// motor.
 //
 // Alternatively the board switches the motors' windings itself. Each motor then has four pins for them, anywhere on the
 // step ports; each step toggles those that change, and the flags have a byte of their own. Portable.
@@ -23,11 +23,11 @@ inline constexpr uint8_t winding_count = 4;
 struct MotorPins {
   Pin step = {};
   Pin direction = {};
-  Pin enable = {};                      // low: the driver is on. Several motors may share one pin
+  Pin enable = {};                      // active low: the driver is on. Several motors may share one pin
   Pin windings[winding_count] = {};     // instead of the three above: F1 to F4 of WindingTable
   DriveMode drive = DriveMode::two_on;  // how the windings are switched
 
-  // The motor's pins on `port` that carry current in a pattern.
+  // Returns the motor's pins on `port` that carry current in a pattern.
   constexpr uint8_t winding_bits(char port, uint8_t pattern = 0x0f) const {
     uint8_t bits = 0;
     for (uint8_t f = 0; f < winding_count; ++f) {
@@ -37,7 +37,7 @@ struct MotorPins {
   }
 };
 
-// For moving the machine by hand (ManualMode). Either all of these exist, or none. Any pins will do.
+// For moving the machine by hand (ManualMode). Either all of these pins exist, or none. Any pins are allowed.
 struct KeypadPins {
   Pin rows[keypad_rows] = {};  // 123, 456, 789, *0#
   Pin columns[keypad_columns] = {};
@@ -66,8 +66,7 @@ struct KeypadPins {
   }
 };
 
-// An encoder at the spindle: its pulses on the pin that clocks a timer, its index on one that captures. Both exist, or
-// none.
+// A spindle encoder: its pulses on the pin that clocks a timer, its index on an input capture pin. Both exist, or none.
 struct EncoderPins {
   Pin pulses = {};
   Pin index = {};
@@ -97,7 +96,7 @@ struct PinMap {
 
   Pin spindle_pwm = {};
   Pin spindle_direction = {};
-  Pin spindle_relay = {};  // for a tool that is on or off
+  Pin spindle_relay = {};  // for a tool that is only switched on or off
   Pin mist = {};
   Pin flood = {};
 
@@ -123,7 +122,7 @@ struct PinMap {
     return mask;
   }
 
-  // Pins of one kind on a port. All inputs have pull-ups: a switch connects to ground.
+  // The pins of one kind on a port. All inputs have pull-ups: a switch connects to ground.
   constexpr uint8_t enables_on(char port) const {
     uint8_t mask = 0;
     for (const MotorPins& one : motor)
@@ -139,7 +138,7 @@ struct PinMap {
   constexpr uint8_t stops_on(char port) const {
     return static_cast<uint8_t>(limits_on(port) | (emergency_stop.port == port ? emergency_stop.mask() : 0));
   }
-  // These, and buttons that a host may say are alarms of drives.
+  // The same, with the buttons that a host may configure as drive alarms.
   constexpr uint8_t may_stop_on(char port) const {
     const Pin buttons[] = {feed_hold, cycle_start};
     uint8_t mask = stops_on(port);
@@ -173,7 +172,7 @@ struct PinMap {
     return mask;
   }
 
-  // Whether no pin has two jobs. Only motors may share an enable pin with each other.
+  // Whether no pin has two functions. Only enable pins may be shared, between motors.
   constexpr bool without_conflict() const {
     constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10 + 10 + 2;
     Pin pins[most] = {};
@@ -213,7 +212,7 @@ struct PinMap {
     }
     return false;
   }
-  // Whether no part of the keypad is missing, and the chip's timer can count its speeds.
+  // Whether the keypad is complete, and the chip's timer can count its speeds.
   constexpr bool has_whole_keypad(uint32_t clock) const { return keypad.is_whole() && can_ramp(keypad.speeds, clock); }
   constexpr bool fits_the_interrupt() const {
     // The interrupt writes the step ports as a whole.
@@ -243,14 +242,14 @@ struct PinMap {
   }
 };
 
-// The same board with its motors driven in other ways, each in its own.
+// Returns the same board with an individual drive mode for each motor.
 template <uint8_t motor_count>
 constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const DriveMode (&drives)[motor_count]) {
   for (uint8_t m = 0; m < motor_count; ++m) pins.motor[m].drive = drives[m];
   return pins;
 }
 
-// The pins of each set of motors on one port, computed in advance: no work while the machine runs.
+// The pins of each set of motors on one port, computed at compile time.
 template <uint8_t motor_count>
 struct MotorPinSets {
   uint8_t steps[1 << motor_count] = {};

@@ -5,8 +5,8 @@
 
 namespace passo {
 
-// Steps are on D2 to D4, directions on D5 to D7: all on port D, whose two lowest bits are the serial line. While the
-// line is on, what is written to these bits reaches no pin, so they are the flags.
+// Steps are on D2 to D4, directions on D5 to D7: all on port D, whose two lowest bits are the serial port. While the
+// serial port is on, values written to these bits reach no pin, so they serve as the flags.
 inline constexpr PinMap<3> uno_cnc_shield = {
     .motor = {{.step = {'D', 2}, .direction = {'D', 5}, .enable = {'B', 0}},
               {.step = {'D', 3}, .direction = {'D', 6}, .enable = {'B', 0}},

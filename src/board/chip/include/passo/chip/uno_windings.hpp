@@ -5,8 +5,9 @@
 
 namespace passo {
 
-// Twelve pins are windings, and two are the serial line. The rest, port C, has the switches and one relay. There are no
-// buttons: the computer has them. The boot loader blinks D13: a winding moves nothing then, a relay would.
+// Twelve pins are windings, and two are the serial port. Port C has the switches and one relay. There are no buttons:
+// they are in the user interface on the computer. The boot loader blinks D13: that moves no motor, but it would switch
+// a relay.
 inline constexpr PinMap<3> uno_windings = {
     .motor = {{.windings = {{'D', 4}, {'D', 5}, {'D', 6}, {'D', 7}}},   // D4 to D7
               {.windings = {{'B', 0}, {'B', 1}, {'B', 2}, {'B', 3}}},   // D8 to D11

@@ -1,4 +1,4 @@
-// How an emulated AVR is started: the program passo-emulate-avr (src/board/emulator/avr) and its words.
+// Starts an emulated AVR: the program passo-emulate-avr (src/board/emulator/avr) and its arguments.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace passo {
 
-// The path of passo-emulate-avr: next to this program, or in the build folder. The error is a sentence.
+// Returns the path of passo-emulate-avr: next to this program, or in the build folder. The error is a sentence.
 Result<std::string, std::string> avr_emulator();
 
-// Which of the emulator's 32 pins a pin of the chip is: numbers are given in the order of asking.
+// Maps pins of the chip to the emulator's 32 pins, numbered in the order of the first request.
 class PinNumbers {
  public:
-  // The pin's bit. 0: there is no such pin.
+  // Returns the pin's bit, or 0 if the pin does not exist.
   std::uint32_t bit_of(Pin pin) { return number(pin, false); }
-  // The same for a pin whose bit is set while the chip draws the pin low.
+  // The same for a pin whose bit is set while the chip drives the pin low.
   std::uint32_t bit_of_drawn_low(Pin pin) { return number(pin, true); }
-  // All of them, as the emulator wants to be told.
+  // Returns all pins in the format of the emulator's argument.
   std::string text() const;
 
  private:

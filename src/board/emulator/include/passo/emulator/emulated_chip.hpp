@@ -1,13 +1,13 @@
-// EmulatedChip: an AVR that runs a real program, instruction by instruction, in simavr. The user watches and feeds
-// single registers. Time is the chip's clock, in cycles from reset, so the same program gives the same figures
-// everywhere.
+// EmulatedChip: an AVR that runs a real program, instruction by instruction, in simavr. The caller watches and sets
+// individual registers. Time is the chip's clock, in cycles from reset, so a program gives the same results on every
+// computer.
 //
 // Registers are named by their addresses in data memory, as in the data sheet's second column.
 //
-// simavr 1.6 counts the cycles of instructions as the data sheet does (timing_test.cpp). Two differences are mended
+// simavr 1.6 counts the cycles of instructions as the data sheet does (timing_test.cpp). Two differences are corrected
 // here. In simavr, entering an interrupt costs nothing; in silicon, 4 cycles, or 5 where the program counter has three
 // bytes. In simavr, a pending interrupt is served two instructions after SEI or RETI; in silicon, one. simavr's timer
-// and serial line are replaced: emulated_timer.hpp, emulated_uart.hpp.
+// and UART are replaced: emulated_timer.hpp, emulated_uart.hpp.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class EmulatedChip {
 
   // Calls the watcher with each value that the program writes to a register, at the moment of writing.
   void on_write(std::uint16_t address, std::function<void(std::uint8_t)> watcher);
-  // Sets the source of what the program reads from a register.
+  // Sets the function that supplies the values which the program reads from a register.
   void on_read(std::uint16_t address, std::function<std::uint8_t()> source);
 
   // Runs until a watcher or a source calls stop(). Throws std::runtime_error if the program crashes or sleeps for good,
@@ -38,13 +38,14 @@ class EmulatedChip {
   // Runs until at least this many cycles have passed, or stop() is called. Throws if the program crashes.
   void run_for(std::uint64_t cycles);
 
-  // How many adjacent bytes of memory the program has not written since it started: what the stack has left free.
+  // Returns the length of the longest block of memory that the program has not written since its start: the free stack
+  // space.
   std::size_t longest_untouched() const;
 
-  // For the classes that replace simavr's own peripherals.
+  // Access for the classes that replace simavr's own peripherals.
   avr_t& avr() { return *avr_; }
 
-  // The start of the instruction that is being executed.
+  // Returns the cycle at which the current instruction started.
   std::uint64_t cycles() const;
 
  private:
@@ -53,7 +54,7 @@ class EmulatedChip {
   };
 
   void mend_interrupts();
-  // Runs one stretch of instructions.
+  // Runs one batch of instructions.
   void step();
 
   std::unique_ptr<avr_t, Deleter> avr_;

@@ -1,9 +1,9 @@
-// EmulatedEncoder: an encoder on the pins T5 and ICP4 of an ATmega2560. The encoder's pulses clock timer 5, and timer 4
-// captures its index. The class replaces simavr's timers 4 and 5, because simavr's timer 5 would check its pin only
-// once in each of its own cycles.
+// EmulatedEncoder: an encoder on the pins T5 and ICP4 of an ATmega2560. Its pulses clock timer 5, and timer 4 captures
+// its index. The class replaces simavr's timers 4 and 5, because simavr's timer 5 would check its pin only once in each
+// of its own cycles.
 //
-// As in silicon, the count's high byte is from the moment at which its low byte was read. A captured index waits in its
-// flag, and an index that comes while the flag is set is lost. Pulses count up in whichever direction the shaft turns.
+// As on the real chip, reading the count's low byte latches the high byte. A captured index sets a flag, and a further
+// index is lost while the flag is set. Pulses count up in whichever direction the shaft turns.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ class EmulatedChip;
 
 class EmulatedEncoder {
  public:
-  // How many turns the shaft has made at a cycle. The result may never be less than before.
+  // Returns the shaft's total revolutions at a cycle. The value must never decrease.
   using Turns = std::function<double(std::uint64_t cycle)>;
   EmulatedEncoder(EmulatedChip& chip, int pulses_per_turn, Turns turns);
   EmulatedEncoder(const EmulatedEncoder&) = delete;
 
-  // How many pulses have come by `cycle` since the shaft began to turn.
+  // Returns the number of pulses up to `cycle`.
   std::uint64_t pulses_at(std::uint64_t cycle) const;
 
  private:

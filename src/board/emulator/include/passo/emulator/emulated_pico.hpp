@@ -1,5 +1,5 @@
-// EmulatedPico: a Raspberry Pi Pico, emulated by a program of its own (src/board/emulator/pico, rp2040js on node). A
-// pin is a GPIO. Cycles are the chip's, of 128 MHz. Needs node, and `npm ci` in src/board/emulator/pico
+// EmulatedPico: a Raspberry Pi Pico, emulated in a separate process (src/board/emulator/pico, rp2040js on node). A pin
+// is a GPIO. Cycles are those of the chip's 128 MHz clock. Needs node, and `npm ci` in src/board/emulator/pico
 // (scripts/install.sh).
 #pragma once
 
@@ -16,7 +16,7 @@ namespace passo {
 class EmulatedBoard;
 
 using PicoChange = PinChange;
-// Where the line is plugged in.
+// The port to which the host is connected.
 enum class PicoSocket { usb, uart };
 
 class EmulatedPico : public EmulatorProcess {
@@ -29,7 +29,7 @@ class EmulatedPico : public EmulatorProcess {
   using EmulatorProcess::EmulatorProcess;
 };
 
-// As EmulatedBoard::start() for a kind that is one of pico_boards.
+// The same as EmulatedBoard::start(), for a kind in pico_boards.
 Result<std::unique_ptr<EmulatedBoard>, std::string> start_pico_board(std::string_view kind, const std::string& program);
 
 }  // namespace passo

@@ -1,8 +1,9 @@
 // EmulatedPorts: the pins of an AVR. The class replaces simavr's ports, which report every pin at every write, and
-// whose flags of pin changes cannot be cleared one by one.
+// whose pin change flags cannot be cleared one by one.
 //
-// As in silicon, a one written to PINx toggles the output. A pin change sets the port's flag in PCIFR if the mask has
-// that pin. On the ATmega2560 the pins INT0 to INT7 set their flags in EIFR if EICRA and EICRB ask for any change.
+// As on the real chip, a one written to PINx toggles the output. A pin change sets the port's flag in PCIFR if the mask
+// has that pin. On the ATmega2560 the pins INT0 to INT7 set their flags in EIFR if EICRA and EICRB are set for any
+// change.
 #pragma once
 
 #include <array>
@@ -32,11 +33,11 @@ class EmulatedPorts {
   EmulatedPorts(EmulatedChip& chip, const std::string& ports);
   EmulatedPorts(const EmulatedPorts&) = delete;
 
-  // If set, called with every change of an output register as it is made. The changes are then not kept.
+  // If set, called with every change of an output register as it is made. The changes are then not recorded.
   std::function<void(const PortChange&)> on_change;
   // If set, called after every write to a direction register.
   std::function<void()> on_direction;
-  // All kept changes of output registers, in order of time.
+  // All recorded changes of output registers, in order of time.
   const std::vector<PortChange>& changes() const { return changes_; }
   void forget_changes() { changes_.clear(); }
   std::uint8_t outputs(char port) const;
@@ -44,7 +45,7 @@ class EmulatedPorts {
   std::uint8_t directions(char port) const;
   // Sets an input pin from outside.
   void set_input(char port, std::uint8_t bit, bool high);
-  // Connects two pins by a key: while one pin is drawn low, the other pin reads low.
+  // Connects two pins through a key: while one pin is driven low, the other reads low.
   void connect(Pin row, Pin column, bool closed);
 
  private:
@@ -52,7 +53,7 @@ class EmulatedPorts {
     EmulatedPorts* all = nullptr;
     char name = 0;
     std::uint16_t pin = 0;       // address of PINx; DDRx and PORTx are the next two
-    std::uint8_t levels = 0xff;  // levels that something outside gives the pins
+    std::uint8_t levels = 0xff;  // levels applied to the pins from outside
   };
   struct Contact {
     Pin row;

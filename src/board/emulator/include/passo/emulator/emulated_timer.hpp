@@ -1,11 +1,11 @@
 // EmulatedTimer: timers 0 (8 bits) and 1 (16 bits) of the ATmegas, free running or (timer 0) cleared by a match, each
 // with its compare match A, and timer 1 with its overflow flag (no program uses the overflow as an interrupt). The
-// class replaces simavr's timer, which forgets a preset count, clears all flags when one is cleared, and forgets a
-// match that was pending when its interrupt is enabled.
+// class replaces simavr's timer, which loses a preset count, clears all flags when one is cleared, and loses a match
+// that is pending when its interrupt is enabled.
 //
-// As in silicon, 16-bit registers go through the one byte TEMP that they share. A match sets its flag whether the
-// interrupt is enabled or not. A compare time that has just passed when it is written comes again after a whole turn of
-// the timer.
+// As on the real chip, 16-bit registers are accessed through their shared byte TEMP. A match sets its flag whether or
+// not the interrupt is enabled. If a compare time has just passed when it is written, the next match is one full timer
+// period later.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ class EmulatedTimer {
   explicit EmulatedTimer(EmulatedChip& chip);
   EmulatedTimer(const EmulatedTimer&) = delete;
 
-  // The cycle at which timer 1 stood at 0 and ran.
+  // The cycle at which the running timer 1 was at 0.
   std::uint64_t started() const { return word_.started; }
 
  private:
-  // A timer that counts to `turn` - 1, or to its compare value where that clears it.
+  // A timer that counts to `turn` - 1, or to the compare value if a match clears it.
   struct Counter {
     std::uint64_t turn = 0;
     std::uint16_t flags = 0;  // addresses of TIFRn and TIMSKn
     std::uint16_t mask = 0;
     avr_int_vector_t* match = nullptr;
     std::uint64_t started = 0;
-    std::uint64_t prescale = 0;  // cycles a count; 0: the timer stands
+    std::uint64_t prescale = 0;  // cycles per count; 0: the timer is stopped
     bool clears_on_match = false;
     std::uint64_t compare = 0;
 

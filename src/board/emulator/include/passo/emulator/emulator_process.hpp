@@ -1,9 +1,9 @@
-// EmulatorProcess: a chip with its firmware, emulated by a program of its own. The two run in lock-step: the emulator
-// does nothing but what run() asks for, so the same calls give the same figures everywhere.
+// EmulatorProcess: a chip with its firmware, emulated in a separate process. The two run in lock-step: the emulator
+// does only what run() requests, so the same calls give the same results on every computer.
 //
-// Every emulator speaks the same protocol, which src/board/emulator/pico/emulated_pico.js describes: requests and
-// answers on its standard input and output. So an emulator may have a licence that Passo's own program may not be bound
-// by. The protocol knows 32 pins. Which of the chip's pins these are is agreed on when the emulator is started.
+// All emulators use the same protocol, described in src/board/emulator/pico/emulated_pico.js: requests and answers on
+// standard input and output. So an emulator may have a licence that Passo's own program must not be subject to. The
+// protocol has 32 pins. Their mapping to the chip's pins is set when the emulator is started.
 #pragma once
 
 #include <cstdint>
@@ -15,53 +15,55 @@
 
 namespace passo {
 
-// The levels of all outputs from a cycle on, a bit for each pin.
+// The levels of all outputs from a cycle on, one bit per pin.
 struct PinChange {
   std::uint64_t cycle = 0;
   std::uint32_t levels = 0;
 };
 
-// What the spindle's output asks for while it is high all the time.
+// The spindle speed for a duty of 100 %.
 inline constexpr double full_rpm = 24'000;
 
 class EmulatorProcess {
  public:
-  // Starts the program with its arguments. `died`: the sentence to say if the program ends by itself.
+  // Starts the program with its arguments. `died`: the error message if the program ends unexpectedly.
   EmulatorProcess(const std::vector<std::string>& words, std::string died);
   EmulatorProcess(const EmulatorProcess&) = delete;
   ~EmulatorProcess();
 
-  // When to stop before the time is over.
+  // Conditions that end a run before its time.
   struct Stops {
-    bool at_byte = false;       // when the board has said one
+    bool at_byte = false;       // when the board has sent a byte
     std::uint32_t watched = 0;  // bits of pins
-    std::uint32_t rises = 0;    // after so many moments in which some of these rose (AVR: or fell); 0: never
+    std::uint32_t rises = 0;    // after this number of cycles in which at least one of these pins rose (AVR: rose or
+                                // fell); 0: never
   };
   // The spindle encoder's motion in the next run(): it turns evenly up to this total number of pulses, with this number
   // of pulses per revolution.
   struct EncoderWay {
     double from = 0;
     double to = 0;
-    std::uint32_t pulses_per_turn = 0;  // 0: there is none, or the emulator works out the spindle by itself
+    std::uint32_t pulses_per_turn = 0;  // 0: there is no encoder, or the emulator computes the spindle itself
   };
   void set_encoder(const EncoderWay& way) { encoder_ = way; }
-  // Runs until `cycle`. False if the emulator has died; then error() tells it. run(1, {}) shows whether it has started.
+  // Runs until `cycle`. Returns false if the emulator has ended; error() then gives the reason. run(1, {}) checks
+  // whether the emulator has started.
   bool run(std::uint64_t cycle, const Stops& stops);
-  // Puts bytes on the board's other line at once (Pico: the UART, though its line is USB).
+  // Delivers bytes on the board's other port at once (Pico: the UART, if the host is connected by USB).
   bool send_by_other_line(std::span<const std::uint8_t> bytes);
   const std::string& error() const { return error_; }
 
-  // Puts bytes on the line; they arrive one after the other while it runs.
+  // Sends bytes to the board; they arrive one after the other during run().
   void send(std::span<const std::uint8_t> bytes);
-  // Connects these pins to ground, and no others.
+  // Connects exactly these pins to ground.
   void draw_low(std::uint32_t inputs) { drawn_low_ = inputs; }
 
   std::uint64_t cycle() const { return cycle_; }
   std::uint32_t levels() const { return levels_; }
   std::uint64_t lost_bytes() const { return lost_bytes_; }
-  // How long the spindle's output is high, as a part of its period.
+  // Returns the spindle PWM's duty, 0 to 1.
   double duty() const { return duty_; }
-  // What came out in the last run().
+  // The output of the last run(): pin changes, and bytes sent by the board.
   const std::vector<PinChange>& changes() const { return changes_; }
   const std::vector<std::uint8_t>& said() const { return said_; }
 

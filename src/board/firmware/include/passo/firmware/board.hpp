@@ -1,14 +1,14 @@
-// Board: the program of the control board, without its hardware. Bytes come in and steps go out.
+// Board: the program of the control board, without its hardware. It receives bytes and outputs steps.
 //
-// It takes frames off the wire, keeps their items in a PlayList, and plays them in order through a player. Two sides
-// use it. The main loop calls receive(), settle() and report(). The timer calls idle(), ticks_to_next_event() and
-// on_event(). A chip's player runs ahead instead: it makes events before their time, and an interrupt plays them; then
-// only the main loop's side is used. Players have the interface of Player. board_hardware.hpp describes Hardware.
+// It reads frames from the link, keeps their items in a PlayList, and plays them in order through a player. It has two
+// interfaces. The main loop calls receive(), settle() and report(). The timer calls idle(), ticks_to_next_event() and
+// on_event(). A chip's player works ahead instead: it makes events before their time, and an interrupt plays them; then
+// only the main loop's interface is used. Players have the interface of Player. board_hardware.hpp describes Hardware.
 //
-// Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
-// executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
-// and one segment follows another without delay. The motion sent ends at rest. Positions count from the power-on, and
-// are updated at each segment's end, so that an event does no work for them. Portable: no heap, no virtual call.
+// Invariant: frames are accepted in the order of their sequence numbers, each once; none is accepted after a gap. Items
+// are executed in the order of the list. Time passes only between events: outputs are switched at the event before
+// them, and one segment follows another without delay. The queue always ends in a stop. Positions count from power-on,
+// and are updated at each segment's end, so that an event needs no work for them. Portable: no heap, no virtual call.
 #pragma once
 
 #include <stddef.h>
@@ -26,7 +26,7 @@
 
 namespace passo {
 
-// `most_motors` is the number of motors that a place for an item has room for.
+// `most_motors` is the number of motors for which an item in the queue has room.
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
 class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_motors> {
   using Items = ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_motors>;
@@ -42,7 +42,8 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
 
   Board(Hardware& hardware, const BoardIdentity& identity) : Items(hardware, identity) { list_.clear(places()); }
 
-  // The main loop's side. Takes a byte off the wire: by two halves, of which the first also takes several (Decoder).
+  // For the main loop. Processes a received byte. It is split in two halves, of which the first can also process
+  // several bytes (Decoder).
   void receive(uint8_t byte) {
     if (receive_payload(&byte, 1) == 0) receive_other(byte);
   }
@@ -54,7 +55,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     if (decoded == Decoded::frame) handle(decoder_.frame());
     if (decoded == Decoded::refused) complain(WireError::bad_frame);
   }
-  // Whether the host has not been told of some items that were executed or replaced; owed() is about how many.
+  // Whether some executed or replaced items were not yet reported to the host; owed() is their approximate number.
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
   void report() {
@@ -62,21 +63,22 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     owed_ = can_send ? uint8_t{0} : owed_ == 0 ? uint8_t{1} : owed_;
     if (can_send) send(progress());
   }
-  // Call when the input pins have changed. Changes of inputs in `captured` are reported at once, with the place.
+  // Call when the input pins have changed. Changes of inputs in `captured` are reported at once, with the position.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
     captured = watch_.that_count(captured, inputs_, inputs);
     inputs_ = inputs;
     if (motors_ == 0) return;
-    // The watched input is reported separately: it may go off while another goes on. Of several, those that changed.
+    // The watched input is reported separately, because it may open while another is triggered. If several inputs are
+    // watched, those that changed are reported.
     if ((captured & watched()) != 0) send_captured(captured & watched());
     captured &= static_cast<uint16_t>(~watched());
     if (captured != 0) send_captured(captured);
   }
-  // Bits of BoardInput: watched() is the one that is captured, stopping() those that stop the motors when they go on.
+  // Bits of BoardInput: watched() is the captured input, stopping() are the inputs that stop the motors when triggered.
   uint16_t watched() const { return watch_.input(); }
   uint16_t stopping() const { return static_cast<uint16_t>(watch_.stopping() | alarms_of(hardware_)); }
-  // Stops without braking and drops all items. Steps may be lost, so no motion is executed until the next hello.
-  // `inputs` are those that are on: the host is told which of them stop the motors.
+  // Stops without deceleration and drops all items. Steps may be lost, so no motion is executed until the next hello.
+  // `inputs` are the triggered inputs: the host is informed which of them stop the motors.
   void stop_at_once(uint16_t inputs) {
     inputs &= stopping();
     const Fault fault{
@@ -97,8 +99,8 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     if (trusted_ && lets_go(hardware_, silence_)) trusted_ = false;
   }
 
-  // Manual mode: a person moves the machine (ManualMode), and a host may only ask questions. The place is another
-  // afterwards, so the session ends. Call it only at rest.
+  // Starts manual mode: the operator moves the machine (ManualMode), and a host may only send queries. The session
+  // ends, because the position changes. Call it only at standstill.
   void begin_manual() {
     motors_ = identity_.motors;
     watch(0);
@@ -112,7 +114,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   }
   void end_manual() { manual_ = Manual::over; }
   bool manual() const { return manual_ == Manual::on; }
-  // Nothing is played, and nothing waits to be played.
+  // True if nothing is being played or waits to be played.
   bool rests() const { return idle() && list_.empty() && !list_.gathering(); }
   uint8_t size() const { return list_.size(); }
   uint16_t inputs() const { return inputs_; }
@@ -127,12 +129,12 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   }
 
  private:
-  // over: no host knows the machine's place until the next hello.
+  // over: manual mode has ended, and no host knows the machine position until the next hello.
   enum class Manual : uint8_t { off, on, over };
 
-  // A function of its own, so that a byte inside a frame need not save all the registers that a whole frame needs.
+  // A separate function, so that a byte inside a frame need not save all the registers that a whole frame needs.
   [[gnu::noinline]] void handle(const WireFrame& frame) {
-    // Whoever only asks, with other motors in mind, is not the host.
+    // A sender of a query for another number of motors is not the host.
     if (frame.type != MessageType::ask || frame.payload[1] == motors_) silence_.end();
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
@@ -146,7 +148,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     }
   }
 
-  // The item has no frame number: the last item done remains the host's.
+  // The item has no frame number, so the last executed item number remains that of the host.
   void append_by_hand() {
     breathe();
     list_.space().number = executed_;
@@ -163,7 +165,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     apply_setup(setup);
     send(setup);
   }
-  // Leaves of the setup what the board can do.
+  // Reduces the setup to what the board supports.
   [[gnu::noinline]] void apply_setup(PinSetup& setup) {
     setup = set_up(hardware_, setup);
     const uint16_t ticks = setup.timing.event_ticks;
@@ -186,11 +188,11 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
       apply_setup(usual);
     }
     is_set_up_ = false;
-    // A host that dislikes the answer will not go on. Until the two agree there are no segments.
+    // A host that does not accept the answer sends nothing more. The board accepts no segments until both agree.
     motors_ = agrees && hello.motors <= identity_.motors && hello.motors <= most_motors ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
     watch(0);
-    // Both sides count fractions of steps from the same start. Whole steps count on.
+    // Both sides count fractions of steps from the same start. Whole steps continue from their last values.
     enable();
     player_.restart(motors_);
     breathe();
@@ -202,7 +204,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     silence_.begin();
     manual_ = Manual::off;
     send_hello_reply();
-    // Not while the button is still pressed.
+    // Manual mode cannot start while a stop button is pressed.
     if ((inputs_ & stopping_at_rest(alarms_of(hardware_))) != 0) stop_at_once(inputs_);
   }
   void enable() {
@@ -220,7 +222,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     silence_.allow(session.silence);
   }
 
-  // Rare and large work, so functions of their own: a chip has not enough registers for all in one.
+  // Separate functions for rare and large work: a chip has too few registers for all of it in one function.
   [[gnu::noinline]] void answer(const WireFrame& frame) {
     Ask ask;
     decode(frame, ask);
@@ -235,7 +237,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     const MessageType answer = ask.question == Question::about ? MessageType::about
                                : kept                          ? MessageType::captured
                                                                : MessageType::status;
-    // Questions whose answers nobody waits for, however many, must not displace other messages.
+    // Any number of queries whose answers are not awaited must not displace other messages.
     const uint8_t motors = kept ? motors_ : ask.motors;
     if (!has_room(motors)) return;
     if (answer == MessageType::about) return send(identity_.about);
@@ -244,7 +246,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     send_status(ask.motors, frame.sequence);
   }
 
-  // The watch changes only at rest: motion on its way was made for the old one.
+  // The watched input changes only at standstill, because motion in the queue was planned for the old one.
   void begin_watch(uint8_t limit) {
     if (rests() && !manual()) watch(limit);
     if (limit == watch_.limit()) watch_.forget();
@@ -286,7 +288,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     keep_up(hardware_);
   }
 
-  // The motion's place at the tick of the count: hardly any time passes between the two.
+  // The motion's position at the tick of the count: hardly any time passes between the two readings.
   [[gnu::noinline]] void send_spindle(uint8_t question) {
     if constexpr (requires { hardware_.spindle(); }) {
       if (!has_room()) return;
@@ -320,11 +322,11 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   void accept_in_order(const WireFrame& frame) {
     if (manual_ != Manual::off) return complain(WireError::manual);
     const uint8_t missing = static_cast<uint8_t>(frame.sequence - expected_);
-    // A number more than half round ahead is an old one: a repeated frame, from a host that missed the answer to the
+    // A number more than half the range ahead is an old one: a repeated frame from a host that missed the answer to the
     // first.
     if (missing > 127) return report();
     if (missing != 0) return complain(WireError::out_of_sequence);
-    complained_ = false;  // the host has heard of a gap, if there was one
+    complained_ = false;  // any gap has been reported to the host
     if (!trusted_) return complain(WireError::unexpected);
     if (frame.type == MessageType::replace) return begin_replacement(frame);
     enqueue(frame);
@@ -342,8 +344,9 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   }
 
   void enqueue(const WireFrame& frame) {
-    // A host that has named a session cares about what moves: no segment may move without sums. Such a segment follows
-    // a replace that announced less than was sent, and so was damaged. The next replace puts that right.
+    // A host with a session number requires checked motion: it must not execute a segment without sums. Such a segment
+    // follows a queue update that announced fewer items than were sent, and so was damaged. The next queue update
+    // corrects this.
     if (session_ != 0 && frame.type == MessageType::segment && !list_.gathering()) {
       accept();
       ++owed_;
@@ -373,7 +376,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     slice();
     if (list_.gathering()) return;
     if (list_.gathered()) {
-      ++owed_;  // of the free places, in either case
+      ++owed_;  // the number of free places is reported in either case
       const WireError wrong = complete();
       if (wrong != no_error) return send(ErrorReport{.reason = wrong, .expected = static_cast<uint8_t>(expected_)});
     }
@@ -383,12 +386,12 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   [[gnu::noinline]] void add_to_sums(const WireFrame& frame) {
     breathe();
     sums_.template add<Breath>(frame, motors_);
-    owed_ = static_cast<uint8_t>(owed_ + (expected_ & 1));  // the host waits until its bytes are taken
+    owed_ = static_cast<uint8_t>(owed_ + (expected_ & 1));  // report more often: the host waits for acknowledgements
     breathe();
   }
 
   static constexpr WireError no_error = WireError{};
-  // Puts the gathered items in place, if they are what was sent and come in time.
+  // Puts the gathered items in place if they match the sums and arrive in time.
   WireError complete() {
     WireError wrong = (silence_.bits() & outputs_timed_out) != 0 ? WireError::silent_host : no_error;
     if (!sums_.is_nothing()) wrong = WireError::wrong_sums;
@@ -406,7 +409,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
   Credit progress() const { return {.executed = executed_, .taken = taken(), .free = list_.free()}; }
 
-  // Complains once for each gap. All frames after a lost one are out of sequence, and one message tells the host.
+  // Reports an error once for each gap. All frames after a lost one are out of sequence, so one message is enough.
   void complain(WireError reason) {
     if (complained_ || !has_room()) return;
     complained_ = true;
@@ -415,10 +418,10 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
 
   Decoder decoder_;
   uint16_t session_ = 0;
-  uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
-  ItemSums sums_;          // of the replacement being gathered, so far
+  uint16_t expected_ = 0;  // number of the next frame; the link carries its low byte
+  ItemSums sums_;          // sums over the queue update gathered so far
   HostSilence silence_;
-  // In one byte: a chip has none to spare.
+  // In one byte, because a chip has little memory.
   bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;
   Manual manual_ : 2 = Manual::off;
   uint16_t inputs_ = 0;

@@ -1,24 +1,24 @@
-// The hardware interface of a Board, and its behaviour without the optional parts. A type with
+// The hardware interface of a Board, and the default behaviour of its optional parts. Hardware is a type with
 //   void step(uint8_t stepped, uint8_t directions);   motors in `stepped` make a step; those in `directions` step down
 //   void outputs(const BoardOutputs&);
-//   void send(uint8_t byte);                          to the host; or
-//   uint8_t* space(uint8_t size); void put(uint8_t);  where the next frame, of at most `size` bytes, is put together;
+//   void send(uint8_t byte);                          sends a byte to the host; or
+//   uint8_t* space(uint8_t size); void put(uint8_t);  returns the buffer for the next frame, of at most `size` bytes;
 //                                                     sends it
-//   void enable();                                    optional: lets the motors move again after a stop released them
+//   void enable();                                    optional: enables the drivers again after a stop released them
 //   bool switch_off(uint8_t switches);                optional: switches these outputs (bits of OutputSwitch) off, at
-//                                                     rest; true if one was on
-//   void watch();                                     optional: another input is watched now (Board::watched())
-//   static void release_capture();                    optional: the place of the capture is known now
-//   PinSetup set_up(const PinSetup&);                 optional: applies what it can, at rest, and returns that
-//   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; lets the motors go
+//                                                     standstill; true if one was on
+//   void watch();                                     optional: the watched input has changed (Board::watched())
+//   static void release_capture();                    optional: the position of the capture has been read
+//   PinSetup set_up(const PinSetup&);                 optional: applies the supported part while stopped; returns it
+//   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; switches the drivers off
 //   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
 //   static void breathe();                            optional: called between two pieces of work
-//   static void keep_up();                            optional: breathes, and makes events for the timer
-//   static void slice();                              optional: the same where it is needed; between two bytes of a
+//   static void keep_up();                            optional: breathe(), and makes events for the timer
+//   static void slice();                              optional: keep_up() if needed; called between two bytes of a
 //                                                     frame
-//   static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster
+//   static int32_t high_product(int32_t, int32_t);    optional: a faster one than that of wire/segment_parts.hpp
 //   uint8_t room();                                   optional: the number of bytes that may be sent now
-//   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
+//   bool has_encoder(); SpindleCount spindle();       optional, both: a spindle encoder
 //
 // Portable.
 #pragma once
@@ -30,8 +30,8 @@
 
 namespace passo {
 
-// Called between two pieces of work: hardware with a small buffer reads its line then. Hardware may have a product of
-// its own too.
+// Called between two pieces of work: hardware with a small receive buffer reads it then. Hardware may also have its own
+// multiplication.
 template <class Hardware>
 struct BreathOf {
   [[gnu::always_inline]] static int32_t high_product(int32_t a, int32_t b) requires requires {
@@ -43,7 +43,7 @@ struct BreathOf {
   }
 };
 
-// Called at each byte of a frame that is put together: like keep_up(), but cheap where there is nothing to do.
+// Called at each byte of a frame that is being composed: like keep_up(), but cheap if there is nothing to do.
 template <class Hardware>
 struct SliceOf {
   [[gnu::always_inline]] void operator()() const {
@@ -55,8 +55,8 @@ struct SliceOf {
   }
 };
 
-// Called during long work, on chips that compute events ahead of time. Items may end: what is told must be known
-// already.
+// Called during long work, on chips that compute events ahead of time. Items may end during the call, so values to be
+// reported must be read before.
 template <class Hardware>
 [[gnu::always_inline]] inline void keep_up(Hardware&) {
   if constexpr (requires { Hardware::keep_up(); }) {
@@ -79,14 +79,14 @@ template <class Hardware>
   BreathOf<Hardware>{}();
 }
 
-// True if one of these outputs was on.
+// Switches these outputs off. Returns true if one of them was on.
 template <class Hardware>
 [[gnu::always_inline]] inline bool switch_off(Hardware& hardware, uint8_t switches) {
   if constexpr (requires { hardware.switch_off(switches); }) return switches != 0 && hardware.switch_off(switches);
   return false;
 }
 
-// Lets the motors go if the host has been silent for as long as the setup says. True if it does.
+// Switches the drivers off if the host has been silent for the time in the setup. Returns true if it has been.
 template <class Hardware>
 [[gnu::always_inline]] inline bool lets_go(Hardware& hardware, HostSilence& silence) {
   if constexpr (requires { hardware.release(); }) {
@@ -104,14 +104,13 @@ template <class Hardware>
   return {};
 }
 
-// The chip may hold its items back from a capture on, until their place is read. Putting the answer together takes
-// long.
+// From a capture on, the chip may hold its items back until their position is read. Composing the answer takes long.
 template <class Hardware>
 [[gnu::always_inline]] inline void release_capture(Hardware& hardware) {
   if constexpr (requires { hardware.release_capture(); }) hardware.release_capture();
 }
 
-// Whether the switches of these bits can capture together.
+// Whether the limit switches in these bits can be captured together.
 template <class Hardware>
 [[gnu::always_inline]] inline bool can_watch(Hardware& hardware, uint8_t limits) {
   if ((limits & (limits - 1)) == 0) return true;

@@ -1,4 +1,4 @@
-// BoardVoice: the messages of a Board to its host. It numbers the frames and puts them on the hardware's line.
+// BoardVoice: sends the messages of a Board to its host. It numbers the frames and passes them to the hardware.
 // Portable.
 #pragma once
 
@@ -17,8 +17,8 @@ class BoardVoice {
 
   bool has_room(uint8_t motors = 0) { return passo::has_room(hardware_, most_bytes(motors)); }
 
-  // Functions of their own. A frame is large for a chip's stack: where the line has room for whole frames, it is put
-  // together there.
+  // Separate functions. A frame is large for a chip's stack, so it is composed in the transmit buffer if that has room
+  // for whole frames.
   template <class Message, class... More>
   [[gnu::noinline]] void send(const Message& message, More... more) {
     if constexpr (requires { hardware_.space(largest_frame); }) {
@@ -37,7 +37,7 @@ class BoardVoice {
   Hardware& hardware_;
 
  private:
-  // The size of the longest frame for this number of motors. A host may ask for more of them than the board has.
+  // Returns the size of the longest frame for this number of motors. A host may ask for more motors than the board has.
   static constexpr uint8_t most_bytes(uint8_t motors = 0) {
     const uint8_t status = payload_size(static_cast<uint8_t>(MessageType::status), motors);
     constexpr uint8_t about = payload_size(static_cast<uint8_t>(MessageType::about), 0);

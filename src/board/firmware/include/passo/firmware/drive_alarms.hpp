@@ -1,5 +1,5 @@
-// Drive alarms: inputs of a board that are alarms of drives, as the host's setup says. They stop the motors, and at
-// rest the board too, because what holds the machine may be gone. Portable.
+// Drive alarms: inputs of a board that the host's setup declares as alarms of drives. They stop the motors, and block
+// the board at standstill too, because the axes may no longer be held. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// The alarms of a board's hardware, as bits of BoardInput. Hardware may have
+// Returns the drive alarm inputs of a board's hardware, as bits of BoardInput. Hardware may have
 //   static uint16_t alarms();
 template <class Hardware>
 [[gnu::always_inline]] inline uint16_t alarms_of(const Hardware& hardware) {
@@ -16,8 +16,8 @@ template <class Hardware>
   return 0;
 }
 
-// With these alarms: the inputs that stop a board at rest, too; those that a person presses; why inputs stop the
-// motors.
+// For these alarms: the inputs that also stop a board at standstill; the inputs that the operator presses; the reason
+// why inputs stop the motors.
 constexpr uint16_t stopping_at_rest(uint16_t alarms) {
   return static_cast<uint16_t>(input_emergency_stop | alarms);
 }

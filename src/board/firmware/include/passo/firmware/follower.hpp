@@ -1,26 +1,25 @@
-// Follower: the first control board's program, without its hardware. Step and direction come in on lines, and windings
-// are switched. A keypad moves the machine by hand. docs/follower.md describes it for the operator.
+// Follower: the first control board's program, without its hardware. It receives step and direction signals and
+// switches windings. A keypad moves the machine by hand. docs/follower.md describes it for the operator.
 //
-// One loop calls poll() as fast as it can. Each turn samples the clock lines once. A line that was low in the last
-// sample and is high in this one makes a step, in the direction read with the last sample. So a direction must stand
-// before its clock edge, and the longest time between two samples decides the highest rate. Therefore all work that can
-// wait (relay, keys, indicators) is done only in turns without a step, in pieces: one piece a millisecond.
+// One loop calls poll() as fast as it can. Each pass samples the clock lines once. A line that was low in the last
+// sample and is high in this one makes a step, in the direction read with the last sample. So a direction must be set
+// before its clock edge, and the longest time between two samples limits the step rate. Therefore all work that can
+// wait (relay, keys, indicators) is done only in passes without a step, in pieces: one piece per millisecond.
 //
 // Hardware is a type with
 //   uint8_t lines();                               bits 0 to 2: clock of X, Y, Z; 3 to 5: direction, 1 is down
-//   bool relay_line();                             the computer wants the tool
-//   void windings(uint8_t axis, uint8_t place);    switches what the motor's WindingTable has for this place
+//   bool relay_line();                             the computer requests the tool
+//   void windings(uint8_t axis, uint8_t place);    switches to the pattern of the motor's WindingTable at this index
 //   void relay(bool on);                           and its indicator
 //   void indicators(bool automatic, bool manual);
-//   static constexpr bool has_keypad;              false: always automatic, and the rest is not needed
+//   static constexpr bool has_keypad;              false: always automatic, and the functions below are not needed
 //   bool millisecond();                            a millisecond has passed since the last true
-//   uint8_t rows();                                of the column driven low: a bit for each row with a key down
+//   uint8_t rows();                                of the column driven low: a bit for each row with a pressed key
 //   void draw_column(uint8_t column);              drives this column low and lets the others float
 //   bool tool_button();
 //
 // Invariant: a motor's windings carry no current before its first step. Only an edge of the relay's line or the button
-// closes the relay, never a reset or a change of mode.
-// Portable.
+// closes the relay, never a reset or a change of mode. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -32,17 +31,17 @@ namespace passo {
 
 inline constexpr uint8_t follower_axes = 3;
 
-// Times of the keypad, in looks of 5 ms each. A look has five pieces: three columns, the keys, the rest.
+// Keypad times, in scans of 5 ms each. A scan has five pieces: three columns, the keys, and the remaining work.
 inline constexpr uint8_t looks_to_settle = 4;   // 20 ms
 inline constexpr uint8_t looks_to_repeat = 80;  // 400 ms from a key's first step to its second
-inline constexpr uint8_t looks_a_step = 2;      // 100 steps a second: motors start at that rate without a ramp
+inline constexpr uint8_t looks_a_step = 2;      // 100 steps/s: motors start at that rate without a ramp
 
 template <class Hardware>
 class Follower {
  public:
   constexpr explicit Follower(Hardware& hardware) : hardware_(hardware) {}
 
-  // Call once, before the first turn. A line that is high already is no edge.
+  // Call once, before the first poll(). A line that is already high is not an edge.
   void begin() {
     lines_ = hardware_.lines();
     relay_line_ = hardware_.relay_line();
@@ -87,7 +86,7 @@ class Follower {
     hardware_.relay(on);
   }
 
-  // Called every millisecond: does a fifth of a look at the keypad.
+  // Called every millisecond: does one fifth of a keypad scan.
   void tick() {
     const uint8_t piece = piece_++;
     if (piece < keypad_columns) {
@@ -135,7 +134,7 @@ class Follower {
     if (!manual_ && !relay_line_) set_relay(false);
   }
 
-  // After a reset nobody knows the position, so the indicator blinks: 0.32 s on, 0.32 s off.
+  // After a reset the position is unknown, so the indicator blinks: 0.32 s on, 0.32 s off.
   void show_mode() {
     const bool lit = trusted_ || (++looks_ & 0x40) == 0;
     hardware_.indicators(lit && !manual_, lit && manual_);
@@ -148,9 +147,9 @@ class Follower {
   bool relay_ = false;
   bool manual_ = false;
   bool trusted_ = false;
-  uint8_t piece_ = 0;  // the next piece of a look
+  uint8_t piece_ = 0;  // the next piece of a scan
   uint8_t looks_ = 0;
-  uint8_t wait_ = 0;  // looks until a held key acts again
+  uint8_t wait_ = 0;  // scans until a held key acts again
   KeypadScan scan_;
   Settled<looks_to_settle> key_{no_key};
   Settled<looks_to_settle> button_{0};

@@ -1,7 +1,9 @@
-// HostSilence: how long a board has not heard its host, and which outputs are to end for it.
+// HostSilence: measures the time since the board last received something from its host, and selects the outputs to
+// switch off.
 //
-// A board whose host was killed or cut off ends its motion and then switches its outputs off. Later motion must not run
-// with a stopped spindle, so the board accepts no queue update until the host has sent outputs or a hello. Portable.
+// A board whose host was killed or disconnected ends its motion and then switches its outputs off. Later motion must
+// not run with a stopped spindle, so the board accepts no queue update until the host has sent outputs or a hello.
+// Portable.
 #pragma once
 
 #include <stdint.h>
@@ -12,14 +14,14 @@ namespace passo {
 
 class HostSilence {
  public:
-  // The host was heard.
+  // Call when the host has sent something.
   void end() { tenths_ = 0; }
   // Call ten times a second.
   void count() {
     if (tenths_ != most) ++tenths_;
   }
   void allow(const Silence& silence) { allowed_ = silence; }
-  // The outputs whose time is over. Bits of OutputSwitch.
+  // Returns the outputs whose time is over, as bits of OutputSwitch.
   uint8_t late() const {
     uint8_t late = 0;
     if (is_over(allowed_.spindle)) late |= spindle_on;
@@ -28,17 +30,17 @@ class HostSilence {
     return late;
   }
 
-  // True: the host has been silent for this number of tenths of a second. Never for 0.
+  // Returns true if the host has been silent for this number of tenths of a second. Never true for 0.
   bool is_over(uint8_t allowed) const { return allowed != 0 && tenths_ >= allowed; }
 
   // Processes a hello.
   void begin() { off_ = let_go_ = false; }
-  // Outputs were switched off, and no host has sent outputs since.
+  // Call when outputs were switched off; forget_off(): the host has sent outputs since.
   void set_off() { off_ = true; }
   void forget_off() { off_ = false; }
-  // True: the drivers were switched off, without a hello since.
+  // Call when the drivers were switched off. Cleared by a hello.
   void set_released() { let_go_ = true; }
-  // Both, as bits of a status's inputs.
+  // Returns both states, as bits of a status's inputs.
   uint16_t bits() const {
     return static_cast<uint16_t>((off_ ? outputs_timed_out : 0) | (let_go_ ? drivers_timed_out : 0));
   }
@@ -46,8 +48,8 @@ class HostSilence {
  private:
   static constexpr uint8_t most = 0xFF;
 
-  uint8_t tenths_ = 0;  // of a second, since the host was heard
-  Silence allowed_;     // as the last session said
+  uint8_t tenths_ = 0;  // tenths of a second since the host last sent something
+  Silence allowed_;     // as set in the last session
   bool off_ : 1 = false, let_go_ : 1 = false;
 };
 

@@ -1,7 +1,7 @@
 // ItemPlayer: the part of a Board that plays the items of its list, in order, and counts the motors' steps.
 //
-// The player has the first `begun_` items of the list. To the player a part of an item is a segment, and it takes one
-// after the other; what it has finished is counted and leaves the list. Portable: no heap, no virtual call.
+// The player has the first `begun_` items of the list. It plays each part of an item as a segment, one after the other;
+// finished items are counted and removed from the list. Portable: no heap, no virtual call.
 #pragma once
 
 #include <stddef.h>
@@ -24,9 +24,9 @@ class ItemPlayer : protected BoardVoice<Hardware> {
   static void breathe() { Breath{}(); }
   static void slice() { SliceOf<Hardware>{}(); }
 
-  // The timer's side. True if there is nothing to play: no event will come.
+  // For the timer. True if there is nothing to play: no event will come.
   bool idle() const { return player_.done(); }
-  // Ticks from the last event to the next. Only when not idle, once for each event.
+  // Returns the ticks from the last event to the next. Call once for each event, only when not idle.
   uint32_t ticks_to_next_event() { return player_.wait(); }
   void on_event() {
     const uint8_t stepped = player_.play();
@@ -34,7 +34,8 @@ class ItemPlayer : protected BoardVoice<Hardware> {
     if (player_.done()) settle();
   }
 
-  // Removes items that the player has finished, and gives it those that it can take. On a chip the main loop calls it.
+  // Removes items that the player has finished, and passes it those that it can accept. On a chip the main loop calls
+  // it.
   void settle() {
     for (;; load()) {
       breathe();
@@ -45,7 +46,8 @@ class ItemPlayer : protected BoardVoice<Hardware> {
       if (!player_.ready() || !has_more()) return;
     }
   }
-  // Gives the player one item, and removes no more than one for that: where events are short, they come first.
+  // Passes one item to the player, and removes at most one finished item before, because making short events is more
+  // urgent.
   void feed() {
     breathe();
     if (!player_.ready() && player_.finished()) retire_one();
@@ -60,7 +62,7 @@ class ItemPlayer : protected BoardVoice<Hardware> {
 
   ItemPlayer(Hardware& hardware, const BoardIdentity& identity) : BoardVoice<Hardware>(hardware), identity_(identity) {}
 
-  // Events played of the present item.
+  // Returns the number of events played of the present item.
   uint16_t played() const {
     return begun_ == 0 ? uint16_t{0} : static_cast<uint16_t>(done_of_front_ + player_.played());
   }
@@ -79,16 +81,17 @@ class ItemPlayer : protected BoardVoice<Hardware> {
 
   BoardIdentity identity_;
   SegmentPlayer player_{0};
-  PlayList<queue_capacity, most_motors, Breath> list_;  // its front is being played
-  uint8_t begun_ = 0;      // items at the front that the player has; the last one may be there in part
-  uint8_t motors_ = 0;     // as agreed with the host
-  uint16_t executed_ = 0;  // number of the last item done
-  uint8_t owed_ = 0;       // items executed and other news since the last report
-  uint8_t from_rest_ = 0;  // low byte of the number of the item that came last behind an item after which motors rest
+  PlayList<queue_capacity, most_motors, Breath> list_;  // the player plays its first item
+  uint8_t begun_ = 0;                    // items at the front that the player has; the last one perhaps only in part
+  uint8_t motors_ = 0;                   // as agreed with the host
+  uint16_t executed_ = 0;                // number of the last item done
+  uint8_t owed_ = 0;                     // items executed and other news since the last report
+  uint8_t from_rest_ = 0;                // low byte of the number of the newest item that follows a standstill
   int32_t positions_[most_motors] = {};  // at the end of the last segment
 
  private:
-  // Loads the next part of the item begun last, or the first of the item after it. To the player a part is a segment.
+  // Loads the next part of the newest begun item, or the first part of the item after it. The player plays a part as a
+  // segment.
   [[gnu::noinline]] void load() {
     const bool begins = parts_.are_done();
     if (begins) ++begun_;
@@ -100,7 +103,8 @@ class ItemPlayer : protected BoardVoice<Hardware> {
     if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
     load_part(item.segment, begins);
   }
-  // The motors rest before the item begun last. Outputs need no time: the motors rest before the item after them, too.
+  // Records that the motors are stopped before the newest begun item. Outputs take no time, so the motors are also
+  // stopped before the item after them.
   void begin_from_rest(uint16_t events) {
     if (events == 0) {
       ++from_rest_;
@@ -119,7 +123,7 @@ class ItemPlayer : protected BoardVoice<Hardware> {
     player_.forget();
     breathe();
   }
-  // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
+  // Finishes the oldest item, or a part of it. Outputs are switched here, at the event before them.
   [[gnu::noinline]] void retire() {
     const auto& item = list_.front();
     if (item.is_segment()) {
@@ -138,8 +142,8 @@ class ItemPlayer : protected BoardVoice<Hardware> {
     ++owed_;
   }
 
-  uint16_t done_of_front_ = 0;            // events of the front item in parts that are done
-  PartTaker<most_motors, Breath> parts_;  // of the item begun last
+  uint16_t done_of_front_ = 0;            // events of the front item in finished parts
+  PartTaker<most_motors, Breath> parts_;  // parts of the newest begun item
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The motors that a key of the keypad moves. Boards that follow and boards that play use the same keys. Portable.
+// The motors that each key of the keypad moves. Follower boards and boards with a queue use the same keys. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// A key moves the axes in `steps`; those in `down` move downwards.
+// A key moves the axes in `steps`; those in `down` move in the negative direction.
 struct KeyMove {
   uint8_t steps = 0;
   uint8_t down = 0;

@@ -1,13 +1,13 @@
-// JogRamp: takes a motor that a person moves by hand from its start-stop speed to its highest speed. The ramp has
-// stages, which a board plays as segments. Slowing down takes the same stages backwards.
+// JogRamp: accelerates a manually moved motor from its start-stop speed to its highest speed. The ramp has stages,
+// which a board plays as segments. Deceleration uses the same stages in reverse.
 //
 //   speed  ^            ________          Each stage changes the interval by the same amount at every event, so its
-//          |         _/                   acceleration is largest at its fast end. A stage is so long that even there
-//          |      _/                      the acceleration keeps its limit.
+//          |         _/                   acceleration is largest at its fast end. A stage is long enough to keep the
+//          |      _/                      acceleration limit even there.
 //          |   __/
 //          +--|--+--+--+---------> time
 //
-// The compiler computes it. Portable.
+// The ramp is computed at compile time. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -17,21 +17,21 @@
 namespace passo {
 
 struct JogSpeeds {
-  uint32_t start_stop = 0;    // steps a second: the motor starts and stops at this speed without a ramp
-  uint32_t highest = 0;       // steps a second
-  uint32_t acceleration = 0;  // steps a second, each second
-  uint8_t tap = 1;            // steps for a key that is just touched
+  uint32_t start_stop = 0;    // steps/s: the motor starts and stops at this speed without a ramp
+  uint32_t highest = 0;       // steps/s
+  uint32_t acceleration = 0;  // steps/s²
+  uint8_t tap = 1;            // steps for a short key press
 };
 
 inline constexpr uint8_t jog_stages = 24;
-// At the highest speed motion is played in pieces of this part of a second.
+// Motion at the highest speed is played in pieces of 1/100 s.
 inline constexpr uint8_t jog_pieces_a_second = 100;
 
 struct JogRamp {
   struct Stage {
     uint16_t events = 0;
     uint32_t interval = 0;  // at the slow end, 16.16 ticks
-    int32_t change = 0;     // at each event, while getting faster
+    int32_t change = 0;     // at each event, during acceleration
   };
   Stage stages[jog_stages] = {};
   uint32_t shortest = 0;  // the shortest interval
@@ -62,7 +62,7 @@ constexpr JogRamp jog_ramp(const JogSpeeds& speeds, uint32_t clock) {
   return ramp;
 }
 
-// Whether the intervals fit into 32 bits and a segment accepts the changes.
+// Whether the intervals fit into 32 bits and the changes into a segment.
 constexpr bool can_ramp(const JogSpeeds& speeds, uint32_t clock) {
   if (speeds.acceleration == 0 || speeds.tap == 0 || speeds.highest <= speeds.start_stop) return false;
   return (uint64_t{clock} << 16) / largest_interval < speeds.start_stop;

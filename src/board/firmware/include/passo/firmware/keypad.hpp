@@ -1,4 +1,4 @@
-// Keypad: which key of a 4x3 keypad a person holds down.
+// Keypad: finds the key of a 4x3 keypad that the operator holds down.
 //
 //   1 2 3
 //   4 5 6
@@ -6,11 +6,10 @@
 //   * 0 #
 //
 // A key connects its row to its column. The rows are read with a pull-up. One column at a time is driven low and the
-// others float, so that two keys in a row short nothing. A column is driven long before its rows are read, because a
-// long cable needs time to settle.
+// others float, so that two keys in a row cause no short circuit. A column is driven long before its rows are read,
+// because a long cable needs time to settle.
 //
-// Two keys at once are no key: a jog stops when a second finger comes down.
-// Portable.
+// Two keys at once count as no key: a jog stops when a second key is pressed. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -25,7 +24,7 @@ inline constexpr Key no_key = keypad_rows * keypad_columns;
 constexpr Key key_at(uint8_t row, uint8_t column) {
   return static_cast<Key>(row * keypad_columns + column);
 }
-// The key with this letter. no_key if there is none.
+// Returns the key with this character, or no_key.
 constexpr Key key_named(char name) {
   constexpr char names[] = "123456789*0#";
   Key key = 0;
@@ -33,7 +32,7 @@ constexpr Key key_named(char name) {
   return key;
 }
 
-// A value that counts only after it has been the same for `looks` looks after the first, because contacts bounce.
+// A debounced value: it becomes valid after it has been equal in `looks` scans after the first.
 template <uint8_t looks>
 class Settled {
  public:
@@ -48,7 +47,7 @@ class Settled {
     }
   }
   uint8_t value() const { return value_; }
-  // Whether the last look saw the same value.
+  // Whether the last scan read the same value.
   bool steady() const { return seen_ == value_; }
 
  private:
@@ -57,7 +56,7 @@ class Settled {
   uint8_t left_ = 0;
 };
 
-// The result of one look at all columns. The caller drives the columns.
+// Collects the result of one scan of all columns. The caller drives the columns.
 class KeypadScan {
  public:
   // `rows` has a bit for each row that is connected to this column.

@@ -1,20 +1,19 @@
-// ManualMode: a person moves the machine by the keypad of a Board. `#` enters the mode, `*` leaves it, both only at
-// rest.
+// ManualMode: the operator moves the machine with the keypad of a Board. `#` enters the mode, `*` leaves it, both only
+// at standstill.
 //
-// A key that is touched makes some steps. Held for 0.4 s it goes on, up a ramp to the highest speed. When it is
-// released, the motion goes down the same ramp. Jogging goes through the board's own list and player, so every step is
-// counted and switches act as always. A host is told `manual`. Its motion is not executed until its next hello after
-// `*`.
+// A short press of a key makes some steps. A key held for 0.4 s starts continuous motion, up a ramp to the highest
+// speed. When the key is released, the motion decelerates on the same ramp. Jogging uses the board's own list and
+// player, so every step is counted and switches act as always. A host receives the error `manual`. Its motion is not
+// executed until its next hello after `*`.
 //
 // Hardware is a type with
-//   static uint8_t rows();                                a bit for each row with a key down, in the column driven low
+//   static uint8_t rows();                                a bit for each row with a pressed key, in the low column
 //   static void draw_column(uint8_t column);              drives this column low and lets the others float
 //   static bool tool_button();
 //   static void indicators(bool automatic, bool manual);
 //
-// Invariant: while a key is held, the list holds some pieces ahead. After its release the rest of the ramp follows
-// them.
-// Portable.
+// Invariant: while a key is held, the list holds some pieces ahead. After its release the deceleration ramp follows
+// them. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -37,7 +36,7 @@ class ManualMode {
     Hardware::indicators(true, false);
   }
 
-  // Call about every 4 milliseconds: looks at one column.
+  // Call about every 4 milliseconds: scans one column.
   void tick() {
     scan_.add(column_, Hardware::rows());
     board_.breathe();
@@ -46,7 +45,7 @@ class ManualMode {
     if (column_ == 0) poll();
   }
 
-  // Call as often as possible: adds what is played next.
+  // Call as often as possible: adds the next pieces of motion.
   void feed() {
     if (!board_.manual() || (!runs_ && stage_ == 0) || board_.size() >= pieces_ahead) return;
     if (!runs_) return slow_down();
@@ -55,14 +54,14 @@ class ManualMode {
     play(stage.events, stage.interval, stage.change);
   }
 
-  // Call when a switch has stopped the motors at once.
+  // Call when a switch has stopped the motors instantly.
   void stopped() {
     stage_ = 0;
     runs_ = waits_ = false;
   }
 
  private:
-  // A look takes three ticks, 12 ms.
+  // A scan takes three ticks, 12 ms.
   static constexpr uint8_t looks_to_settle = 2;  // 24 ms
   static constexpr uint8_t looks_to_repeat = 33;
   static constexpr uint8_t pieces_ahead = 3;
@@ -108,7 +107,7 @@ class ManualMode {
     play(stage.events, stage.interval + gained, -stage.change);
   }
   [[gnu::noinline]] void play(uint16_t events, uint32_t interval, int32_t change) {
-    // The increments are 0 and flipped: a step at every event, while the motors' fractions stay as they were.
+    // The increments are 0 and flipped: every event makes a step, and the motors' fractions stay unchanged.
     typename Board::Segment segment;
     segment.events = events;
     segment.directions = jog_.down;
@@ -135,10 +134,10 @@ class ManualMode {
   Settled<looks_to_settle> key_{no_key};
   Settled<looks_to_settle> button_{0};
   uint8_t column_ = 0;
-  uint8_t left_ = 0;    // looks until a held key begins to run
-  uint8_t stage_ = 0;   // stage of the ramp that comes next when getting faster
-  bool waits_ = false;  // a key waits for the motors to rest
-  bool runs_ = false;   // a key is held
+  uint8_t left_ = 0;    // scans until a held key starts continuous motion
+  uint8_t stage_ = 0;   // the next stage of the ramp during acceleration
+  bool waits_ = false;  // a key waits until the motors have stopped
+  bool runs_ = false;   // a key is held, and the motors run
   bool tool_ = false;
   KeyMove jog_;
 };

@@ -1,4 +1,4 @@
-// PartTaker: takes a segment apart into the parts that a board's player plays (wire/segment_parts.hpp).
+// PartTaker: splits a segment into the parts that a board's player plays (wire/segment_parts.hpp).
 //
 // Portable: integers only, no heap.
 #pragma once
@@ -9,20 +9,20 @@
 
 namespace passo {
 
-// `Breath{}()` is called between the steps of the work, so that a chip's interrupts do not wait long.
+// `Breath{}()` is called between the steps of the calculation, so that a chip's interrupts do not wait long.
 template <uint8_t most_motors, class Breath>
 class PartTaker {
  public:
   using Segment = SegmentFor<most_motors>;
 
-  // No part of the last segment is left.
+  // True if no part of the last segment is left.
   bool are_done() const { return left_ == 0; }
   void drop() { left_ = 0; }
   // Too large for a chip's stack.
   Segment& part() { return part_; }
 
-  // Takes the next part of the segment, or the first one if it begins. A segment with a root keeps the growth of the
-  // part in its change.
+  // Computes the next part of the segment, or the first one if `begins`. A root segment keeps the growth of the part in
+  // its change.
   [[gnu::always_inline]] void take(Segment& segment, bool begins) {
     Breath{}();
     if (begins) {
@@ -44,7 +44,8 @@ class PartTaker {
   }
 
  private:
-  // Goes on to the interval behind the part. It has all its events: a power of two, but for even segments.
+  // Advances to the interval after the part. The part is complete: its number of events is a power of two, except in
+  // even segments.
   [[gnu::noinline]] void pass(uint8_t form) {
     uint32_t change = static_cast<uint32_t>(part_.change);
     if (form == 0) {
@@ -54,7 +55,7 @@ class PartTaker {
     }
     part_.interval += change;
   }
-  // Gives the part the increments that bent motors have there.
+  // Sets the part's increments for the motors with a bend.
   [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
     Breath{}();
     if (begins) {
@@ -63,7 +64,7 @@ class PartTaker {
       bend_on(segment, part_.increments);
     }
   }
-  // Gives the part the change that a root has there.
+  // Sets the part's change for a root segment.
   [[gnu::noinline]] void grow(Segment& segment, bool begins) {
     Breath{}();
     if (!begins) segment.change = next_growth<Breath>(segment.change);
@@ -74,7 +75,7 @@ class PartTaker {
   }
 
   Segment part_;
-  uint16_t left_ = 0;  // events of the segment that were not taken yet
+  uint16_t left_ = 0;  // events of the segment that are not in a part yet
 };
 
 }  // namespace passo

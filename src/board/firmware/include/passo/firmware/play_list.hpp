@@ -1,16 +1,16 @@
-// PlayList: the items that a board holds, in the order in which it will play them. It also collects the items of a
-// queue update, which replace its stop ramp.
+// PlayList: the items that a board holds, in the order of execution. It also collects the items of a queue update,
+// which replace its stop ramp.
 //
-// Items lie in slots, and each slot names the next one: an item is written once and never moved. A replacement gathers
-// in slots of its own. When it is complete, one link changes from the old tail to the new one. A replacement that was
-// cut short changes nothing. Chains of slots are freed as a whole.
+// Items lie in slots, and each slot has the index of the next one: an item is written once and never moved. A
+// replacement is gathered in separate slots. When it is complete, one link changes from the old stop ramp to the new
+// items. An incomplete replacement changes nothing. Chains of slots are freed as a whole.
 //
-//     front -> item -> item k -> tail -> tail          before: the tail brings the motors to rest
+//     front -> item -> item k -> tail -> tail          before: the tail is the stop ramp
 //                        |
 //                        +-> staged -> staged -> …     after the switch; the old tail's slots are free
 //
-// Only the main loop uses it, also where a timer is an interrupt. Portable: no heap. Finding item k is a walk over the
-// list.
+// Only the main loop uses it, even where the timer is an interrupt. Portable: no heap. Finding item k is a walk through
+// the list.
 #pragma once
 
 #include <stddef.h>
@@ -21,12 +21,12 @@
 
 namespace passo {
 
-// An item in as few bytes as possible, for boards with little memory: 15, and two for each of its motors.
+// An item in as few bytes as possible, for boards with little memory: 15 bytes, and two for each of its motors.
 template <uint8_t motors>
 struct BoardItemSlot {
   uint16_t number = 0;
   uint8_t next = 0;
-  SegmentFor<motors> segment;  // a segment without events stands for outputs
+  SegmentFor<motors> segment;  // a segment without events means outputs
 
   bool is_segment() const { return segment.events != 0; }
   void keep(const BoardOutputs& outputs) {
@@ -39,7 +39,7 @@ struct BoardItemSlot {
   }
 };
 
-// Pause{}() is called amid long work.
+// Pause{}() is called during long work.
 template <size_t slot_count, uint8_t motors = max_motors, class Pause = NoPause>
 class PlayList {
   static constexpr uint8_t none = 0xFF;
@@ -50,7 +50,7 @@ class PlayList {
 
   PlayList() { clear(); }
 
-  // Empties the list. From now on it has no more than `places` places.
+  // Empties the list, and limits it to `places` items.
   void clear(uint8_t places = slot_count) {
     unused_ = none;
     for (uint8_t i = places; i-- != 0;) {
@@ -67,7 +67,7 @@ class PlayList {
   uint8_t free() const { return free_; }
   bool empty() const { return front_ == none; }
   const Slot& front() const { return slots_[front_]; }
-  // The item at `place`, counted from the front, without gathered ones. A walk.
+  // Returns the item at index `place` from the front, without gathered items. It walks through the list.
   Slot& at(uint8_t place) {
     uint8_t slot = front_;
     for (; place != 0; --place) slot = slots_[slot].next;
@@ -82,9 +82,9 @@ class PlayList {
     release_slots(slot, slot, 1);
   }
 
-  // Where to write the next item, except for its `next`. Only while free() > 0.
+  // Returns the slot for the next item; its `next` must not be written. Call only while free() > 0.
   Slot& space() { return slots_[unused_]; }
-  // Adds that item: to the replacement if one is being gathered, else after the last item.
+  // Adds that item: to the replacement if one is being gathered, otherwise after the last item.
   void append() {
     const uint8_t slot = unused_;
     unused_ = slots_[slot].next;
@@ -99,7 +99,8 @@ class PlayList {
     }
   }
 
-  // The next `count` items are to replace everything after item `after`. Drops a replacement gathered so far.
+  // Starts a replacement: the next `count` items replace everything after item `after`. Drops an incomplete
+  // replacement.
   void begin_replacement(uint16_t after, uint8_t count) {
     drop_replacement();
     staged_ = {.after = after, .count = count, .missing = count};
@@ -112,12 +113,12 @@ class PlayList {
     staged_ = {};
   }
   bool gathering() const { return staged_.missing > 0; }
-  // True when all items have come; then call complete().
+  // True when all items have arrived; then call complete().
   bool gathered() const { return staged_.front != none && staged_.missing == 0; }
-  // Puts the replacement in place. `executed` is the last item that was popped. The first `begun` items are being
-  // played or prepared for the timer, and stay. Returns false and changes nothing if an item after the one to replace
-  // after has begun. The queue ends in a stop: if nothing is replaced, `from_rest` becomes the low byte of the number
-  // of the first new item. This is the longest work of all, so Pause{}() is called between its parts.
+  // Puts the replacement in place. `executed` is the number of the last item that was popped. The first `begun` items
+  // are being played or prepared for the timer, and stay. Returns false and changes nothing if an item after `after`
+  // has begun. The queue ends in a stop: if nothing is replaced, `from_rest` becomes the low byte of the number of the
+  // first new item. This is the longest work of all, so Pause{}() is called between its parts.
   bool complete(uint16_t executed, uint8_t begun, uint8_t& from_rest) {
     uint8_t slot = front_;
     uint8_t place = 1;

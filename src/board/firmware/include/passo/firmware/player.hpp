@@ -1,7 +1,7 @@
-// Player: the heart of the board. It plays board segments event by event. The host replays motion with the same code.
+// Player: plays board segments event by event. The host simulates motion with the same code.
 //
-// Invariant: accumulators and the fraction of a tick carry on from segment to segment; nothing is rounded at a border.
-// Portable: integers only, no division, no heap. On the host about 3 ns an event.
+// Invariant: accumulators and the fraction of a tick continue from segment to segment; nothing is rounded in between.
+// Portable: integers only, no division, no heap. On the host about 3 ns per event.
 #pragma once
 
 #include "passo/wire/board_segment.hpp"
@@ -12,9 +12,9 @@ class Player {
  public:
   explicit Player(uint8_t motors) : motors_(motors) {}
 
-  // Whether it can take the next item.
+  // Whether it can accept the next item.
   bool ready() const { return done(); }
-  // Takes the next segment, of 255 events at most. Only when ready().
+  // Loads the next segment, of 255 events at most. Call only when ready().
   template <uint8_t room>
   void load(const SegmentFor<room>& segment) {
     segment_.events = segment.events;
@@ -26,22 +26,22 @@ class Player {
     left_ = static_cast<uint8_t>(segment.events);
     for (uint8_t motor = 0; motor < motors_; ++motor) at_start_[motor] = accumulators_[motor];
   }
-  // Takes an item that another part executes. It is finished when all items before it are. Only when ready().
+  // Accepts an item that another part executes. It is finished when all items before it are. Call only when ready().
   void pass(const BoardOutputs& /*outputs*/) { ++finished_; }
   // Whether the oldest item is done: played() and steps() are then final. Call forget() afterwards.
   bool finished() const { return finished_ != 0; }
   void forget() { --finished_; }
-  // Resets the player as at its construction, and breaks off what it plays.
+  // Resets the player to its initial state, and interrupts playback.
   void restart(uint8_t motors) { *this = Player(motors); }
 
   bool done() const { return left_ == 0; }
-  // Whether since restart() an event could not be made in time, so that all later ones were late. Here each event is
-  // made when it is due, unless it is reported as late.
+  // Whether an event since restart() was late, which also delays all later ones. Here each event is made when it is
+  // due, unless slip() is called.
   bool slipped() const { return slipped_; }
   void slip() { slipped_ = true; }
   uint8_t directions() const { return segment_.directions; }
 
-  // Whole ticks from the last event to the next. Only when not done(), once for each event.
+  // Returns the whole ticks from the last event to the next. Call once for each event, only when not done().
   uint32_t wait() {
     const uint32_t fraction = tick_fraction_ + (segment_.interval & 0xffff);
     tick_fraction_ = static_cast<uint16_t>(fraction);
@@ -50,7 +50,7 @@ class Player {
     return ticks;
   }
 
-  // Plays the event. Bit m of the result says that motor m steps, in the direction of directions().
+  // Plays the event. Bit m of the result: motor m steps, in the direction of directions().
   uint8_t play() {
     uint8_t carries = 0;
     for (uint8_t motor = 0; motor < motors_; ++motor) {
@@ -63,10 +63,10 @@ class Player {
     return carries ^ segment_.flips;
   }
 
-  // For the present segment: the events played, and the steps that a motor has made in them, down or up.
+  // For the present segment: the events played, and the signed number of steps of a motor in them.
   uint8_t played() const { return static_cast<uint8_t>(segment_.events - left_); }
   int16_t steps(uint8_t motor) const {
-    // No event counts steps: the number of carries follows from the number of increments.
+    // Steps are not counted at each event: the number of carries follows from the number of increments.
     const uint8_t bit = static_cast<uint8_t>(1U << motor);
     const uint32_t added = at_start_[motor] + static_cast<uint32_t>(segment_.increments[motor]) * played();
     const int16_t carries = static_cast<int16_t>(added >> 16);
@@ -74,7 +74,7 @@ class Player {
     return (segment_.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
   }
 
-  // Adds the steps of all motors to their positions. Once for each segment, when it has ended or is broken off.
+  // Adds the steps of all motors to their positions. Call once for each segment, when it has ended or is interrupted.
   void add_steps(int32_t* positions) const {
     for (uint8_t motor = 0; motor < motors_; ++motor) positions[motor] += steps(motor);
   }
@@ -86,9 +86,9 @@ class Player {
   BoardSegment segment_;
   uint8_t motors_;
   uint8_t left_ = 0;
-  uint8_t finished_ = 0;  // items done and not forgotten yet
+  uint8_t finished_ = 0;  // items done and not dropped yet
   bool slipped_ = false;
-  // Half a step and half a tick: with these, truncation below means rounding outside.
+  // Start values of half a step and half a tick, so that truncation to whole steps and ticks rounds to nearest.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
   uint16_t at_start_[max_motors] = {};  // as they were at the start of the segment
   uint16_t tick_fraction_ = 0x8000;

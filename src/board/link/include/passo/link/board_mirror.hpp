@@ -46,7 +46,7 @@ class BoardMirror {
   void record_stop(std::uint16_t inputs);
   void record_stop();
   std::uint16_t stopped_by() const { return stopped_by_; }
-  // The motors stopped during motion.
+  // The motors stopped during motion, because the board could not make its events in time.
   void on_standstill(const BoardStatus& status) { standstill_ = status; }
   const std::optional<BoardStatus>& standstill() const { return standstill_; }
   // The board switches its outputs off when the host is silent, until the host sends outputs.

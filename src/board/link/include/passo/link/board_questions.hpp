@@ -1,7 +1,6 @@
 // BoardQuestions: the host's open queries to its board, and the response time.
 //
-// A query has a number, which its answer repeats. The host can wait for one query: it continues when that one is
-// answered.
+// A query has a number, which its answer repeats. The host can wait for one query: it continues after that answer.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +33,7 @@ class BoardQuestions {
   const std::optional<Question>& awaited() const { return awaited_; }
   // Registers an answer. True: the host was waiting for this one.
   bool settle(Question answered, Seconds now);
-  // Starts the measurement of a response time: filler bytes follow on the link.
+  // Starts the measurement of a response time with filler bytes.
   void begin_rehearsal(Seconds now) { rehearsed_ = now; }
 
   // Registers a sent frame: earlier answers are out of date.

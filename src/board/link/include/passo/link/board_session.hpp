@@ -10,7 +10,7 @@
 // Before the handshake, the session can query the board's type and status, even while the board moves. These queries
 // change nothing on the board. Then greet() starts the handshake, and ready() shows when it is complete.
 //
-// On a link that loses nothing, an error reported by the board is a bug on one of the two sides, and final. On a link
+// On a link that loses nothing, an error reported by the board is a bug of the host or the board, and final. On a link
 // that may lose bytes, the session keeps each frame until the board has acknowledged it. If the board reports a missing
 // frame, the session repeats from there: a few frames, then a query of the board's progress, and so on until the board
 // has received all. During a silence, the session queries the board's status until the timeout. It thus notices when a
@@ -48,11 +48,11 @@ class BoardSession final : public Link {
     bool heard = false;
   };
 
-  // The constructor sends nothing. The port outlives the session.
+  // The constructor sends nothing. The port must outlive the session.
   explicit BoardSession(BoardPort& port, const LineCare& care = {});
 
-  // Processes the board's messages, and repeats unanswered queries, until there is news, but for at most `most`. With
-  // an infinite `most`, a board that stays silent is an error.
+  // Processes the board's messages, and repeats unanswered queries, until something has changed, but for at most
+  // `most`. With an infinite `most`, a board that stays silent is an error.
   Progress poll(Seconds most);
 
   // Queries `about` or `status`, before or after the handshake. settled() shows when the answer has arrived.
@@ -117,8 +117,8 @@ class BoardSession final : public Link {
   std::uint64_t frames_sent() const override { return window_.statistics().frames(); }
   std::uint64_t bytes_sent() const override { return window_.statistics().bytes(); }
   std::uint64_t frames_repeated() const { return window_.statistics().repeated(); }
-  // After an axis with two motors was homed, while stopped: the counts of first motors are the board's own again, also
-  // in status(). True: they were not, because second motors had turned alone.
+  // Call after an axis with two motors was homed, while stopped. Restores the board's own counts of first motors, also
+  // in status(). Returns true if they differed because second motors had turned alone.
   bool forget_shifts() { return mirror_.counts() != nullptr && twins_.forget_shifts(mirror_.counts()); }
   // After LinkError::cannot_set_up: the part of the pin set-up that the board does not support.
   PinSetup undone_setup() const { return handshake_.undone_setup(); }

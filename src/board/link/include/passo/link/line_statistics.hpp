@@ -1,4 +1,5 @@
-// LineStatistics: how much went to a board, how much of it again, and how fast the board takes frames.
+// LineStatistics: counts the bytes sent to a board and the repeated ones, and measures how fast the board accepts
+// frames.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +16,17 @@ class LineStatistics {
     bytes_ += bytes;
   }
   void record_repeated(int frames) { repeated_ += static_cast<std::uint64_t>(frames); }
-  // A burst: frames sent until the board has taken all. The board's pace follows from long bursts.
+  // A burst: frames sent until the board has accepted all of them. The board's pace is measured in long bursts.
   void begin_burst(Seconds now) { burst_began_ = now; }
   void record_in_burst() { ++burst_; }
   void end_burst(Seconds now);
-  // Another board: its pace is unknown.
+  // Call for another board: its pace is unknown.
   void forget_pace();
 
   std::uint64_t frames() const { return frames_; }
   std::uint64_t bytes() const { return bytes_; }
   std::uint64_t repeated() const { return repeated_; }
-  // How long the board took lately to take a frame of a long burst, the line's time included; 0: unknown.
+  // Returns the recent time per frame of a long burst, including the transmission; 0: unknown.
   Seconds time_a_frame() const { return time_a_frame_; }
 
  private:

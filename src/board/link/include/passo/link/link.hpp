@@ -80,16 +80,16 @@ class Link {
   virtual bool rests() const = 0;
   // True: some sent items have not been reported as executed.
   virtual bool busy() const = 0;
-  // True: the board has switched its outputs off after a silence of the host. It accepts no queue update until outputs
-  // have been sent in a separate message.
+  // True: the board has switched its outputs off after a silence of the host. It accepts no queue update until the host
+  // has sent outputs in a separate message.
   virtual bool outputs_timed_out() const { return false; }
 
   // Queries that must be answered before the host continues. Only one may be open at a time. settled() shows when the
   // answer has arrived.
   //
-  // Queries the probe. Call it while the board is stopped, with all items executed that did not come too late. After
-  // the answer, the board captures the position of the probe's first change. With `limit`, the bit of a limit switch,
-  // that switch acts as the probe, and does not stop the motors until the next watch.
+  // Starts watching the probe. Call it while the board is stopped, with all items executed except those that came too
+  // late. After the answer, the board captures the position of the probe's first change. With `limit`, the bit of a
+  // limit switch, that switch acts as the probe, and does not stop the motors until the next watch.
   virtual void watch_probe(ProbeUntil until, std::uint8_t limit = 0) = 0;
   // Reads the captured position, while the board is stopped again. After the answer, the report contains the steps.
   virtual void recall_contact() = 0;
@@ -112,8 +112,8 @@ class Link {
   virtual bool answered() const = 0;
   // The response time of the last such answer.
   virtual Seconds answer_time() const = 0;
-  // The time on the board's side, from an arbitrary zero. The recent time per frame of a long burst, including the
-  // transmission; 0: unknown.
+  // now(): the time on the board's side, from an arbitrary zero. time_a_frame(): the recent time per frame of a long
+  // burst, including the transmission; 0: unknown.
   virtual Seconds time_a_frame() const = 0;
   virtual Seconds now() const = 0;
   virtual std::optional<LinkError> error() const = 0;

@@ -1,9 +1,9 @@
 // SentSegments: the last segments sent to a board, and the step pulses that result from them, each with its time.
 //
-// Within a motion, the times are those of the board's player, to the tick, because the host computes the same sums. If
-// the queue was empty, the next motion starts at its sending time by the host's clock, which is a few milliseconds
-// early. Segments that are queued on the board but not executed yet are included; a view shows no pulses later than
-// now.
+// Within a motion, the times are those of the board's player, to the tick, because the host computes the same event
+// times. If the queue was empty, the next motion starts at its sending time by the host's clock, which is a few
+// milliseconds early. Segments that are queued on the board but not executed yet are included; a view shows no pulses
+// later than now.
 //
 // At most `most` segments are kept; the oldest are dropped. Cost: about 100 ns per segment, nothing while switched off.
 #pragma once

@@ -24,7 +24,7 @@ class SilenceWatch {
 
   // Starts measuring the silence.
   void begin(Seconds now) { progressed_ = heard_ = quiet_since_ = now; }
-  // A byte arrived; a complete frame arrived; the board answered, accepted or executed something.
+  // The board has sent a byte, or a complete frame. on_progress(): it has answered, accepted or executed something.
   void on_byte(Seconds now) { quiet_since_ = now; }
   void on_frame(Seconds now) { heard_ = now; }
   void on_progress(Seconds now) { progressed_ = now; }
@@ -47,10 +47,10 @@ class SilenceWatch {
 
  private:
   LineCare care_;
-  Seconds heard_;          // when the board last said anything
-  Seconds quiet_since_;    // when the board did, or was asked again
-  Seconds progressed_{0};  // when the board last answered, took or executed something
-  Seconds moved_on_{0};    // when the board last took something, or the host asked or sent
+  Seconds heard_;          // when the board last sent a frame
+  Seconds quiet_since_;    // when the board last sent a byte, or was queried again
+  Seconds progressed_{0};  // when the board last answered, accepted or executed something
+  Seconds moved_on_{0};    // when the board last accepted something, or the host last sent something
 };
 
 }  // namespace passo

@@ -1,11 +1,11 @@
-// BoardAddress: the place of a board, as a user writes it.
+// BoardAddress: the address of a board, as a user writes it.
 //
 //   virtual                       a virtual machine in this process
-//   serial:/dev/ttyUSB0           a serial line at 500,000 baud
-//   serial:/dev/ttyUSB0@115200    at another rate
+//   serial:/dev/ttyUSB0           a serial port at 500,000 baud
+//   serial:/dev/ttyUSB0@115200    at another baud rate
 //   sim:uno                       that board's firmware on an emulated chip, in this process
-//   grbl:/dev/ttyUSB0             a machine that speaks Grbl 1.1, at 115,200 baud; also @BAUD and grbl:tcp:HOST:PORT
-//   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; [::1] for an address with colons
+//   grbl:/dev/ttyUSB0             a machine with Grbl 1.1, at 115,200 baud; also @BAUD and grbl:tcp:HOST:PORT
+//   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; IPv6 addresses in brackets: [::1]
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct BoardAddress {
   std::string place;           // device, host, or emulated board
   std::string port;            // tcp
   unsigned baud = usual_baud;  // serial
-  bool speaks_grbl = false;    // at the other end is no board, but a machine that takes G-code
+  bool speaks_grbl = false;    // the other end is a machine that accepts G-code, not a board
 
   bool operator==(const BoardAddress&) const = default;
 };

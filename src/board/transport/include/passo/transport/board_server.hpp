@@ -1,14 +1,14 @@
-// BoardServer: the line of a board that listens for its host over TCP, on this computer only.
+// BoardServer: a board's TCP server for its host, reachable from this computer only.
 //
-// Any number of programs may watch the board; one of them drives it, the host. A client becomes the host when it sends
+// Any number of programs may watch the board; one of them, the host, drives it. A client becomes the host when it sends
 // a message that only a host sends: a hello, an item, or a query with positions. Clients that only query are answered,
-// without an effect on others. A second host is sent away, but a host that was silent for `most_silence` gives way to
-// it.
+// without an effect on others. A second host is disconnected, unless the first host has been silent for `most_silence`.
 //
-// A caller whose first byte begins no frame is sent away at once: a web page can make a browser call.
+// A client whose first byte is not the start of a frame is disconnected at once, because a web page can make a browser
+// connect.
 //
-// Frames go to the board whole, so half a frame of one program never spoils another's. A client that does not read its
-// messages is disconnected, so that it cannot block the board.
+// The board receives only whole frames, so an incomplete frame of one program never corrupts another's. A client that
+// does not read its messages is disconnected, so that it cannot block the board.
 #pragma once
 
 #include <chrono>
@@ -27,12 +27,12 @@ namespace passo {
 
 class BoardServer {
  public:
-  // A host that works is heard five times a second.
+  // A working host sends something five times a second.
   static constexpr Seconds most_silence{2};
   static constexpr std::size_t most_clients = 32;
 
-  // Listens for this computer only, because whoever can connect can turn the motors. `port` 0: any that is free. The
-  // error is a sentence with the reason.
+  // Listens on this computer only, because every client can move the motors. `port` 0: a free port. The error is a
+  // sentence with the reason.
   static Result<std::unique_ptr<BoardServer>, std::string> listen(unsigned port);
   ~BoardServer();
   BoardServer(const BoardServer&) = delete;
@@ -41,7 +41,8 @@ class BoardServer {
   unsigned port() const { return port_; }
   // Waits for a connection, a message or a disconnection, but at most `most`.
   void wait(Seconds most) const;
-  // Accepts connections, and passes messages to the board. The board's answers go to whoever asked. Does not wait.
+  // Accepts connections, and passes messages to the board. Each answer goes to the client that sent the query. Does not
+  // wait.
   void attend(BoardPort& board);
   // Sends the board's own messages to the host. Without a host they are dropped.
   void send_to_host(std::span<const std::uint8_t> bytes);
@@ -53,8 +54,8 @@ class BoardServer {
   struct Client {
     int descriptor = -1;
     Decoder decoder;
-    std::uint8_t motors = 0;               // for which its messages carry values
-    std::vector<std::uint8_t> last_bytes;  // as many as a frame may have
+    std::uint8_t motors = 0;               // number of motors in its messages
+    std::vector<std::uint8_t> last_bytes;  // the latest bytes, at most the length of a frame
     Clock::time_point heard = Clock::now();
     bool has_spoken = false;
     bool gone = false;
@@ -72,9 +73,9 @@ class BoardServer {
   unsigned port_;
   std::vector<std::unique_ptr<Client>> clients_;
   Client* host_ = nullptr;
-  std::uint8_t motors_ = 0;  // of the last hello; a host that reconnects does not send one
+  std::uint8_t motors_ = 0;  // number of motors in the last hello; a host that reconnects does not send one
   bool anybody_came_ = false;
-  Clock::time_point accepts_at_;  // not before: there was no room for a caller
+  Clock::time_point accepts_at_;  // the earliest time for the next accept: there was no room for a client
 };
 
 }  // namespace passo

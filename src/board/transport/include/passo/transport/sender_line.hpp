@@ -1,17 +1,17 @@
-// SenderLine: where a sender of G-code comes in and goes: a TCP port, a pseudo-terminal that looks like a serial port,
-// or a serial port. One sender at a time.
+// SenderLine: the connection of a G-code sender: a TCP port, a pseudo-terminal that looks like a serial port, or a
+// serial port. One sender at a time.
 //
-// A serial port does not tell whether anybody is there. A sender has come when it says something. A sender that has
-// been silent for `serial_silence` gives way to another sender: see yields(). A port whose device goes away is
-// opened again when it is back.
+// A serial port does not show whether a sender is connected. A sender counts as connected when it sends something. A
+// sender that has been silent for `serial_silence` can be replaced by another one: see yields(). A port whose device
+// disappears is opened again when the device is back.
 //
-// A caller whose first line is that of another protocol, such as a browser's, is no sender (CallerCheck). A TCP
-// connection is then closed; input from a terminal or serial port is dropped until the terminal is closed or the port
-// has been silent for `serial_pause`.
+// A client whose first line belongs to another protocol, such as a browser's, is not a sender (CallerCheck). Its TCP
+// connection is closed; input from a terminal or serial port is dropped until the terminal is closed or the port has
+// been silent for `serial_pause`.
 //
-// Nothing here waits, so one loop can serve a machine and any number of lines. What cannot be sent at once is kept; a
-// sender that reads nothing for so long that `most_unsent` bytes wait is sent away. What is not read stays with the
-// operating system, and so the sender is held up.
+// No function waits, so one loop can serve a machine and any number of connections. Bytes that cannot be sent at once
+// are kept; a sender that reads nothing is disconnected when `most_unsent` bytes wait. Unread input stays in the
+// operating system's buffer, which throttles the sender.
 #pragma once
 
 #include <chrono>
@@ -31,12 +31,12 @@ namespace passo {
 class SenderLine {
  public:
   static constexpr std::size_t most_unsent = std::size_t{256} * 1024;
-  // A sender that works asks for the status several times a second.
+  // An active sender queries the status several times a second.
   static constexpr std::chrono::seconds serial_silence{10};
-  // After this, somebody else may be at a serial port.
+  // After this silence, another sender may be at the serial port.
   static constexpr std::chrono::seconds serial_pause{1};
 
-  // Listens at a TCP address; port 0: any that is free. The errors are sentences with the reason.
+  // Listens at a TCP address; port 0: a free port. The errors are sentences with the reason.
   static Result<std::unique_ptr<SenderLine>, std::string> listen(const std::string& host, unsigned port);
   // Makes a pseudo-terminal, and a link to it at `link`. A sender opens the link like a serial port.
   static Result<std::unique_ptr<SenderLine>, std::string> open_terminal(const std::string& link);
@@ -46,25 +46,25 @@ class SenderLine {
   SenderLine(const SenderLine&) = delete;
   SenderLine& operator=(const SenderLine&) = delete;
 
-  // What to call it: "tcp:127.0.0.1:7071", or the link.
+  // The display name: "tcp:127.0.0.1:7071", or the path of the link.
   const std::string& name() const { return name_; }
   unsigned port() const { return port_; }
 
-  // Adds what to wait for. `reads`: also for bytes of the sender.
+  // Adds the descriptors and events to wait for. `reads`: also wait for bytes from the sender.
   void add_to(std::vector<pollfd>& all, bool reads) const;
   struct News {
     bool came = false;
     bool went = false;
     std::string bytes;
   };
-  // What has happened since the last call.
+  // Returns what has happened since the last call.
   News poll(bool reads);
-  // Sends whole lines, in one write where the other side takes it.
+  // Sends whole lines, in one write if the other side accepts it.
   void send(std::string_view text);
   bool is_connected() const { return connected_; }
-  // The sender may have gone without a sign.
+  // True if the sender may have disconnected unnoticed.
   bool yields() const { return kind_ == Kind::serial && Clock::now() - heard_ > serial_silence; }
-  // Takes the sender for gone.
+  // Treats the sender as disconnected.
   void part() { connected_ = false; }
 
  private:
@@ -80,16 +80,16 @@ class SenderLine {
   bool has_reader() const;
 
   std::string name_;
-  std::string link_;  // to be removed
+  std::string link_;  // path of the link, to be removed at the end
   unsigned port_ = 0;
   int listening_ = -1;
-  int sender_ = -1;  // the connection; of a pseudo-terminal, the end that is ours; the serial port
+  int sender_ = -1;  // the connection, our end of the pseudo-terminal, or the serial port
   Kind kind_ = Kind::network;
   unsigned baud_ = 0;
   CallerCheck check_;
   Clock::time_point heard_;
-  Clock::time_point tried_;       // to open the device again
-  Clock::time_point accepts_at_;  // not before: there was no room for a caller
+  Clock::time_point tried_;       // time of the last attempt to open the device again
+  Clock::time_point accepts_at_;  // the earliest time for the next accept: there was no room for a client
   bool connected_ = false;
   bool broken_ = false;
   std::string unsent_;

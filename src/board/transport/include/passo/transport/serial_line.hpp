@@ -1,4 +1,4 @@
-// A serial line as a file descriptor: eight raw bits without flow control, and nothing that waits.
+// Opens a serial port as a file descriptor: eight raw bits, no flow control, non-blocking.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace passo {
 
-// Opens the line for this program alone. What was waiting on it is dropped. The error is a sentence with the reason.
+// Opens the port for exclusive use. Waiting input is dropped. The error is a sentence with the reason.
 Result<int, std::string> open_serial_line(const std::string& device, unsigned baud);
 
-// Asks an open line's USB adapter to hand on what it has received after 1 ms. An FTDI adapter waits up to 16 ms
-// otherwise. Returns the time in milliseconds, as the driver tells it; empty: this driver has no such time. `sys`:
-// where the kernel's sysfs is.
+// Sets the latency timer of an open port's USB adapter to 1 ms. By default an FTDI adapter delays received bytes by up
+// to 16 ms. Returns the resulting time in milliseconds, as the driver reports it; empty: this driver has no such
+// setting. `sys`: the path of the kernel's sysfs.
 std::optional<int> hurry_adapter(int descriptor, const std::string& device, const std::string& sys = "/sys");
 
 }  // namespace passo

@@ -1,8 +1,9 @@
-// StreamPort: a board at the other end of a serial line or a TCP connection, in real time.
+// StreamPort: a board at the other end of a serial link or a TCP connection, in real time.
 //
 // Position in the pipeline: the connection to a board outside this process. Only this code opens devices and sockets
-// and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A broken line is silent and
-// swallows what is sent, while this code opens it again and again. The link decides how long that may take (LineCare).
+// and waits for real time; a link uses a BoardPort and cannot tell it from a virtual line. A broken connection is
+// silent and drops all bytes sent, while this code tries repeatedly to open it again. The link decides how long that
+// may take (LineCare).
 #pragma once
 
 #include <chrono>
@@ -19,8 +20,8 @@ namespace passo {
 
 class StreamPort final : public BoardPort {
  public:
-  // Takes an open descriptor and closes it in the end. `open_again` returns a new descriptor for a line that broke, or
-  // a negative number.
+  // Takes ownership of an open descriptor. `open_again` returns a new descriptor after the connection broke, or a
+  // negative number.
   explicit StreamPort(int descriptor, std::function<int()> open_again = nullptr);
   ~StreamPort() override;
   StreamPort(const StreamPort&) = delete;
@@ -32,7 +33,7 @@ class StreamPort final : public BoardPort {
   Seconds elapsed() const override;
 
   bool hung_up() const override { return hung_up_; }
-  // Whether the device has gone or the other side has closed.
+  // Whether the device has disappeared or the other side has closed the connection.
   bool broken() const { return broken_; }
 
  private:
@@ -48,7 +49,7 @@ class StreamPort final : public BoardPort {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Opens a serial line or a connection. The error is a sentence with the reason.
+// Opens a serial port or a connection. The error is a sentence with the reason.
 Result<std::unique_ptr<StreamPort>, std::string> open_board(const BoardAddress& address);
 
 }  // namespace passo

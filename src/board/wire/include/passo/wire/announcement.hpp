@@ -25,7 +25,7 @@ class Announcement {
   }
   Replace replace() const {
     Replace replace = replace_;
-    // The announcement comes first, so its words are added first.
+    // The announcement comes first, so its words are added before those of the items.
     ItemSums sums;
     sums.add_announcement(number_, replace.after, replace.count);
     sums.second = static_cast<uint16_t>(sums.second + words_ * sums.first + sums_.second);

@@ -47,15 +47,15 @@ inline constexpr uint16_t most_events = 0x7ff;
 // In a message, a change has 24 bits. A large change is sent without its lowest eight bits.
 inline constexpr int32_t fine_change = 0x7fffff;
 inline constexpr int32_t coarse_change = 0x100;
-// In the number of events on the wire: set if the change is a large one, and the form.
+// Fields of the event count on the wire: coarse_bit marks a large change; the form starts at bit form_place.
 inline constexpr uint16_t coarse_bit = 0x8000;
 inline constexpr uint8_t form_place = 11;
 inline constexpr uint8_t root_form = 8;
 
 // A bend: the increments of motors change from part to part, and the field of the motor `lender` carries the change.
 //
-//   The lender stands still (it is not flipped).     Its place is what the increment of the motor `bent` grows by.
-//   The lender steps at every event (it is flipped,  Its place has two signed bytes, the low one first. The increments
+//   The lender does not move (it is not flipped).    Its field is added to the increment of the motor `bent`.
+//   The lender steps at every event (it is flipped,  Its field has two signed bytes, the low one first. The increments
 //   so its own increment is 0).                      of the first two other motors grow by them, times 4^bent.
 //
 // 0: no bend.
@@ -75,7 +75,7 @@ template <uint8_t motors>
 constexpr bool bends_two(const SegmentFor<motors>& segment, uint8_t lender) {
   return (segment.flips >> lender & 1) != 0;
 }
-// The two motors that bend where a motor that steps at every event lends its place.
+// The two motors with a bend, if a motor that steps at every event lends its field.
 constexpr uint8_t first_beside(uint8_t lender) {
   return lender == 0 ? 1 : 0;
 }

@@ -12,8 +12,8 @@ namespace passo {
 inline constexpr uint16_t crc16_start = 0xFFFF;
 
 constexpr uint16_t crc16(uint16_t crc, uint8_t byte) {
-  // Performs eight steps of the division together: the quotient's bits are the byte and its own shift by four. All work
-  // is in single bytes, which is half the work on an 8-bit chip.
+  // Performs eight steps of the division at once: the quotient's bits are the byte, exclusive-or the byte shifted by
+  // four. All operations are on single bytes, which halves the work on an 8-bit chip.
   const uint8_t first = static_cast<uint8_t>(byte ^ static_cast<uint8_t>(crc));
   const uint8_t quotient = static_cast<uint8_t>(first ^ static_cast<uint8_t>(first << 4));
   const uint8_t across =

@@ -111,8 +111,8 @@ class Decoder {
       if (crc_high == sync_byte) begin();
       return Decoded::frame;
     }
-    // If a frame was truncated, the next frame's sync byte may be at the position of the CRC. (Above, it may even have
-    // been the correct last byte.) Neither byte is inside a payload, so neither takes the fast path.
+    // If a frame was truncated, the next frame's sync byte may be at the position of the CRC. (The check above may even
+    // have taken it for the correct last byte.) Neither byte is inside a payload, so neither takes the fast path.
     feed_other(crc_low_);
     feed_other(crc_high);
     return Decoded::refused;
@@ -121,7 +121,7 @@ class Decoder {
   WireFrame frame_;
   State state_ = State::search;
   uint8_t motors_ = 0;
-  uint8_t to_sync_ = 0;   // bytes until the next one that stands for a sync byte
+  uint8_t to_sync_ = 0;   // bytes until the next one that replaces a sync byte
   uint8_t received_ = 0;  // bytes of the payload
   uint8_t left_ = 0;
   uint8_t crc_low_ = 0;

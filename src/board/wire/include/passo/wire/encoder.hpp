@@ -49,7 +49,7 @@ class Encoder {
     for (uint8_t left = 4; left != 0; --left, value >>= 8) put8(static_cast<uint8_t>(value));
   }
 
-  // A loop is small; clang would write it out.
+  // A loop keeps the code small; clang would unroll it.
   void put_text(const char* text, uint8_t size) {
 #ifdef __clang__
 #pragma clang loop unroll(disable)

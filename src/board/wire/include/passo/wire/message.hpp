@@ -26,7 +26,7 @@ struct HelloReply {
   uint32_t clock = 0;    // timer frequency, Hz
 };
 
-// The silence of the host after which a stopped board switches an output off: tenths of a second; 0: never.
+// The silence of the host after which a stopped board switches an output off, in tenths of a second; 0: never.
 struct Silence {
   uint8_t spindle = 0;
   uint8_t mist = 0;
@@ -46,7 +46,7 @@ struct StepTiming {
   uint8_t pulse = 0;         // how long a step pulse lasts
   uint8_t set_up = 0;        // from a change of the direction to the edge that starts a step
   uint8_t hold = 0;          // from the edge that starts a step to a change of the direction
-  uint16_t event_ticks = 0;  // the shortest interval of events in clock ticks; 0: no limit
+  uint16_t event_ticks = 0;  // the shortest interval between events in clock ticks; 0: no limit
 
   friend constexpr bool operator==(const StepTiming& a, const StepTiming& b) {
     return a.pulse == b.pulse && a.set_up == b.set_up && a.hold == b.hold && a.event_ticks == b.event_ticks;
@@ -88,8 +88,9 @@ enum class Question : uint8_t {
   status = 0,
   about = 1,
   watch = 2,  // capture the position of the first change of the probe or the given limit switch; the answer is a status
-  kept = 3,   // read the captured positions; the answer is a captured
-  spindle = 8,  // the spindle's angle; the answer is a turned, or a status if the board has no encoder
+              // message
+  kept = 3,   // read the captured positions; the answer is a Captured message
+  spindle = 8,  // read the spindle's angle; the answer is a Turned message, or a status if the board has no encoder
 };
 struct Ask {
   uint8_t version = protocol_version;
@@ -99,7 +100,7 @@ struct Ask {
       0;  // for watch: the bit of the limit switch that captures instead of stopping the motors; 0: the probe
 };
 
-// Board to host: progress. Each credit includes all earlier ones, so a lost one does no harm.
+// Board to host: progress. Each credit includes all earlier ones, so losing one does no harm.
 struct Credit {
   uint16_t executed = 0;  // number of the last executed item
   uint8_t taken = 0;      // sequence number of the last accepted frame
@@ -112,7 +113,7 @@ enum class WireError : uint8_t {
   queue_full = 3,       // the host ignored its credits
   bad_value = 4,        // a segment without events, faster than the board, or for a motor that does not exist
   unexpected = 5,       // a message that only the board sends, or a hello during motion
-  too_late = 6,         // the queue update came too late: a later item has already started, so it is dropped
+  too_late = 6,         // the queue update came too late: a later item has already started, so the update is dropped
   manual = 7,       // the machine is, or was since the hello, moved with the keypad: a new hello is needed afterwards
   wrong_sums = 8,   // the received items differ from the sent ones: the queue update is dropped
   silent_host = 9,  // the outputs are off after a silence of the host: send outputs first; the queue update is dropped
@@ -130,7 +131,7 @@ enum BoardState : uint8_t {
   board_trusted = 2,   // since the hello no counted step was lost, as far as the board knows
   board_replaces = 4,  // a queue update still waits for items
   board_slipped =
-      8,  // since the hello it could not make events in time, and stopped during motion; its counts are correct
+      8,  // since the hello the board could not make events in time, and stopped during motion; its counts are correct
   board_kept = 16,      // the watched input has changed since the watch began
   board_manual = 32,    // the machine is moved with the board's keypad
   board_homes = 64,     // a limit switch captures instead of stopping the motors
@@ -150,7 +151,7 @@ enum BoardInput : uint16_t {
 inline constexpr uint16_t outputs_timed_out = 0x2000;
 // Another one: the drivers are off after a silence of the host, so the position is not trusted.
 inline constexpr uint16_t drivers_timed_out = 0x4000;
-// Further bits in the input of a captured.
+// Further bits in the input of a Captured message.
 inline constexpr uint16_t captured_kept = 0x4000;      // this is the answer to a query
 inline constexpr uint16_t captured_released = 0x8000;  // the input became inactive
 
@@ -159,7 +160,7 @@ inline constexpr uint16_t captured_released = 0x8000;  // the input became inact
 template <uint8_t room>
 struct BoardStatusFor {
   uint16_t session = 0;
-  uint16_t executed = 0;  // this and the next two as in a credit
+  uint16_t executed = 0;  // this and the next two members as in a credit
   uint8_t taken = 0;
   uint8_t free = 0;
   uint16_t event = 0;  // executed events of the present item
@@ -183,7 +184,7 @@ struct CapturedFor {
 };
 using Captured = CapturedFor<max_motors>;
 
-// A count of the spindle's encoder, and its time. Counts and ticks have arbitrary zeros, modulo 2^32.
+// A count of the spindle's encoder, and its time. Counts and ticks have arbitrary origins, and wrap modulo 2^32.
 struct SpindleCount {
   uint32_t count = 0;
   uint32_t tick = 0;      // the board's clock at the count
@@ -218,8 +219,8 @@ struct About {
   uint8_t step_pulse = 0;           // the shortest step pulse, in sixteenths of a microsecond; 0: no step pulses
 };
 
-// Each of these writes one frame to `frame`, which must have space for largest_frame bytes, and returns its size. Pause
-// as in Encoder.
+// Each of these functions writes one frame to `frame`, which must have space for largest_frame bytes, and returns its
+// size. Pause as in Encoder.
 template <class Pause = NoPause>
 uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::hello, sequence);
@@ -301,7 +302,7 @@ uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-// With as many positions as the query requested.
+// With the number of positions that the query requested.
 template <class Pause = NoPause, uint8_t room>
 uint8_t encode(const BoardStatusFor<room>& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::status, sequence);

@@ -47,7 +47,7 @@ template <uint8_t room>
 template <uint8_t room>
 [[gnu::noinline]] void load_times(const uint8_t* bytes, bool coarse, SegmentFor<room>& segment) {
   segment.interval = load32(bytes);
-  // 24 bits with a sign. In the upper bits they are a large change. For a small one they are shifted down, sign
+  // 24 bits with a sign, stored in the upper bits. A large change is used as stored; a small one is shifted down, sign
   // included.
   segment.change =
       static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 4)) << 8 | static_cast<uint32_t>(bytes[6]) << 24);

@@ -4,14 +4,14 @@
 // The form of a segment determines the length of its parts, and how the change of the interval develops from part to
 // part.
 //
-//   even    (form 0)              The change stays. Parts have 255 events, because a player counts in eight bits.
+//   even    (form 0)              The change is constant. Parts have 255 events, because a player counts in eight bits.
 //   root    (root_form + k)       Parts have 2^k events. Motion with a constant acceleration: the time is a square root
-//                                 of the way. The segment's `change` is a growth v, in 1/2^31.
+//                                 of the distance. The segment's `change` is a growth v, in 1/2^31.
 //
 // Root. Where j parts are left until the motion would rest, v = 1/j, and the interval of the part after this one is
-// longer by the factor sqrt(j / (j - 1)) = 1 / sqrt(1 - v). In speeding up, v = -1/j, where j parts have passed since
-// the rest. One segment can thus brake from any speed; quadratic segments would need one for each halving of the
-// distance. Root and quotient are computed by series: host and board compute the same bits, without a division.
+// longer by the factor sqrt(j / (j - 1)) = 1 / sqrt(1 - v). During acceleration, v = -1/j, where j parts have passed
+// since standstill. One segment can thus decelerate from any speed; quadratic segments would need one for each halving
+// of the distance. Root and quotient are computed by series: host and board compute the same bits, without a division.
 //
 //   factor - 1 = v/2 + 3/8 v²        next v = v / (1 - v) = v + v² + v³
 //
@@ -35,7 +35,7 @@ constexpr uint8_t part_length(uint8_t form) {
   return form == 0 ? longest_part : static_cast<uint8_t>(1U << (form & ~root_form));
 }
 
-// a b / 2^32, from products of 16 bits: a chip has no others. The functions here are small, and not put together,
+// Returns a b / 2^32, from 16-bit products, the only ones on a small chip. The functions here are small and separate,
 // because of the registers that they need on a chip.
 [[gnu::noinline]] constexpr int16_t upper_of(int16_t high, uint16_t low) {
   return static_cast<int16_t>((int32_t{high} * int32_t{low}) >> 16);
@@ -55,19 +55,19 @@ template <class Pause = NoPause>
   Pause{}();
   return sides + product_of(static_cast<int16_t>(a >> 16), static_cast<int16_t>(b >> 16));
 }
-// a b / 2^31: the product with a fraction.
+// Returns a b / 2^31: the product of fractions.
 template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t times_fraction(int32_t a, int32_t b) {
   return static_cast<int32_t>(static_cast<uint32_t>(high_product<Pause>(a, b)) << 1);
 }
 
-// Twice the factor less one, in 1/2^31.
+// Returns twice (factor - 1), in 1/2^31.
 template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t twice_factor(int32_t growth) {
   const int32_t squared = times_fraction<Pause>(growth, growth);
   return growth + (squared >> 1) + (squared >> 2);
 }
-// The change at each event of a part of 2^k events that begins with that interval.
+// Returns the change at each event of a part of 2^k events that begins with that interval.
 template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t root_change(uint32_t interval, int32_t twice, uint8_t k) {
   const uint32_t longer = static_cast<uint32_t>(high_product<Pause>(static_cast<int32_t>(interval >> 1), twice)) << 1;
@@ -81,7 +81,7 @@ template <class Pause = NoPause>
   return static_cast<int32_t>(static_cast<uint32_t>(growth) + squared + cubed);
 }
 
-// The times of the present part.
+// The times of the current part.
 struct PartTimes {
   uint32_t interval = 0;  // of its first event
   int32_t change = 0;
@@ -94,7 +94,7 @@ struct PartTimes {
     change =
         is_root(segment.form) ? root_change(interval, twice_factor(growth), segment.form & ~root_form) : segment.change;
   }
-  // Goes on to the part after this one.
+  // Advances to the next part.
   constexpr void go_on(uint8_t form) {
     interval += static_cast<uint32_t>(change) * part_length(form);
     if (!is_root(form)) return;
@@ -103,7 +103,7 @@ struct PartTimes {
   }
 };
 
-// Applies the bend to `increments`, from one part to the next. Only for segments with a bend.
+// Applies the bend to `increments`, from one part to the next. Call only for segments with a bend.
 template <uint8_t motors>
 [[gnu::noinline]] constexpr void bend_on(const SegmentFor<motors>& segment, uint16_t* increments) {
   const auto grow = [increments](uint8_t motor, uint16_t by) {
@@ -131,7 +131,7 @@ constexpr void for_each_part(const SegmentFor<motors>& segment, const Each& each
   }
 }
 
-// The time of the segment's first `most` events, in 1/65536 tick. For the host.
+// Returns the time of the segment's first `most` events, in 1/65536 tick. For the host.
 template <uint8_t motors>
 constexpr int64_t duration(const SegmentFor<motors>& segment, int32_t most) {
   const auto quadratic = [](int64_t interval, int64_t change, int64_t events) {

@@ -4,7 +4,7 @@
 //
 // The sync byte never occurs from link to payload. A message byte with that value is replaced by the distance to the
 // next such byte (0: none); `link` is the distance to the first. A sync byte therefore always starts a frame. After
-// garbage, a receiver is synchronised again at the next frame, and each byte costs the same time. The type determines
+// garbage, a receiver is synchronised again at the next frame, and each byte takes the same time. The type determines
 // the length; for messages with a value for each motor, the type and the number of motors do. Portable.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace passo {
 inline constexpr uint8_t sync_byte = 0xA5;
 inline constexpr uint8_t protocol_version = 10;
 
-// Words of the extended Hamming code (8,4): at least four wrong bits turn one type into another.
+// Words of the extended Hamming code (8,4): only four or more wrong bits can turn one type into another.
 enum class MessageType : uint8_t {
   // host to board
   hello = 0x0F,
@@ -35,14 +35,14 @@ enum class MessageType : uint8_t {
   fault = 0x96,
   about = 0x69,
   turned = 0xFF,
-  // both ways
+  // both directions
   pin_setup = 0x00,
 };
 
 inline constexpr uint8_t frame_overhead = 6;
 inline constexpr uint8_t segment_size =
-    11;  // without the part that repeats for each motor, and with the bend in the byte of the flips
-// Up to this number of motors, the bend is in the upper half of the byte of the flips.
+    11;  // without the part that is repeated for each motor, and with the bend in the flips byte
+// Up to this number of motors, the bend is in the upper half of the flips byte.
 inline constexpr uint8_t most_motors_beside_bend = 4;
 inline constexpr uint8_t status_size = 14;
 inline constexpr uint8_t captured_size = 5;

@@ -1,4 +1,4 @@
-// counted: a number and its noun, as messages and programs say it: "1 hole", "2 holes", "1 234 holes", "2 entries".
+// counted: formats a number with its noun, for messages and programs: "1 hole", "2 holes", "1 234 holes", "2 entries".
 #pragma once
 
 #include <concepts>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// 1234567 as "1 234 567".
+// Formats 1234567 as "1 234 567".
 inline std::string grouped(std::int64_t number) {
   std::string digits = std::to_string(number);
   const std::size_t first = number < 0 ? 1 : 0;
@@ -19,12 +19,12 @@ inline std::string grouped(std::uint64_t number) {
   return grouped(static_cast<std::int64_t>(number));
 }
 
-// The end of a noun, where its number is written in another way.
+// Returns the plural ending of a noun, for callers that format the number themselves.
 inline std::string_view plural_end(bool is_one) {
   return is_one ? "" : "s";
 }
 
-// With a minus before what is below zero, as of a place in steps.
+// Negative numbers, e.g. positions in steps, get a minus sign.
 template <std::integral Number>
 std::string counted(Number number, std::string_view noun, std::string_view nouns) {
   const auto wide = static_cast<std::int64_t>(number);

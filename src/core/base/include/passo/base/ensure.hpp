@@ -1,9 +1,10 @@
-// ensure(): a condition that only a bug of ours makes false. Then the program ends at once, in Release builds too. A
-// board on a link then executes its stop ramp and stops on the path, at a point that is in the journal: that is safer
-// than unplanned motion.
+// ensure(): checks a condition that only a bug in Passo can make false. If it is false, the program ends at once, in
+// Release builds too. A board on a link then executes its stop ramp and stops on the path, at a point that is in the
+// journal: that is safer than unplanned motion.
 //
-// Conditions stand in pairs: where a stage hands something on, and where the next one takes it. Only for what costs a
-// comparison or two; what costs more is an assert. On chips there is none of this: a board answers with an error.
+// Conditions are checked in pairs: where a stage passes data on, and where the next stage receives it. Use ensure()
+// only for checks that cost a comparison or two, and assert() for expensive ones. Chips do not use it: a board answers
+// with an error.
 #pragma once
 
 #include <cstdio>

@@ -1,8 +1,7 @@
-// Fingerprint: 64 bits that tell whether two pieces of data are the same. It guards against mistakes, not against
-// forgers.
+// Fingerprint: a hash of 64 bits for comparing two pieces of data. It detects accidental changes, not forgery.
 //
-// FNV-1a (Fowler, Noll, Vo) over words of eight bytes instead of single bytes. A shift after each word carries high
-// bits down again.
+// FNV-1a (Fowler, Noll, Vo) over words of eight bytes instead of single bytes. A shift after each word mixes high bits
+// into the low ones.
 #pragma once
 
 #include <algorithm>

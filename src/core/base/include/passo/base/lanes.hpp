@@ -1,7 +1,6 @@
-// TwoLanes and FourLanes: doubles that are computed side by side. Each gives the same result as a single double.
+// TwoLanes and FourLanes: vectors of doubles (SIMD). Each lane gives the same result as a single double.
 //
-// Every 64-bit processor has vectors of two doubles. Compilers that must find vectors by themselves find only some of
-// them.
+// Every 64-bit processor has vectors of two doubles, but automatic vectorisation finds only some of the opportunities.
 #pragma once
 
 #include <cstring>
@@ -32,7 +31,7 @@ class TwoLanes {
   friend TwoLanes operator*(TwoLanes a, double b) { return TwoLanes(a.lanes_ * b); }
   friend TwoLanes operator/(TwoLanes a, TwoLanes b) { return TwoLanes(a.lanes_ / b.lanes_); }
   friend TwoLanes larger(TwoLanes a, TwoLanes b) { return TwoLanes(a.lanes_ > b.lanes_ ? a.lanes_ : b.lanes_); }
-  // Whether any lane of `a` is above those of `b` and of `c`.
+  // Whether any lane of `a` is above the corresponding lanes of `b` and of `c`.
   friend bool any_above(TwoLanes a, TwoLanes b, TwoLanes c) {
     const Mask mask = (a.lanes_ > b.lanes_) & (a.lanes_ > c.lanes_);
     return (mask[0] | mask[1]) != 0;
@@ -65,7 +64,7 @@ class FourLanes {
   friend FourLanes operator-(FourLanes a, FourLanes b) { return {a.low_ - b.low_, a.high_ - b.high_}; }
   friend FourLanes operator*(FourLanes a, FourLanes b) { return {a.low_ * b.low_, a.high_ * b.high_}; }
   friend FourLanes operator*(FourLanes a, double b) { return {a.low_ * b, a.high_ * b}; }
-  // Whether any lane of `a` is above those of `b` and of `c`. Without a branch between the halves.
+  // Whether any lane of `a` is above the corresponding lanes of `b` and of `c`, without a branch between the halves.
   friend bool any_above(FourLanes a, FourLanes b, FourLanes c) {
     const int low = any_above(a.low_, b.low_, c.low_) ? 1 : 0;
     const int high = any_above(a.high_, b.high_, c.high_) ? 1 : 0;

@@ -1,4 +1,4 @@
-// lower_case: a text with its letters of ASCII in lower case, whatever the locale.
+// lower_case: converts the ASCII letters of a text to lower case, in any locale.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,10 @@
-// NamelessFile: a file on the disk that has no name until it is complete. If the program dies, by whatever signal, the
-// system takes the file back.
+// NamelessFile: a file on disk that has no name until it is complete. If the program is killed, the operating system
+// deletes the file.
 //
-// Linux makes such files with O_TMPFILE. A file system without them gets a file `.passo-PID-N.part` in the same folder.
-// The same name serves for an instant where an older file is replaced. A file of that name is locked (flock) as long as
-// its program lives, so that the next NamelessFile in the folder can tell a left-over and remove it.
+// Linux supports such files with O_TMPFILE. On a file system without this support, the file is named
+// `.passo-PID-N.part`, in the same folder. The same name is used for an instant when an older file is replaced. A file
+// with that name is locked (flock) while its program runs, so that the next NamelessFile in the folder can detect and
+// remove an abandoned one.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ class NamelessFile {
  public:
   enum class Kind : unsigned char {
     nameless,
-    named,  // as on a file system without nameless files; for tests
+    named,  // for tests: as on a file system without O_TMPFILE
   };
   // Opens a file in the folder of `path`, for reading and writing. The error is errno.
   static Result<std::unique_ptr<NamelessFile>, int> open(const std::string& path, mode_t mode,
@@ -27,12 +28,12 @@ class NamelessFile {
 
   NamelessFile(const NamelessFile&) = delete;
   NamelessFile& operator=(const NamelessFile&) = delete;
-  // Without publish() nothing remains.
+  // Deletes the file, unless publish() has succeeded.
   ~NamelessFile();
 
   int descriptor() const { return descriptor_; }
-  // Gives the file its name, in one step, in the place of an older file. Closes the file. Returns 0, or errno; then the
-  // older file stays, and nothing else remains. Call it once.
+  // Gives the file its name, atomically replacing an older file. Closes the file. Returns 0, or errno; in that case the
+  // older file stays, and the new one is deleted. Call it once.
   [[nodiscard]] int publish(const std::string& path);
 
   // For a signal handler that ends the program: removes all files that have a temporary name. Async-signal-safe.

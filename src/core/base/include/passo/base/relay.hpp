@@ -1,10 +1,10 @@
-// Relay: passes what one thread makes to several readers, each in a thread of its own.
+// Relay: passes items made by one thread to several readers, each in its own thread.
 //
 //   make ──▶ ring of blocks ──▶ reader 1
 //                           └─▶ reader 2
 //
-// Each reader gets every item once, in order. So what a reader finds does not depend on the threads. Memory is bounded:
-// make() waits while the slowest reader is a whole ring behind. An item must not borrow anything that make() changes.
+// Each reader gets every item once, in order, so its results do not depend on thread timing. Memory is bounded: make()
+// waits while the slowest reader is a whole ring behind. An item must not refer to anything that make() changes later.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Relay {
   explicit Relay(std::vector<Reader> readers) : readers_(std::move(readers)), read_(readers_.size()), ring_(blocks) {
     try {
       for (std::size_t i = 0; i < readers_.size(); ++i) threads_.emplace_back([this, i] { follow(i); });
-    } catch (...) {  // the system has no more threads
+    } catch (...) {  // the system cannot create more threads
       finish();
       throw;
     }
@@ -39,7 +39,7 @@ class Relay {
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
 
-  // Calls make() until it returns false, then waits for the readers. Throws what a reader has thrown.
+  // Calls make() until it returns false, then waits for the readers. Rethrows a reader's exception.
   void run(const Maker& make) {
     for (bool more = true; more;) {
       Block& block = free_block();
@@ -83,7 +83,7 @@ class Relay {
     threads_.clear();
   }
 
-  // A reader that throws gets nothing more, and holds nobody up.
+  // A reader that throws gets no more items, and does not block the others.
   void follow(std::size_t reader) {
     bool reads = true;
     for (std::uint64_t at = 0; wait_for(at); ++at) {
@@ -100,7 +100,7 @@ class Relay {
       changed_.notify_all();
     }
   }
-  // False: there is no such block.
+  // Waits for a block. Returns false if there is no such block.
   bool wait_for(std::uint64_t number) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return number < given_ || over_; });
@@ -110,8 +110,8 @@ class Relay {
   const std::vector<Reader> readers_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<std::uint64_t> read_;  // blocks, by each reader
-  std::uint64_t given_ = 0;          // blocks
+  std::vector<std::uint64_t> read_;  // number of blocks that each reader has read
+  std::uint64_t given_ = 0;          // number of blocks made
   bool over_ = false;
   std::exception_ptr error_;
   std::vector<Block> ring_;

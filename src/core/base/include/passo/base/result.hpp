@@ -1,7 +1,7 @@
 // Result<T, E>: a value or the reason why there is none.
 //
-// For operations that fail one at a time (open a file, decode a frame). Mistakes in a user's file are collected as
-// Diagnostics instead. A bug of ours is an assertion.
+// For operations that fail with a single error (open a file, decode a frame). Errors in a user's file are collected as
+// Diagnostics instead. A bug in Passo is an assertion failure.
 #pragma once
 
 #include <new>
@@ -40,7 +40,7 @@ class [[nodiscard]] Result {
   bool has_value() const { return has_value_; }
   explicit operator bool() const { return has_value_; }
 
-  // The caller has checked has_value(). Asking for what is not there is a bug of the caller.
+  // The caller has checked has_value(). Access to a missing value is a bug of the caller.
   T& value() { return value_; }
   const T& value() const { return value_; }
   T& operator*() { return value_; }

@@ -22,7 +22,7 @@ class Ring {
   const T& front() const { return items_[tail_ & (Capacity - 1)]; }
   // `index` counts from the front and is less than size().
   const T& at(size_t index) const { return items_[(tail_ + index) & (Capacity - 1)]; }
-  // The place of the next item, to be written there and then pushed. The caller has checked full().
+  // Returns the slot for the next item: write the item there, then call push(). The caller has checked full().
   T& space() { return items_[head_ & (Capacity - 1)]; }
   void push() { ++head_; }
   void pop() { ++tail_; }

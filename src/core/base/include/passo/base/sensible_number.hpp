@@ -1,5 +1,6 @@
-// sensible_number: a number as a person reads it: "285.46", "1234567", "0.00123". Six digits, but all before the point,
-// and no exponent from 0.0001 to 1e15. Files for programs (CSV, JSON) hold all digits instead.
+// sensible_number: formats a number for people: "285.46", "1234567", "0.00123". It has six significant digits, but
+// never fewer than those before the decimal point, and no exponent from 0.0001 to 1e15. Files for programs (CSV, JSON)
+// contain all digits instead.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Sentence: one sentence for people, in a form that can be translated. Clients in other languages find their own words
-// by its code and its arguments; the text is English.
+// Sentence: a sentence for people, in a translatable form. Clients in other languages look up their translation by its
+// code and insert its arguments; the text is English.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Sentence {
   friend bool operator==(const Sentence&, const Sentence&) = default;
 };
 
-// The sentence with the value of each {argument} in its place.
+// Replaces each {argument} of the sentence by its value.
 std::string filled(std::string_view sentence, const SentenceArguments& arguments);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// Tap<T>: stands between two stages and shows each item to those who watch. A watcher that takes a T& may mark the item
-// for the stages behind; all others take a const T&.
+// Tap<T>: a stage between two others that passes each item to observers. An observer that takes a T& may mark the item
+// for the later stages; all others take a const T&.
 #pragma once
 
 #include <functional>

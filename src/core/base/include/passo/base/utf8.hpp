@@ -1,5 +1,5 @@
-// first_code_point: the character of UTF-8 at the start of a text (RFC 3629). cut_at_character: the start of a text,
-// with no character cut in two.
+// first_code_point: returns the first UTF-8 character of a text (RFC 3629). cut_at_character: truncates a text without
+// splitting a character.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ constexpr CodePoint first_code_point(std::string_view text) {
   return {.value = value, .length = length};
 }
 
-// At most so many bytes.
+// Returns at most `most` bytes.
 constexpr std::string_view cut_at_character(std::string_view text, std::size_t most) {
   if (text.size() <= most) return text;
   while (most > 0 && continues_character(text[most])) --most;

@@ -1,5 +1,5 @@
-// Window<T>: the known part of an endless sequence; an element is found by its number in the sequence. The window grows
-// at its end and is dropped from its front. The memory of dropped elements is used again.
+// Window<T>: the known part of an endless sequence; elements are accessed by their number in the sequence. The window
+// grows at its end and is dropped from its front. The memory of dropped elements is reused.
 #pragma once
 
 #include <cassert>
@@ -28,7 +28,7 @@ class Window {
   const T& front() const { return (*this)[first_]; }
   T& back() { return (*this)[end_ - 1]; }
 
-  // Adds an element at the end, for the caller to fill. Until then it holds leftovers of a dropped element.
+  // Adds an element at the end, for the caller to fill. Until then it holds old data of a dropped element.
   T& append() {
     if (end_ - first_ == elements_.size()) grow();
     ++end_;

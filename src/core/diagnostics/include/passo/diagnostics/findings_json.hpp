@@ -1,4 +1,5 @@
-// Findings as JSON, the same from every command. The API leaves out what a client of one program does not need.
+// Findings as JSON, in the same format for every command. The API omits fields that a client of one program does not
+// need.
 #pragma once
 
 #include <span>

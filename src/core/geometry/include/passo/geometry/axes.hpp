@@ -31,7 +31,7 @@ constexpr std::optional<Axis> axis_of(char letter) {
   return std::nullopt;
 }
 
-// One value an axis, indexed by Axis.
+// One value per axis, indexed by Axis.
 template <class T>
 struct PerAxis {
   std::array<T, axis_count> values{};
@@ -57,8 +57,8 @@ class AxisSet {
   std::uint16_t bits_ = 0;
 };
 
-// A place of the tool: a value in millimetres or degrees for each axis. The name of the variable tells the frame
-// (machine or work).
+// A position of the tool: a value in millimetres or degrees for each axis. The name of the variable gives the
+// coordinate system (machine or work).
 struct Point : PerAxis<double> {
   friend constexpr Point operator+(Point a, const Point& b) {
     for (std::size_t i = 0; i < axis_count; ++i) a.values[i] += b.values[i];

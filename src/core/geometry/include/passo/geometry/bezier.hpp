@@ -2,11 +2,12 @@
 //
 //     P(u) = sum of B_i(u) control_i,  u from 0 to 1;  B_i are Bernstein's polynomials
 //
-// The curve begins at the first control point and ends at the last. At each end its direction is that of the line to
+// The curve begins at the first control point and ends at the last. At each end its tangent points along the line to
 // the neighbouring control point. Control points may coincide.
 //
-// Deviation from a chord: a stretch of the curve lies in the hull of its control points, so no point of it is farther
-// from the chord than the farthest of them. Halving the stretch brings the control points close to the curve.
+// Deviation from a chord: a section of the curve lies in the convex hull of its control points, so no point of the
+// section is farther from the chord than the farthest control point. Halving the section brings its control points
+// close to the curve.
 #pragma once
 
 #include <array>
@@ -43,10 +44,10 @@ extern template class Bezier<3>;
 
 static_assert(ParametricCurve<QuadraticBezier> && ParametricCurve<CubicBezier>);
 
-// An arc of a parabola in X Y, at the vertex's Z, given by vertex and focus. Every arc of a parabola is a quadratic
-// Bézier curve, whose middle control point is where the tangents at both ends meet; every quadratic Bézier curve is an
-// arc of a parabola. `from` and `to` tell how far the ends lie to the right of the axis, seen from the vertex to the
-// focus. At distance d from the axis and with the focal length f the parabola is d² / (4 f) above the vertex.
+// Returns an arc of a parabola in the XY plane, at the vertex's Z, defined by vertex and focus. The arcs of parabolas
+// are exactly the quadratic Bézier curves; the middle control point is the intersection of the end tangents. `from` and
+// `to` are the distances of the ends to the right of the axis, seen from the vertex to the focus. At distance d from
+// the axis and with the focal length f the parabola is d² / (4 f) above the vertex.
 Result<QuadraticBezier, CurveError> parabola(const Vector3& vertex, const Vector3& focus, Mm from, Mm to);
 
 }  // namespace passo

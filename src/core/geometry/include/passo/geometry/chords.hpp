@@ -1,13 +1,13 @@
 // Chords: cuts a curve into straight pieces that stay within a tolerance. This is the coarse level of interpolation.
-// Any fine line interpolator then walks along the chords (StepChords).
+// Any fine line interpolator can then follow the chords (StepChords).
 //
-// A pulled stage: one chord a call, constant memory, no heap. Every chord begins where the last one ended, and the last
-// chord ends exactly at the curve's end. No chord crosses a place where the curve's formula changes. The curve's own
+// A pull stage: one chord per call, constant memory, no heap. Every chord begins where the last one ended, and the last
+// chord ends exactly at the curve's end. No chord crosses a point where the curve's formula changes. The curve's own
 // deviation() bounds every chord by the tolerance.
 //
 // There are as few chords as the tolerance allows. Circles and helices get the smallest number of equal chords. On
 // other curves each chord is as long as possible, to within two or three per cent, and the last two chords of a piece
-// have equal shares of the parameter.
+// have equal parameter ranges.
 //
 // Source: the sagitta as in any handbook of NC (r - sqrt(r² - L²/4)). For control points: Farin, Curves and Surfaces
 // for CAGD, ch. 5 and 6.
@@ -22,8 +22,8 @@
 
 namespace passo {
 
-// The greatest distance of a chord from its curve. At least a nanometre: below that the rounding of doubles begins to
-// count.
+// The maximum distance of a chord from its curve: at least a nanometre, because smaller values approach the rounding
+// error of doubles.
 class ChordTolerance {
  public:
   static constexpr Mm least{1e-6};
@@ -39,9 +39,9 @@ class ChordTolerance {
 };
 
 struct Chord {
-  double from = 0;  // the curve's parameter at the start and at the end
+  double from = 0;  // the curve's parameter at the chord's start and end
   double to = 0;
-  Vector3 end;   // the curve's place at `to`
+  Vector3 end;   // the curve's point at `to`
   Mm deviation;  // an upper bound of the distance between curve and chord
 };
 
@@ -83,7 +83,7 @@ class Chords final : public Source<Chord> {
     chord.deviation = curve_.deviation(chord.from, chord.to);
   }
 
-  // The smallest number of equal chords, found by doubling and then by halving the interval that holds it.
+  // Returns the smallest number of equal chords, found by doubling and then by bisection.
   std::int64_t smallest_count() const {
     const double whole = piece_end_ - piece_start_;
     const auto good = [&](std::int64_t count) {
@@ -105,8 +105,8 @@ class Chords final : public Source<Chord> {
     find_longest(rest);
     double to = good_ < rest ? u_ + good_ : piece_end_;
     if (good_ < rest && rest < 2 * good_) {
-      // Halve the rest only where both halves are good. Otherwise more than two chords are left, and halving would
-      // waste some.
+      // Halves the remaining curve only if both halves are within the tolerance. Otherwise more than two chords are
+      // left, and halving would waste some.
       const double half = u_ + rest / 2;
       const Mm there = curve_.deviation(u_, half);
       if (there <= tolerance_ && curve_.deviation(half, piece_end_) <= tolerance_) {
@@ -119,8 +119,9 @@ class Chords final : public Source<Chord> {
     step_ = good_;
   }
 
-  // The deviation grows nearly with the square of the chord, so the next guess follows from the last. A bracket between
-  // the longest good chord and the shortest bad one catches curves that behave otherwise (an inflection, a cusp).
+  // Finds the longest chord within the tolerance. The deviation is nearly proportional to the square of the chord
+  // length, which gives the next guess. A bracket between the longest valid chord and the shortest invalid one handles
+  // other curves (an inflection, a cusp).
   void find_longest(double rest) {
     good_ = 0;
     double bad = rest * 2;
@@ -150,15 +151,15 @@ class Chords final : public Source<Chord> {
     if (!std::isfinite(deviation.value())) return (good_ + bad) / 2;
     const double by_square = deviation > Mm(0) ? guess * std::sqrt(tolerance_ * (1 - nearness) / deviation) : rest;
     if (bad > rest) return std::clamp(by_square, good_, rest);
-    // The square law is wrong where it leads out of the bracket (the tip of an ellipse). Then halve the bracket.
+    // Bisects where the square law leads out of the bracket, e.g. at the tip of an ellipse.
     const bool inside = by_square > good_ && by_square < bad;
     if (!inside) return (good_ + bad) / 2;
-    return std::max(by_square, good_ > 0 ? good_ : guess / 8);  // nothing good yet: at least an eighth of the guess
+    return std::max(by_square, good_ > 0 ? good_ : guess / 8);  // no valid chord yet: at least an eighth of the guess
   }
 
   static constexpr double nearness = 0.02;
   static constexpr int enough_tries = 16;
-  // A little room for rounding: a tolerance computed elsewhere as the sagitta of n equal chords must give n chords.
+  // A small allowance for rounding: a tolerance computed elsewhere as the sagitta of n equal chords must give n chords.
   static constexpr double rounding = 1 + 1e-12;
 
   const C& curve_;
@@ -166,10 +167,10 @@ class Chords final : public Source<Chord> {
   double u_;
   double piece_start_ = 0;
   double piece_end_;
-  double step_ = 0;  // the last longest chord; the next search begins with it
+  double step_ = 0;  // the last longest chord; the next search starts with it
   double good_ = 0;
   Mm deviation_;
-  std::int64_t count_ = 0;  // the number of equal chords in this piece, and how many of them are taken
+  std::int64_t count_ = 0;  // the number of equal chords in this piece, and how many of them were returned
   std::int64_t taken_ = 0;
 };
 

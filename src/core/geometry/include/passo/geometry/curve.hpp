@@ -1,12 +1,12 @@
-// Curve: one geometric piece of a path. Its parameter is the length s that the feed counts.
+// Curve: one geometric piece of a path. Its parameter is the length s to which the feed rate applies.
 //
-// s runs from 0 to length(). s counts millimetres of X Y Z travel where any of those move, else of U V W, else degrees
-// of A B C (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion.
+// s runs from 0 to length(). s is the travel of X Y Z in millimetres if any of them moves, otherwise that of U V W,
+// otherwise that of A B C in degrees (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion.
 //
 // - A line moves every axis in proportion to s.
-// - An arc turns two axes of a plane about a centre and moves all others in proportion (helix). Where the radius at its
-//   end differs from the radius at its start (programs round their numbers), the radius grows in proportion too, so
-//   that the arc meets both ends exactly.
+// - An arc rotates two axes of a plane about a centre and moves all others in proportion (helix). If the
+//   radius at its end differs from the radius at its start (programs round their numbers), the radius changes in
+//   proportion too, so that the arc meets both ends exactly.
 // - A cubic is a piece of a smoothed path: every axis is a polynomial of s. Its parameter is nearly its length: |dP/ds|
 //   falls below 1 in corners, and rises to 1.1 at most where the cubic smooths noise.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace passo {
 
-struct Box {  // the range of each axis that a curve covers
+struct Box {  // the range of each axis on a curve
   Point low;
   Point high;
 };
@@ -33,26 +33,26 @@ class Curve {
     double second_center = 0;
     double start_radius = 0;
     double end_radius = 0;
-    double start_angle = 0;  // radians
-    double sweep = 0;        // radians, counterclockwise positive, whole turns included
+    double start_angle = 0;  // in radians
+    double sweep = 0;        // in radians, counterclockwise positive, including full turns
   };
 
   static Curve line(const Point& start, const Point& end);
-  // A cubic from `start` to `end` with the given dP/ds at its ends (Hermite). `length` is that of the parameter, above
-  // 0.
+  // Returns a cubic from `start` to `end` with the given dP/ds at its ends (Hermite). `length` is the range of the
+  // parameter, above 0.
   static Curve cubic(const Point& start, const Point& start_tangent, const Point& end, const Point& end_tangent,
                      Mm length);
   // `sweep` is in radians and not zero.
   static Curve arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                    double second_center, double sweep);
-  // The same with the radii and the start's angle computed before.
+  // The same, with precomputed radii and start angle.
   static Curve arc(const Point& start, const Point& end, const ArcData& arc);
 
-  // The piece from one s to another as a curve of its own, with the same places, tangents and second derivatives. Its
-  // ends are at(from) and at(to), bit for bit.
+  // Returns the piece between two values of s as a separate curve, with the same points, tangents and second
+  // derivatives. Its ends are bit-identical to at(from) and at(to).
   Curve part(Mm from, Mm to) const;
-  // The curve turned about Z at the origin, by the angle of this cosine and sine. The plane of an arc is XY, or has
-  // neither X nor Y.
+  // Returns the curve rotated about Z at the origin, by the angle with this cosine and sine. The plane of an arc must
+  // be XY, or contain neither X nor Y.
   Curve turned(double cosine, double sine) const;
 
   Shape shape() const { return shape_; }
@@ -70,29 +70,30 @@ class Curve {
   bool has_length() const { return length_ > 0; }
 
   Point at(Mm s) const;
-  // dP/ds: a unit vector in X Y Z where those move. (A cubic's is only nearly one.)
+  // dP/ds: a unit vector in X Y Z if those move; nearly one for a cubic.
   Point tangent(Mm s) const;
   // d²P/ds².
   Point second_derivative(Mm s) const;
   Point third_derivative(Mm s) const;
   // The largest |dP/ds| of each axis anywhere on the curve.
   Point steepest() const;
-  // Not less than steepest(), found without the trigonometry of an arc. Equal for a line.
+  // An upper bound of steepest(), computed without the trigonometry of an arc. Equal to it for a line.
   Point steepest_bound() const;
-  // Whether the axis moves anywhere on the curve: steepest() is above 0.
+  // Whether the axis moves on the curve: its steepest() is above 0.
   bool moves(Axis axis) const;
-  // An upper bound of |d²P/ds²|. For an arc only the arc's plane counts: 1/r times the square of the share of s that
-  // lies in the plane. For a cubic all axes count. 0 for a line.
+  // An upper bound of |d²P/ds²|. For an arc only its plane counts: 1/r times the square of the fraction of s in the
+  // plane. For a cubic all axes count. 0 for a line.
   double curvature() const;
-  // An upper bound of the angle by which the direction turns, in radians, all turns counted. An axis may go farther
-  // than the feed counts; for such an axis the change of its slope counts, as a share of its steepest slope. A cubic
-  // turns by a few dozen at most.
+  // An upper bound of the total angle in radians by which the direction turns. If an axis that does not count for the
+  // feed travels farther than s, the change of its slope counts, relative to its steepest slope. A cubic turns by a few
+  // dozen radians at most.
   double turning() const { return turning(steepest()); }
   double turning(const Point& steepest) const;
   Box extents() const;
-  // Not less than extents(), found without the trigonometry of an arc: its whole circle. Equal for a line.
+  // A box that contains extents(), computed without the trigonometry of an arc: from the full circle. Equal to it for a
+  // line.
   Box bounds() const;
-  // The places between a cubic's ends where the axis turns back: at most two. A negative place stands for none.
+  // Returns the values of s between a cubic's ends where the axis reverses: at most two. A negative value means none.
   std::array<Mm, 2> turning_points(Axis axis) const;
 
  private:
@@ -103,7 +104,7 @@ class Curve {
   Shape shape_ = Shape::line;
   Point start_;
   Point end_;
-  Point slope_;  // (end − start) / length; in a cubic dP/ds at its start
+  Point slope_;  // (end − start) / length; for a cubic dP/ds at its start
   double length_ = 0;
   ArcData arc_;
   Point square_;  // a cubic's coefficients: P = start + slope s + square s² + cube s³

@@ -1,6 +1,6 @@
-// CurveDerivatives: the first three derivatives of a curve by s at one place, as Curve::tangent(), second_derivative()
-// and third_derivative() give them, but for the last bits of the third. On an arc all three share one sine and cosine,
-// which cost more than the rest.
+// CurveDerivatives: the first three derivatives of a curve by s at one point, equal to Curve::tangent(),
+// second_derivative() and third_derivative(), except for the last bits of the third. On an arc all three share one sine
+// and cosine, which are the largest part of the cost.
 #pragma once
 
 #include "passo/geometry/curve.hpp"
@@ -13,7 +13,7 @@ struct CurveDerivatives {
   Point third;
 };
 
-// `s` lies on the curve.
+// `s` must be on the curve.
 CurveDerivatives derivatives_at(const Curve& curve, Mm s);
 
 }  // namespace passo

@@ -1,16 +1,16 @@
-// CurveInSpace: a line, arc or helix of Curve seen as a ParametricCurve in X Y Z. u is Curve's own s, the length in mm.
+// CurveInSpace: a line, arc or helix of Curve as a ParametricCurve in X Y Z. u is Curve's own s, the length in mm.
 //
-// For the other axes ask the Curve: curve().at(u).
+// For the other axes, use curve().at(u).
 //
 // Deviation of an arc or helix of radius r from a chord over the angle 2d, exactly: the sagitta r (1 - cos d), which is
-// r - sqrt(r² - L²/4) for the chord's length L in the plane. On a helix it is the same, whatever the pitch. Count the
-// turn from the chord's middle; then curve less chord at the same angle f is
+// r - sqrt(r² - L²/4) for the chord's length L in the plane. On a helix it is the same, whatever the pitch. Measured
+// from the chord's middle, the difference between curve and chord at the same angle f is
 //
 //     r (cos f - cos d, sin f - f sin d / d, 0),
 //
-// The pitch cancels, and the length of this vector is greatest at f = 0 for every d up to a half turn. Where the radius
-// grows by g mm a radian (programs round their numbers), the part g f (cos f, sin f) adds at most g d² sqrt(4 + d²) /
-// 2, which is h²/8 times the greatest second derivative.
+// The pitch cancels, and this vector is longest at f = 0 for every d up to a half turn. Where the radius grows by g mm
+// per radian (programs round their numbers), the part g f (cos f, sin f) adds at most g d² sqrt(4 + d²) / 2, which is
+// h²/8 times the greatest second derivative.
 #pragma once
 
 #include "passo/geometry/curve.hpp"
@@ -20,7 +20,7 @@ namespace passo {
 
 class CurveInSpace {
  public:
-  // Fails for an arc that does not turn in X Y Z.
+  // Fails for an arc whose plane is outside X Y Z, and for coordinates beyond the limit.
   static Result<CurveInSpace, CurveError> of(const Curve& curve);
 
   const Curve& curve() const { return curve_; }

@@ -1,9 +1,9 @@
-// Cutter: the shape of a cutter that turns: its height above its tip at each distance from its axis.
+// Cutter: the shape of a rotating cutter, given by the height above its tip at each distance from its axis.
 //
-// One formula covers all shapes, from the axis outwards: a flat disc, an arc, a cone up to the radius. Outside the
-// radius the cutter is a vertical wall. The shape is convex: the underside rises with the distance, and ever more
-// steeply. What drops or sweeps such a cutter relies on that. What is above the cutting edges (shank, holder) is no
-// part of it: see ToolShape.
+// One formula covers all shapes, from the axis outwards: a flat disc, an arc, a cone up to the radius. At the radius
+// the cutter has a vertical wall. The shape is convex: the underside rises with the distance, with increasing slope.
+// Drop-cutter and sweep algorithms rely on that. The part above the cutting edges (shank, holder) is not included: see
+// ToolShape.
 #pragma once
 
 #include <cstdint>
@@ -28,35 +28,39 @@ struct Cutter {
   Mm radius{1.5};
   Mm flat{0};            // radius of the disc at the tip
   Mm corner{1.5};        // radius of the arc; 0: none
-  Radians half_angle{};  // of the cone, from the axis; 0: the arc ends upright
+  Radians half_angle{};  // of the cone, from the axis; 0: the arc ends vertically
 
   static Cutter ball(Mm diameter);
   static Cutter flat_end(Mm diameter);
   static Cutter bull_nose(Mm diameter, Mm corner);
-  // `tip`: diameter of the flat at the tip.
+  // Returns a V-bit; `tip` is the diameter of the flat at the tip.
   static Cutter vee(Mm diameter, Radians included_angle, Mm tip);
-  // `half_angle`: between axis and flank; the ball at the tip has the diameter `tip`.
+  // Returns a tapered ball; `half_angle` is the angle between axis and flank, `tip` the diameter of the ball at the
+  // tip.
   static Cutter tapered_ball(Mm diameter, Mm tip, Radians half_angle);
 
-  // Which of the five it is. What grown() returns may be none of them.
+  // Returns which of the five kinds it is. The result of grown() may be none of them.
   Kind kind() const;
-  // The height above the tip of the shape at a distance from the axis, which is at most the radius.
+  // Returns the height above the tip at a distance from the axis, at most the radius.
   Mm height(Mm distance) const;
-  // The slope there, the height's derivative. At most 20: where the arc is steeper, the slope of a lesser distance.
+  // Returns the slope there, the height's derivative. It is at most 20: where the arc is steeper, the slope at a
+  // smaller distance is returned.
   double slope(Mm distance) const;
-  // The farthest distance at which slope() is exact.
+  // Returns the largest distance at which slope() is exact.
   Mm steepest() const;
-  // How steeply the cone rises: height for distance. Only of a cutter with a cone.
+  // Returns the slope of the cone. Only for a cutter with a cone.
   double steepness() const;
-  // The distance from the axis where the arc ends: at the cone, or upright. At most the radius.
+  // Returns the distance from the axis where the arc ends: at the cone, or vertically. At most the radius.
   Mm arc_end() const;
-  // The shape of all points that are within `stock` of this one. The tip of it lies lower by `stock`.
+  // Returns the shape of all points within the distance `stock` of this one. Its tip is lower by `stock`.
   Cutter grown(Mm stock) const;
-  // The distance between two rows at which ridges of this height stay on a flat. 0: none do, as of a flat end.
+  // Returns the stepover that leaves scallops of this height on a flat surface; 0: no scallops, as with a flat end
+  // mill.
   Mm step_for_scallop(Mm height) const;
 };
 
-// Why a cutter is invalid: the expected value in words, e.g. "a diameter of 0.01 mm or more". Empty: there is.
+// Returns the reason why a cutter is invalid as the expected value in words, e.g. "a diameter of 0.01 mm or more".
+// Empty: it is valid.
 std::string flaw_of(const Cutter& cutter);
 
 // "flat", "ball", "vee", "bull", "taper".
@@ -66,11 +70,11 @@ std::optional<Cutter::Kind> cutter_kind_of(std::string_view name);
 inline constexpr const char* cutter_kind_names = "flat, ball, bull, vee or taper";
 
 // Reads "ball:3", "flat:6", "bull:6:1" (corner radius), "vee:60:6", "vee:60:6:0.2" (included angle in degrees,
-// diameter, tip) and "taper:1:5:6" (diameter of the ball, half angle in degrees, diameter). Lengths are mm. The failure
-// is a message.
+// diameter, tip) and "taper:1:5:6" (diameter of the ball, half angle in degrees, diameter). Lengths are in mm. The
+// failure is a message.
 Result<Cutter, std::string> parse_cutter(std::string_view text);
 
-// "ball nose, 3 mm"; for comments and summaries.
+// Describes a cutter for comments and summaries: "ball nose, 3 mm".
 std::string describe(const Cutter& cutter);
 
 }  // namespace passo

@@ -1,13 +1,13 @@
-// Ellipse: an arc of an ellipse, or the whole ellipse once or several times, anywhere in space and in either sense.
+// Ellipse: an arc of an ellipse, or one or more full turns of an ellipse, anywhere in space and in either sense.
 //
 //     P = centre + major cos t + minor sin t,       t = start + u sweep,  u from 0 to 1
 //
-// `major` and `minor` are the half axes, at a right angle. t is the eccentric angle, not the angle seen from the
-// centre: the ellipse is the shadow of a circle, and t is the angle on that circle.
+// `major` and `minor` are the perpendicular semi-axes. t is the eccentric angle, not the polar angle: the ellipse is
+// the projection of a circle, and t is the angle on that circle.
 //
-// Deviation from the chord over t = m - d … m + d: arc and chord are shadows of a circle's arc and chord. The chord
+// Deviation from the chord over t = m - d … m + d: arc and chord are projections of a circle's arc and chord. The chord
 // lies parallel to the tangent at m, and the farthest point is P(m), at |major| |minor| / |dP/dt (m)| times (1 - cos
-// d). This is exact unless the arc reaches out beyond an end of the chord; then that reach counts too (ellipse.cpp).
+// d). This is exact unless the arc extends beyond an end of the chord; then that extent is included (ellipse.cpp).
 #pragma once
 
 #include "passo/geometry/parametric_curve.hpp"
@@ -25,8 +25,8 @@ class Ellipse {
   };
 
   static Result<Ellipse, CurveError> create(const Shape& shape);
-  // An ellipse in a plane of constant Z. Its first half axis is turned from X by `rotation`; positive angles are
-  // counterclockwise.
+  // Returns an ellipse in a plane of constant Z. Its first semi-axis is rotated from X by `rotation`; positive angles
+  // are counterclockwise.
   static Result<Ellipse, CurveError> flat(const Vector3& centre, Mm first_radius, Mm second_radius, Radians rotation,
                                           Radians start, Radians sweep);
 

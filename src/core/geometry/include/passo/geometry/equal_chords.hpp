@@ -1,12 +1,12 @@
-// EqualChords: cuts a curve into chords of one length L. This is the coarse level of interpolation by period: a control
-// that computes one chord in each period T makes chords of L = F·T at the feed F. The deviation then follows from the
-// curve, on a radius r about L²/(8r); Chords does the reverse and takes the length from a tolerance.
+// EqualChords: cuts a curve into chords of equal length L. This is the coarse level of interpolation by period: a
+// control that computes one chord in each period T makes chords of L = F·T at the feed F. The deviation then follows
+// from the curve, on a radius r about L²/(8r); Chords does the reverse and derives the length from a tolerance.
 //
-// A pulled stage like Chords: one chord a call, constant memory, no heap. Every chord begins where the last one ended.
-// Each end is the next place of the curve at the distance L, found to the rounding of doubles. The last chord is the
-// rest, and may be shorter. A chord may cross places where the curve's formula changes.
+// A pull stage like Chords: one chord per call, constant memory, no heap. Every chord begins where the last one ended.
+// Each end is the next point of the curve at the distance L, found to the rounding of doubles. The last chord may be
+// shorter. A chord may cross points where the curve's formula changes.
 //
-// The search walks in eighths of a chord, so a loop smaller than that is not seen. `deviation` is the distance of each
+// The search advances in eighths of a chord, so it misses loops smaller than that. `deviation` is the distance of each
 // chord from its curve; infinite if the chord is too long for the curve.
 #pragma once
 
@@ -62,8 +62,9 @@ class EqualChords final : public Source<Chord> {
     }
   }
 
-  // The parameter about an eighth of a chord further on, in the same piece, because the next one may have another
-  // speed. Where the curve hardly moves (a cusp) its speed promises too much; a step is at most a 64th of the curve.
+  // Returns the parameter about an eighth of a chord ahead, within the same piece, because the next piece may have a
+  // different speed. Where the curve's speed is nearly zero (a cusp) this estimate is too large, so a step is at most a
+  // 64th of the curve.
   double step_from(double u) const {
     const ParameterRange range = curve_.range();
     const double speed = passo::length(curve_.derivative(u));
@@ -81,8 +82,8 @@ class EqualChords final : public Source<Chord> {
     }
   }
 
-  // Between two breaks the curve is within its own deviation of the chord of that stretch, and this chord's points are
-  // no farther from the whole chord than its ends are.
+  // Between two breaks the curve is within its own deviation of the chord of that section, and no point of this chord
+  // is farther from the whole chord than its ends.
   Mm deviation(const Chord& chord) const {
     const Vector3 start = curve_.at(chord.from);
     Mm most{0};

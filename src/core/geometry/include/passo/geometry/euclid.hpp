@@ -1,5 +1,5 @@
-// Length and product over all nine axes, millimetres and degrees alike; bends and the tube around a path are measured
-// so. Also the length over the axes that count as the length of a path.
+// The length and dot product over all nine axes, millimetres and degrees alike, as used for junctions and the tolerance
+// tube around a path. Also the length over the axes that define the path length.
 #pragma once
 
 #include <cmath>

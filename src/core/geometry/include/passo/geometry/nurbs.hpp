@@ -1,4 +1,4 @@
-// Nurbs: a rational B-spline of degree 1 to 9, the curve of drawing programs and of G5.2.
+// Nurbs: a rational B-spline of degree 1 to 9, as used by drawing programs and G5.2.
 //
 //     P(u) = sum of N_i(u) w_i control_i / sum of N_i(u) w_i;  N_i is the B-spline basis of the knots (de Boor, Cox)
 //
@@ -27,12 +27,12 @@ class Nurbs {
     int degree = 3;
     std::vector<Vector3> control = {};
     std::vector<double> weights = {};  // one for each control point, above 0; empty: all are 1
-    std::vector<double> knots = {};    // empty: clamped, all spans 1 long
+    std::vector<double> knots = {};    // empty: clamped, all spans of length 1
   };
 
   // Fails with a message if the definition is wrong.
   static Result<Nurbs, CurveError> create(Definition definition);
-  // The knots that `create` uses if none are given.
+  // Returns the knots that `create` uses if none are given.
   static std::vector<double> clamped_knots(int degree, std::size_t control_points);
 
   int degree() const { return degree_; }
@@ -47,7 +47,7 @@ class Nurbs {
 
  private:
   Nurbs(const Definition& definition, std::vector<double> knots);
-  // The span that holds u. A knot belongs to the span that begins there.
+  // Returns the span that contains u. A knot belongs to the span that starts there.
   SplineSpan span_of(double u) const;
 
   int degree_;

@@ -1,4 +1,4 @@
-// Whether a curve only turns A, B or C. Its length is in degrees then, and never in millimetres.
+// Whether a curve moves only A, B or C. Its length is then in degrees, never in millimetres.
 #pragma once
 
 #include "passo/geometry/curve.hpp"

@@ -1,4 +1,4 @@
-// The angle that an arc of RS274/NGC sweeps.
+// Computes the sweep angle of an RS274/NGC arc.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,9 @@
 
 namespace passo {
 
-// The angle from start to end in the sense of `turns`. With 1 or -1 it is one full circle at most. As in LinuxCNC's
-// canon layer, directions closer than a millionth of a radian count as equal, and the arc is then a full circle.
+// Returns the angle from start to end in the direction given by the sign of `turns`. For 1 or -1 it is at most one full
+// circle. As in LinuxCNC's canon layer, directions closer than a millionth of a radian count as equal, and the arc is
+// then a full circle.
 inline double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
   constexpr double same_direction = 1e-6;
   constexpr double full = 2 * std::numbers::pi;

@@ -1,11 +1,11 @@
-// Surface: the upper face of a body, seen from above: a height Z for each X and Y.
+// Surface: the top of a solid, as a height map seen from above: a height Z for each X and Y.
 //
-// The face is the highest of its triangles. A face that is curved between the corners of its triangles gives its height
-// itself. What an edge hangs over is taken for solid; upright triangles have no area
-// seen from above, and their neighbours bound the wall. Beside the triangles there is nothing.
+// The surface is the highest of its triangles. For a surface that is curved between the corners of its triangles, a
+// function gives the height. The space under an overhang counts as solid; vertical triangles have no area seen from
+// above, and their neighbours bound the wall. Outside the triangles there is no surface.
 //
-// All lengths are millimetres. Cost: top() looks at the triangles of one cell, clearance() at about 90 heights. Memory:
-// some 100 bytes a triangle.
+// All lengths are millimetres. Cost: top() checks the triangles of one cell, clearance() about 90 heights. Memory: some
+// 100 bytes per triangle.
 #pragma once
 
 #include <array>
@@ -26,26 +26,27 @@ using SurfaceTriangle = std::array<SurfacePoint, 3>;
 
 class Surface {
  public:
-  // Where there is no surface.
+  // The height where there is no surface.
   static constexpr double nothing = -std::numeric_limits<double>::infinity();
 
   Surface() = default;
-  // `height`: of a face that is nowhere higher than the highest corner of the triangles there. None: the triangles are
-  // flat.
+  // `height` gives the height of a curved surface, nowhere above the highest corner of the triangles there. None: the
+  // triangles are flat.
   explicit Surface(std::vector<SurfaceTriangle> triangles, std::function<double(double x, double y)> height = {});
 
-  // The height at a place, or `nothing`.
+  // Returns the height at a position, or `nothing`.
   double top(double x, double y) const;
-  // How far a point may go in X, Y and Z, each, and does surely not touch what is on or below the surface. 0 where it
-  // may touch at once.
+  // Returns the distance that a point can move in each of X, Y and Z without touching the surface or the solid below. 0
+  // if it may touch at once.
   double clearance(const SurfacePoint& point) const;
-  // The corners of the box around the surface; `low` is above `high` where there is no surface.
+  // The corners of the bounding box; `low` is above `high` if there is no surface.
   const SurfacePoint& low() const { return low_; }
   const SurfacePoint& high() const { return high_; }
   std::size_t triangles() const { return triangles_.size(); }
 
  private:
-  // The highest corner of the triangles above each cell. Each level has cells twice as large as the one before.
+  // The highest triangle corner above each cell. The cells of each level are twice as large as those of the level
+  // before.
   struct Level {
     double size = 0;
     std::size_t across = 0;
@@ -71,7 +72,7 @@ class Surface {
   SurfacePoint low_{1, 1, 1};
   SurfacePoint high_{};
   std::vector<Level> levels_;
-  std::vector<std::uint32_t> begins_;  // of each cell, in `members_`
+  std::vector<std::uint32_t> begins_;  // for each cell, its start in `members_`
   std::vector<std::uint32_t> members_;
 };
 

@@ -1,6 +1,6 @@
-// ToolShape: a milling tool as a body that turns about Z: its cutter, and what is above the cutting edges.
+// ToolShape: the solid shape of a milling tool that rotates about Z: its cutter, and the part above the cutting edges.
 //
-// Above its radius the cutter goes up without end; the holder is a wider cylinder above it.
+// The cutter has no upper end; the holder is a wider cylinder above it.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace passo {
 
 struct ToolShape {
   Cutter cutter = {};
-  Mm flute_length{0};   // how high above the tip it cuts; 0: not known
-  Mm holder_radius{0};  // 0: not known
-  Mm holder_from{0};    // the height above the tip where the holder begins
+  Mm flute_length{0};   // height of the cutting edges above the tip; 0: unknown
+  Mm holder_radius{0};  // 0: unknown
+  Mm holder_from{0};    // the height above the tip where the holder starts
 };
 
-// Why a tool is invalid: the expected value in words. Empty: there is.
+// Returns the reason why a tool is invalid as the expected value in words. Empty: it is valid.
 inline std::string flaw_of(const ToolShape& tool) {
   if (std::string flaw = flaw_of(tool.cutter); !flaw.empty()) return flaw;
   if (tool.holder_radius > Mm(0) && !(tool.holder_from > Mm(0))) return "a holder that begins above the tip";

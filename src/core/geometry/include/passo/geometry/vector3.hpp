@@ -1,4 +1,4 @@
-// Vector3: a place or a distance in X Y Z, in millimetres, for curves that live in space.
+// Vector3: a position or displacement in X Y Z, in millimetres, for curves in space.
 //
 // A Point has all nine axes, for positions of the machine. Most of geometry needs only three.
 #pragma once
@@ -33,7 +33,7 @@ constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
 inline double length(const Vector3& a) {
   return std::hypot(a.x, a.y, a.z);
 }
-// The place nearest to `place` on the straight piece from `a` to `b`.
+// Returns the point nearest to `place` on the line segment from `a` to `b`.
 constexpr Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place) {
   const Vector3 way = b - a;
   const double square = dot(way, way);

@@ -1,5 +1,6 @@
 // WeightedPoint: a control point of a rational curve in homogeneous coordinates: the weight, and x, y and z in mm times
-// the weight. In these coordinates a rational curve is as simple as any other; the division by the weight comes last.
+// the weight. In these coordinates a rational curve is computed like any other; the division by the weight is the last
+// step.
 #pragma once
 
 #include "passo/geometry/vector3.hpp"

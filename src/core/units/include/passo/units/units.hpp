@@ -1,7 +1,7 @@
-// Strong units: a length cannot be passed where a speed is wanted. They cost no instruction.
+// Strong units: a length cannot be passed as a speed. They cost no instruction.
 //
-// Everywhere below interpreter/ lengths are millimetres and times are seconds. Millimetres a minute and inches exist
-// only in gcode/, interpreter/ and the user interface. For a rotary axis, degrees take the place of millimetres.
+// All stages after interpreter/ use millimetres and seconds. Millimetres per minute and inches exist only in gcode/,
+// interpreter/ and the user interface. For a rotary axis, degrees replace millimetres.
 #pragma once
 
 #include <compare>
@@ -61,7 +61,7 @@ using MmPerSecond3 = Quantity<1, -3>;
 using Seconds = Quantity<0, 1>;
 using Hertz = Quantity<0, -1>;
 
-// An angle is a number without dimension. The type keeps degrees out.
+// An angle is a dimensionless number. The type prevents confusion with degrees.
 struct Radians {
   double value = 0;
   friend constexpr auto operator<=>(Radians, Radians) = default;
@@ -89,7 +89,7 @@ struct RadiansPerSecond3 {
   friend constexpr auto operator<=>(RadiansPerSecond3, RadiansPerSecond3) = default;
 };
 
-// Counted quantities, not measured ones: motor steps, and counts of the board's timer.
+// Counts rather than measurements: motor steps, and counts of the board's timer.
 struct Steps {
   std::int64_t count = 0;
   friend constexpr auto operator<=>(Steps, Steps) = default;

@@ -2,8 +2,8 @@
 // the machine that the path depends on.
 //
 // An activity is a source of path items. It is independent of boards and never waits. Results of the machine, e.g. of a
-// probe move, reach it through MachineAnswers. No stage reads past a point at which such a result is needed before it
-// is available.
+// probe move, reach it through MachineAnswers. No stage reads past a point that needs such a result until the result is
+// available.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// GoodPath: passes a path on until there is an error. At an error, the path ends before the current item, with all
-// outputs switched off, and motion stops there.
+// GoodPath: passes a path on until there is an error. At an error, the path ends before the current item, all outputs
+// are switched off, and motion stops.
 #pragma once
 
 #include "passo/base/source.hpp"

@@ -2,9 +2,8 @@
 //
 // An axis seeks its switch, backs off until the switch opens, returns slowly, and pulls off. The point at which the
 // switch closes during the slow return determines the position, to the step. Each of these moves is a probe move with
-// that switch as the probe. It therefore stops on the path within the limits, over any link, and does not depend on a
-// single message. All other limit switches stop the machine instantly. If the switch is closed at the start, the axis
-// first backs off.
+// that switch as the probe. It therefore stops on the path within the limits, over any link, even if a message is lost.
+// All other limit switches stop the machine instantly. If the switch is closed at the start, the axis first backs off.
 //
 // Axes of the same group first move together until one of them reaches its switch. That axis is homed separately; then
 // the others continue.
@@ -35,7 +34,7 @@ namespace passo {
 
 enum class HomingStage : std::uint8_t {
   seek,
-  look,    // find the axis, of those that seek together, that has reached its switch
+  look,    // find the axis, of those moving together, that has reached its switch
   square,  // one of the axis' two motors moves separately
   back_off,
   latch,
@@ -47,7 +46,7 @@ Point home_rest(const MachineDescription& machine, const Point& start = {});
 
 struct HomedAxis {
   Axis axis = Axis::x;
-  double way = 0;    // from the start position to the closing point of the switch
+  double way = 0;    // distance from the start position to the closing point of the switch
   double place = 0;  // the final position, in machine coordinates
   // The correction of the second motor relative to the first one, in the axis' direction. Empty: there is none.
   std::optional<double> squared = {};

@@ -11,8 +11,8 @@
 
 namespace passo {
 
-// The closing points of an axis' switch relative to that of the first homing, by the board's counts, in thousandths of
-// a millimetre or degree.
+// The closing positions of an axis' switch relative to that of the first homing, by the board's counts, in thousandths
+// of a millimetre or degree.
 struct AxisRepeats {
   Axis axis = Axis::x;
   unsigned homings = 0;
@@ -24,10 +24,10 @@ struct AxisRepeats {
 
 class HomingRepeats {
  public:
-  // `machine` outlives this.
+  // `machine` must outlive this object.
   explicit HomingRepeats(const MachineDescription& machine) : machine_(machine) {}
 
-  // Adds a homing. `stood`: the position before it, counted from the previous homing. Empty: unknown, so this homing
+  // Adds a homing. `stood`: the position before it, relative to the previous homing. Empty: unknown, so this homing
   // becomes the first.
   void record(const std::vector<HomedAxis>& homed, const std::optional<Point>& stood);
   // One entry for each axis that was homed every time.
@@ -37,9 +37,9 @@ class HomingRepeats {
   struct Places {
     Axis axis = Axis::x;
     unsigned homings = 0;
-    std::int64_t last = 0;   // steps, from the homing before
-    std::int64_t place = 0;  // steps, from the first homing
-    std::int64_t sum = 0;    // of the places
+    std::int64_t last = 0;   // steps relative to the previous homing
+    std::int64_t place = 0;  // steps relative to the first homing
+    std::int64_t sum = 0;    // sum of the positions
     std::int64_t low = 0;
     std::int64_t high = 0;
   };

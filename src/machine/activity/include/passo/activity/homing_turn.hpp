@@ -1,5 +1,6 @@
-// HomingTurn: the axes of one turn that are not homed yet. Several axes first seek their switches together until one of
-// them meets its own. They rest then, and one after the other is looked at to find out which one it was.
+// HomingTurn: a group of axes that are homed in the same turn, without those already homed. The axes first move
+// together until one of them reaches its switch. They stop, and then the axes are checked one after the other to find
+// which one it was.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +13,15 @@ namespace passo {
 
 class HomingTurn {
  public:
-  // `axis` outlives the turn.
+  // `axis` must outlive the turn.
   void add(const AxisDescription& axis) { axes_.push_back(&axis); }
-  // The axis is homed. After the last one nothing of the turn counts any more.
+  // Removes a homed axis. After the last one, the turn is cleared.
   void remove(const AxisDescription& axis) {
     std::erase(axes_, &axis);
     if (axes_.empty()) met_.reset();
   }
   const std::vector<const AxisDescription*>& axes() const { return axes_; }
-  // The axis that comes after this one; null: none.
+  // Returns the next axis after this one; null: there is none.
   const AxisDescription* after(const AxisDescription& axis) const {
     const auto found = std::ranges::find(axes_, &axis);
     return found == axes_.end() || found + 1 == axes_.end() ? nullptr : *(found + 1);
@@ -28,7 +29,8 @@ class HomingTurn {
 
   void seek_together() { seeks_together_ = true; }
   bool seeks_together() const { return seeks_together_; }
-  // `met`: where the axes were when the first of them met its switch. Empty: they did not move.
+  // Records the stop. `met`: the position of the axes when the first of them reached its switch. Empty: they did not
+  // move.
   void rest(const std::optional<Point>& met) {
     seeks_together_ = false;
     if (met) met_ = met;

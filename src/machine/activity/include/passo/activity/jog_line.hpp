@@ -1,7 +1,7 @@
 // JogLine: the path of a jog. The path is straight, at the given speed, and ends at the end of the machine's travel or
 // after the requested distance.
 //
-// A jog needs a keep-alive (lease). The session monitors it; the path is independent of time.
+// The session monitors the jog's keep-alive timeout; the path is independent of time.
 #pragma once
 
 #include "passo/activity/activity.hpp"

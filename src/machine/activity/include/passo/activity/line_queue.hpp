@@ -1,6 +1,5 @@
-// LineQueue: the path items of lines that have come one by one, until the machine plays them. The queue's time is that
-// of its items. It is bounded, and it tells when a machine that rests is to begin and how long one that moves may wait
-// for another line.
+// LineQueue: a bounded queue of the path items of lines that arrive one by one. Its duration is the sum of its items'
+// times. It decides when a stopped machine starts to move, and how long a moving machine may wait for another line.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +13,12 @@ namespace passo {
 
 class LineQueue {
  public:
-  // More items are queued only while they last no longer than `enough_time`, and never more than `most_items`.
+  // Above `enough_items`, items are accepted only while the queue's duration is at most `enough_time`, and never more
+  // than `most_items`.
   static constexpr std::size_t enough_items = 256;
   static constexpr std::size_t most_items = 1024;
   static constexpr Seconds enough_time{10};
-  // The machine begins to move when the queue is full, when no line has come for `quiet`, or when the first line has
+  // The machine starts to move when the queue is full, when no line has arrived for `quiet`, or when the first line has
   // waited for `longest_wait`. So the look-ahead sees more than the first line.
   static constexpr Seconds quiet{0.03};
   static constexpr Seconds longest_wait{0.5};
@@ -32,11 +32,11 @@ class LineQueue {
   void push(const PathItem& item);
   // Call only while the queue is not empty.
   PathItem pull();
-  // Drops what came after the first `size` items.
+  // Drops all items after the first `size`.
   void cut_to(std::size_t size);
   void clear() { cut_to(0); }
 
-  // A line has come whole, before which the queue held `before` items.
+  // Call after all items of a line were pushed. `before` is the queue's size before that line.
   void add_line(std::size_t before, Seconds now);
   bool has_room() const;
   bool is_to_begin(Seconds now) const;
@@ -46,7 +46,7 @@ class LineQueue {
   MotionLimits limits_;
   std::deque<PathItem> items_;
   Seconds time_{0};
-  Seconds first_came_{0};  // the first line of the queue
+  Seconds first_came_{0};  // arrival time of the first line in the queue
   Seconds last_came_{0};
 };
 

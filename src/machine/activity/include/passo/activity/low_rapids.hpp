@@ -1,18 +1,18 @@
-// LowRapids: warns of rapids below the top of the work.
+// LowRapids: warns of rapids below the top of the workpiece.
 //
-// The top of the work is not known, so it is estimated: the end of each downward feed is in material, and the highest
-// such point so far counts as the top:
+// The top of the workpiece is not known, so it is estimated: the end of each downward feed is in material, and the
+// highest such point so far counts as the top:
 //
-//     Z |  \ rapid          rapid /          top: the end of the first way down; feeds that come down by rapid alone,
+//     Z |  \ rapid          rapid /          top: the end of the first plunge; a depth reached by rapid alone,
 //       |   \ feed               /           and feeds in the air, do not count
 //   top |....\___ feed ____....                 \ feed
 //       |                  \ feed              . \___ ...
 //
-// Reported are rapids that move sideways and end at the top or below it, rapids straight down below all feeds so far,
-// rapids below zero before the program has set X or Y, and programs whose feeds move down but never below Z0. Each is
-// reported once, at its first line, with the other lines that repeat it. Heights are work coordinates; a change of the
-// work frame starts again. G53, G28 and G30 are included if the work zero is known. Only for machines with X, Y and Z:
-// on a lathe, Z is not a height.
+// It reports rapids that move sideways and end at the top or below it, rapids straight down below all feeds so far,
+// rapids below zero before the program has set X or Y, and programs whose feeds move down but never below Z0. Each
+// warning is reported once, at its first line, with a list of further lines. Heights are work coordinates; a change of
+// the work coordinate system starts again. G53, G28 and G30 are included if the work zero is known. Only for machines
+// with X, Y and Z: on a lathe, Z is not a height.
 #pragma once
 
 #include <limits>
@@ -40,15 +40,15 @@ class LowRapids : OperationWatcher {
   void end_descent(const Point& end);
 
   bool has_height_;
-  bool has_spindle_;  // with a speed
+  bool has_spindle_;  // the spindle has a speed
   bool zero_is_known_;
   bool knows_z_ = false;                                     // the tool's work Z is known
   bool knows_xy_ = false;                                    // the program has set X and Y
-  bool descends_ = false;                                    // the last feed was downward
+  bool descends_ = false;                                    // the last feed moved down
   std::optional<double> top_;                                // Z; empty: no cut is known yet
   std::optional<double> deepest_;                            // the lowest Z of a feed
-  double lowest_ = std::numeric_limits<double>::infinity();  // the same in all frames
-  std::optional<Diagnostic> no_depth_;                       // at the first feed that goes down
+  double lowest_ = std::numeric_limits<double>::infinity();  // the lowest Z in any work coordinate system
+  std::optional<Diagnostic> no_depth_;                       // set at the first feed that moves down
 };
 
 }  // namespace passo

@@ -18,10 +18,10 @@ namespace passo {
 // The homing switches of a machine, in steps from machine zero.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine);
 
-// The screw model of an axis whose screw is in the machine file, in steps of one of its motors.
+// The screw model of an axis whose screw is described in the machine file, in steps of one of its motors.
 ScrewModel screw_model(const AxisDescription& axis, const MotorRow& motor);
 
-// The initial motor positions of that plant, if the axes are at `place`: second motors are ahead by their skew.
+// The initial motor positions of that plant for axes at `place`: second motors are ahead by their skew.
 MotorSteps truth_at(const MachineDescription& machine, const Point& place);
 
 // The input of the axis' drive alarm, as a bit of BoardInput; 0: none.

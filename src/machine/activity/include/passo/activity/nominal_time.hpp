@@ -1,4 +1,4 @@
-// The nominal time of a path: at its programmed speeds, without ramps. It is only used for progress.
+// The nominal time of a path: at its programmed speeds, without ramps. It is used only to show progress.
 #pragma once
 
 #include "passo/path/segment.hpp"
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// The time of an item at its programmed speed, within the axes' velocities.
+// The time of an item at its programmed speed, within the axes' velocity limits.
 Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits);
 // The time of a planned move: a fraction of its segment's time.
 Seconds nominal_time_of(const PlannedMove& move, const MotionLimits& limits);

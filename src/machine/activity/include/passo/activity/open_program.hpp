@@ -7,8 +7,8 @@
 //
 //   lines -> Interpreter -> PathBuilder -> [ queue ] -> OpenRun: PathSmoother -> drive
 //
-// While the queue is empty, the path has an action await_line, at which the machine stops. A probe move is built only
-// when it is executed, because the following lines depend on its result. Until then, no line is accepted.
+// While the queue is empty, the next path item is an action await_line, at which the machine stops. A probe move is
+// built only when it is executed, because the following lines depend on its result. Until then, no line is accepted.
 //
 // room() shows whether the queue accepts another line. A queue of many short moves is long, for the look-ahead; a queue
 // of long moves is short, so that lines are not acknowledged too early.
@@ -37,56 +37,56 @@ namespace passo {
 
 class OpenProgram final : public Source<PathItem> {
  public:
-  // `machine` outlives the program. The options' dialect, units, tools and parameters count.
+  // `machine` must outlive the program. Of the options, the dialect, units, tools and parameters are used.
   OpenProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start);
 
-  // Takes a line without its end, at the time `now`. Returns what is wrong with the line, if anything is. Call only
-  // while room().
+  // Interprets a line without its line end, at the time `now`. Returns the error in the line, if any. Call only while
+  // room().
   [[nodiscard]] std::optional<Diagnostic> add_line(std::string_view line, Seconds now);
-  // The same for a jog: axis words and F, with G20, G21, G53, G90 or G91. The modes in force stay as they were.
+  // The same for a jog: axis words and F, with G20, G21, G53, G90 or G91. Modal states are unchanged.
   [[nodiscard]] std::optional<Diagnostic> add_jog(std::string_view words, Seconds now);
-  // The same as add_line(), but nothing of the line is played: the program is only checked.
+  // The same as add_line(), but the line is only checked and not executed.
   [[nodiscard]] std::optional<Diagnostic> check(std::string_view line);
-  // What add_line() would say. Nothing changes.
+  // Returns the result that add_line() would have, without any change.
   [[nodiscard]] std::optional<Diagnostic> judge(std::string_view line);
 
   bool room() const { return !asks_ && queue_.has_room(); }
-  // True: a line has asked the machine, and was not answered yet.
+  // True: a line needs a result from the machine, which is not available yet.
   bool asks() const { return asks_; }
-  // True: the last line taken was M2, M30, or one that ends programs. The program begins anew with the next line.
+  // True: the last line was M2, M30 or another program end. The next line starts a new program.
   bool take_ended() { return std::exchange(ended_, false); }
   std::size_t queued() const { return queue_.size(); }
-  // How the path may pass the end of the segment that was pulled last.
+  // The path mode at the end of the segment that was pulled last.
   PathMode last_mode() const { return last_mode_; }
   // True: the items are a jog.
   bool jogs() const { return jogs_; }
 
-  // For the session that plays the path: whether a machine that rests is to go on, and whether a machine that moves is
-  // to wait a little with pulling more.
+  // For the session that executes the path: whether a stopped machine is to start, and whether a moving machine is to
+  // wait a little before it pulls more items.
   bool is_to_begin(Seconds now) const { return asks_ || queue_.is_to_begin(now); }
   bool expects_more(Seconds now) const { return !asks_ && queue_.expects_more(now); }
   AnswerBook& answers() { return answers_; }
-  // Why the last question of the program has ended the program, if it did: G38.2 without a contact.
+  // The error with which the last machine result ended the program, if it did: G38.2 without a contact.
   const std::optional<Diagnostic>& answer_fault() const { return answer_fault_; }
 
-  // Never ends; see above.
+  // Never returns false; see above.
   [[nodiscard]] bool next(PathItem& item) override;
 
-  // Drops what is queued. The program goes on from `place`, with its modes.
+  // Drops the queue. The program continues from `place`, with its modal state.
   void drop(const Point& place);
-  // Begins anew at `place`, as grbl after a reset: modes as at first, and G54. The offsets of the work systems stay;
-  // G92 and the tool offset are forgotten.
+  // Restarts at `place`, like grbl after a reset: default modal state, and G54. Work offsets are kept; G92 and the tool
+  // offset are cleared.
   void restart(const Point& place);
-  // Drops what is queued, and goes on from `place`, with modes and offsets. The outputs are off.
+  // Drops the queue, and continues from `place`, with modal state and offsets. The outputs are off.
   void go_on_at(const Point& place);
-  // The same, with the work systems' offsets and the homes of G28 and G30 from `parameters`.
+  // The same, with the work offsets and the G28 and G30 positions of `parameters`.
   void apply_offsets(const SavedParameters& parameters, const Point& place);
 
   ModesInForce modes() const { return interpreter_->modes(); }
   SavedParameters parameters() const { return interpreter_->saved_parameters(); }
   const ToolTable& tools() const { return interpreter_->tools(); }
   WaitWords& wait_words() { return wait_words_; }
-  // The source line of the item that was pulled last: the value of its N word, below 0: none.
+  // The N word of the source line of the item that was pulled last; negative: none.
   std::int64_t line_number() const { return line_number_; }
 
  private:
@@ -112,15 +112,15 @@ class OpenProgram final : public Source<PathItem> {
   bool jogs_ = false;
   std::optional<Diagnostic> answer_fault_;
   WaitWords wait_words_;
-  WaitWords kept_words_;  // before the line that was read last
-  OutputState outputs_;   // after the last item pulled
+  WaitWords kept_words_;  // state before the line that was read last
+  OutputState outputs_;   // state after the last item pulled
   std::int64_t line_number_ = -1;
   PathMode last_mode_ = PathMode::exact_stop;
 };
 
 class OpenRun final : public Activity {
  public:
-  // `program` outlives the run.
+  // `program` must outlive the run.
   OpenRun(OpenProgram& program, const MachineDescription& machine);
 
   ActivityKind kind() const override { return program_.jogs() ? ActivityKind::jog : ActivityKind::program; }

@@ -1,4 +1,4 @@
-// OperationWatcher: the base of those who watch the operations of a program, in order, and warn of some.
+// OperationWatcher: the base class of observers that check a program's operations in order and add warnings.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace passo {
 
 class OperationWatcher {
  protected:
-  // `file`: the main program, for an operation that names no file. `diagnostics` outlives this.
+  // `file`: the main program, for operations without a file name. `diagnostics` must outlive this object.
   OperationWatcher(std::string file, Diagnostics& diagnostics) : diagnostics_(diagnostics), file_(std::move(file)) {}
   ~OperationWatcher() = default;
 
-  // It points at the words of the operation.
+  // Returns a warning at the source position of the operation.
   Diagnostic warning(const Operation& operation, std::string code, std::string message, std::string expected) const {
     return {.severity = Severity::warning,
             .code = std::move(code),
@@ -31,7 +31,7 @@ class OperationWatcher {
             .text = std::string(operation.text)};
   }
 
-  // True: a warning of this kind is kept already, and the operation's line is noted with it.
+  // True: a warning of this code is already kept; the operation's line is added to it.
   bool is_noted(const Operation& operation, std::string_view code) const {
     return diagnostics_.count_repeated(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
   }

@@ -8,8 +8,8 @@ namespace passo {
 
 class ProbeLine final : public Activity {
  public:
-  // Goes from rest at `start` towards `target`, in machine coordinates. `toward`: until the probe is touched; else
-  // until the probe is free. `answers` outlives the ProbeLine.
+  // Moves from a stop at `start` towards `target`, in machine coordinates. `toward` true: until the probe is triggered;
+  // false: until the probe is open. `answers` must outlive the ProbeLine.
   ProbeLine(const Point& start, const Point& target, MmPerSecond speed, bool toward, const MachineAnswers& answers)
       : start_(start), target_(target), speed_(speed), toward_(toward), answers_(answers) {}
 

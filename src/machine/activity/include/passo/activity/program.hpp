@@ -1,7 +1,7 @@
-// Program: the upper half of the street, from text to a smooth path, as an activity.
+// Program: the first half of the pipeline, from text to a smooth path, as an activity.
 //
 // A program is interpreted twice: once to check it, once to run it. The check also builds the path. So every error is
-// reported before anything turns, and the remaining time can be told.
+// reported before any motion, and the remaining time is known.
 #pragma once
 
 #include <cstdint>
@@ -28,33 +28,33 @@
 
 namespace passo {
 
-// What is known of a program before it is planned.
+// The result of a check, known before the program is planned.
 struct ProgramCheck {
   bool good = false;        // no error: the program may run
-  Seconds nominal_time{0};  // at the programmed speeds, without ramps: only for progress
+  Seconds nominal_time{0};  // at the programmed speeds, without ramps; only to show progress
   std::uint64_t moves = 0;
   bool tools_change = false;  // the program changes the tool table
-  bool probes = false;        // the check took probe moves to be touched at their ends
+  bool probes = false;        // the check assumed that probe moves make contact at their ends
 };
 
-// Interprets a program and builds its path, a bounded piece at a time. Errors and warnings go to `diagnostics`.
+// Interprets a program and builds its path, in bounded pieces. Errors and warnings go to `diagnostics`.
 //
-// The check does not know what a probe will find, and takes probe moves to be touched at their ends. So the path of the
-// run may differ, and errors of the path after the first probe move are reported as warnings. Errors in how the program
-// is written remain errors. A loop that only a probe can end is not followed for ever.
+// The check cannot know the results of probe moves, and assumes contact at their ends. So the path of the run may
+// differ, and path errors after the first probe move are reported as warnings. Syntax errors remain errors. A loop that
+// only a probe result can end is cut off.
 class ProgramChecker {
  public:
-  // `diagnostics` outlives the checker.
+  // `diagnostics` must outlive the checker.
   ProgramChecker(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  Diagnostics& diagnostics);
-  // The watcher gets each item of the path.
+  // Adds an observer of each path item.
   void watch(std::function<void(const PathItem&)> watcher) { watcher_ = std::move(watcher); }
-  // The watcher gets each operation of the program.
+  // Adds an observer of each operation of the program.
   void watch_operations(Tap<Operation>::Watcher watcher) { operations_.watch(std::move(watcher)); }
   // Checks up to `items` more path items. True: the check has ended, and result() is complete.
   [[nodiscard]] bool go_on(std::uint64_t items);
   const ProgramCheck& result() const { return check_; }
-  // Of the item that the watcher gets.
+  // The coordinate system of the item passed to the observer.
   const Frame& frame() const { return builder_.frame(); }
 
  private:
@@ -64,7 +64,7 @@ class ProgramChecker {
   Diagnostics& diagnostics_;
   PathOptions path_options_;
   MotionLimits limits_;
-  ToolTable tools_;  // the tools before the check
+  ToolTable tools_;  // the tool table before the check
   Interpreter interpreter_;
   ToolTrack track_;
   UsualMistakes mistakes_;
@@ -79,17 +79,17 @@ class ProgramChecker {
   bool done_ = false;
 };
 
-// Checks the whole program at once. `watch` gets each item of the path, `watch_operations` each operation.
+// Checks the whole program at once. `watch` is called with each path item, `watch_operations` with each operation.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch = {},
                            const Tap<Operation>::Watcher& watch_operations = {});
 
 class Program final : public Activity {
  public:
-  // `answers` and `diagnostics` outlive the program. `diagnostics` gets what is found during the run: nothing after a
-  // good check, unless the program probes. An error during the run ends the path, at rest before the wrong move.
-  // `whole`: the nominal time of the check, for progress(). `known_probes`: what the first probe moves have found
-  // before, for a program that goes on behind them.
+  // `answers` and `diagnostics` must outlive the program. `diagnostics` receives findings of the run: none after a
+  // successful check, unless the program probes. An error during the run ends the path, with a stop before the wrong
+  // move. `whole`: the nominal time from the check, for progress(). `known_probes`: the earlier results of the first
+  // probe moves, for a program that continues after them.
   Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
           const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0),
           std::vector<ProbeOutcome> known_probes = {});
@@ -98,8 +98,7 @@ class Program final : public Activity {
   [[nodiscard]] bool next(PathItem& item) override { return stages_.smooth_path().next(item); }
   std::optional<double> progress() const override;
 
-  // For watchers of the operations, and of the path as the program means it. Watchers are added before the first
-  // next().
+  // Taps for observers of the operations and of the programmed path. Add observers before the first next().
   Tap<Operation>& operations() { return stages_.operations(); }
   Tap<PathItem>& path() { return stages_.path(); }
   const Frame& frame() const { return stages_.path_builder().frame(); }

@@ -1,9 +1,9 @@
-// ProgramStages: a program from its text to a smooth path, as one chain of stages.
+// ProgramStages: the chain of stages from a program's text to its smooth path.
 //
 //   text -> Interpreter -> PathBuilder -> GoodPath -> PathSmoother
 //
-// A run goes through this chain, and so does each question about the path of a run: where a line begins, what was set
-// up to a place, how far a part of it reaches. Through other stages the items of the path would have other numbers.
+// A run uses this chain, and so does each query about its path: where a line begins, which state is set up at a
+// position, how far a part of the path reaches. With other stages, the path items would have different numbers.
 #pragma once
 
 #include <cstddef>
@@ -22,41 +22,41 @@
 
 namespace passo {
 
-// The answers to a program that is gone through again: first what its probe moves have found before, in their order,
-// then what the machine answers.
+// The machine results for a program that is interpreted again: first the known results of its probe moves, in order,
+// then those of the machine.
 class KnownProbes final : public MachineAnswers {
  public:
-  // `machine` outlives this.
+  // `machine` must outlive this object.
   KnownProbes(const MachineAnswers& machine, std::vector<ProbeOutcome> known)
       : machine_(machine), known_(std::move(known)) {}
 
   const ProbeOutcome* probe() const override { return knows_last() ? &known_[begun_ - 1] : machine_.probe(); }
   const Point* tap_rest() const override { return machine_.tap_rest(); }
 
-  // Sees each item of the path before the stages go on.
+  // Processes each path item before the stages continue.
   void see(const PathItem& item) {
     const auto* action = std::get_if<Action>(&item);
     if (action != nullptr && action->kind == Action::Kind::probe_begin) ++begun_;
   }
-  // The outcome of the probe move that began last is known.
+  // Whether the outcome of the newest probe move is known.
   bool knows_last() const { return begun_ > 0 && begun_ <= known_.size(); }
 
  private:
   const MachineAnswers& machine_;
   std::vector<ProbeOutcome> known_;
-  std::size_t begun_ = 0;  // probe moves
+  std::size_t begun_ = 0;  // number of probe moves begun
 };
 
 class ProgramStages {
  public:
-  // `answers` and `diagnostics` outlive the stages. `known`: what the first probe moves have found before.
+  // `answers` and `diagnostics` must outlive the stages. `known`: the earlier results of the first probe moves.
   ProgramStages(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const MachineAnswers& answers, Diagnostics& diagnostics, std::vector<ProbeOutcome> known = {});
 
-  // For watchers of the operations, and of the path as the program means it. Watchers are added before the first item.
+  // Taps for observers of the operations and of the programmed path. Add observers before the first item.
   Tap<Operation>& operations() { return operations_; }
   Tap<PathItem>& path() { return path_; }
-  // What comes out of the chain.
+  // The output of the chain.
   Source<PathItem>& smooth_path() { return smoother_; }
 
   const Interpreter& interpreter() const { return interpreter_; }
@@ -69,7 +69,7 @@ class ProgramStages {
   Interpreter interpreter_;  // text -> blocks -> operations
   Tap<Operation> operations_;
   PathBuilder path_builder_;  // operations -> segments
-  GoodPath good_path_;        // as long as there is no error
+  GoodPath good_path_;        // passes items until there is an error
   Tap<PathItem> path_;
   PathSmoother smoother_;  // corners -> curves within the tolerance
 };

@@ -1,8 +1,8 @@
-// SpindleMistakes: warns of a cut that may begin before the spindle is at its speed, and of a program that seems to be
-// written for a laser.
+// SpindleMistakes: warns of a cut that may begin before the spindle has reached its speed, and of a program that seems
+// to be made for a laser.
 //
-// Passo has no laser mode. The beam of such a program would stay on in rapids and at rest. A lathe, a machine without
-// Y, is no laser. There M4 is usual, and S may change between cuts.
+// Passo has no laser mode. The beam of such a program would stay on in rapids and during stops. A machine without Y is
+// a lathe, for which there is no laser warning: there M4 is usual, and S may change between cuts.
 #pragma once
 
 #include <cstdint>
@@ -28,22 +28,22 @@ class SpindleMistakes : OperationWatcher {
   void check_speed_up(const Operation& operation);
   void feed(const Operation& operation);
 
-  bool may_be_early_;  // the spindle has a speed, and the machine file does not say how long it runs up
+  bool may_be_early_;  // the spindle has a speed, and the machine file does not give its run-up time
   bool is_lathe_;
 
   SpindleDirection direction_ = SpindleDirection::off;
   double speed_ = 0;       // S
-  bool taps_ = false;      // amid a cycle that taps, which reverses the spindle at the bottom of the hole
-  bool fed_last_ = false;  // the last motion was a feed, and nothing has rested since
+  bool taps_ = false;      // inside a tapping cycle, which reverses the spindle at the bottom of the hole
+  bool fed_last_ = false;  // the last motion was a feed, without a stop since
 
-  std::optional<Diagnostic> sped_up_;  // the spindle was sped up, and nothing has waited since
-  std::optional<Diagnostic> early_;    // the same, and a feed has followed: the first place
+  std::optional<Diagnostic> sped_up_;  // the spindle was accelerated, without a wait since
+  std::optional<Diagnostic> early_;    // the same, followed by a feed: the first position
 
   std::optional<std::uint32_t> changed_;  // the line of a change of S since the last motion
-  std::uint64_t places_ = 0;              // feeds as a laser has them
-  bool any_changes_ = false;              // of S
-  bool any_backwards_ = false;            // M4
-  std::optional<Diagnostic> laser_;       // at the first place
+  std::uint64_t places_ = 0;              // number of feeds typical of a laser program
+  bool any_changes_ = false;              // S has changed
+  bool any_backwards_ = false;            // M4 was used
+  std::optional<Diagnostic> laser_;       // set at the first position
 };
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// The options of each stage, taken from the machine's description. Nowhere else do stages meet the description.
+// The options of each stage, derived from the machine's description. This is the only connection between stages and the
+// description.
 #pragma once
 
 #include <array>
@@ -17,17 +18,17 @@ namespace passo {
 
 bool has_jerk_limit(const MachineDescription& machine);
 
-// `start`: where the machine stands.
+// `start`: the machine position at the start.
 PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start = {});
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 // The motors that the host plans: one for each axis.
 Kinematics kinematics_of(const MachineDescription& machine);
-// All motors of the board: after those, the second motors of axes that have two.
+// All motors of the board: those, followed by the second motors of axes that have two.
 Kinematics board_kinematics_of(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
-// The steps of each motor from machine zero, rounded to the step nearest to `place`. `downs`: the axes whose backlash
-// is taken up for motion down.
+// The steps of each motor from machine zero to `place`, rounded to the nearest step. `downs`: the axes whose backlash
+// is taken up for motion in the negative direction.
 std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place,
                                               AxisSet downs = {});
 

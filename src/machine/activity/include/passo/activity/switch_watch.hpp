@@ -1,5 +1,5 @@
-// SwitchWatch: which switches a homing move watches, and whether the move ends when one of them closes or when it
-// opens. A contact bounces, so a switch may change several times while its axis is homed, but not without end.
+// SwitchWatch: the switches that a homing move watches, and whether the move ends when one of them closes or opens. A
+// contact bounces, so a switch may change several times while its axis is homed; the number of changes is limited.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,10 @@ class SwitchWatch {
   void wait_for_opening() { until_closed_ = false; }
   bool until_closed() const { return until_closed_; }
 
-  // The switch was not as the move expected. False: that has happened too often.
+  // Call when the switch was not in the expected state. Returns false after too many changes.
   [[nodiscard]] bool allows_another_try() { return ++changes_ <= most_changes; }
-  // The switch has changed by itself: the next move waits for the opposite. False: that has happened too often.
+  // Call when the switch has changed unexpectedly: the next move waits for the opposite change. Returns false after too
+  // many changes.
   [[nodiscard]] bool turn() {
     until_closed_ = !until_closed_;
     return allows_another_try();

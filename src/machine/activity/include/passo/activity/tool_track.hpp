@@ -1,7 +1,7 @@
-// ToolTrack: where a program's operations lead the tool, in the work frame in force.
+// ToolTrack: the tool path of a program's operations, in the active work coordinate system.
 //
-// For those who look at operations. A feed without axis words (`G1 F600`) is an operation, but no move. A frame that is
-// set to what it is already does not move.
+// For observers of operations. A feed without axis words (`G1 F600`) is an operation, but not a move. An offset that is
+// set to its present value does not count as a change.
 #pragma once
 
 #include "passo/interpreter/frame.hpp"
@@ -14,15 +14,15 @@ class ToolTrack {
   // `start`: the machine position at the start.
   explicit ToolTrack(const Point& start) : to_(start) {}
 
-  // Call it for each operation of the program, in order. The others then tell of that operation.
+  // Call it for each operation of the program, in order. The other functions then refer to that operation.
   void follow(const Operation& operation);
 
-  // The tool moves, by more than rounding.
+  // True: the tool moves by more than a rounding error.
   bool moves() const { return moves_; }
-  // In the frame in force. Equal where the operation is no move.
+  // Start and end in the active work coordinate system. Equal if the operation is not a move.
   const Point& from() const { return from_; }
   const Point& to() const { return to_; }
-  // The offsets or the rotation have changed, and so have the places in the frame.
+  // True: the offsets or the rotation have changed, and so have the work coordinates.
   bool frame_changed() const { return frame_changed_; }
 
  private:

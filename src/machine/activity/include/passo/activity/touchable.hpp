@@ -1,4 +1,4 @@
-// Touchable: something that the probe of a plant can touch, as a user describes it, in machine coordinates.
+// Touchable: an object that the probe of a plant can touch, as described by the user, in machine coordinates.
 #pragma once
 
 #include <limits>
@@ -12,7 +12,7 @@
 
 namespace passo {
 
-// A box. A range without an end goes on for ever.
+// A box. A range without an end is unlimited.
 struct TouchBox {
   struct Range {
     double low = -std::numeric_limits<double>::infinity();
@@ -21,7 +21,7 @@ struct TouchBox {
   PerAxis<Range> ranges;
 };
 
-// All that is on or below a surface whose zero is somewhere in the machine.
+// A surface placed in the machine; everything on or below it is solid.
 struct PlacedSurface {
   std::shared_ptr<const Surface> surface;
   Point zero = {};
@@ -29,7 +29,7 @@ struct PlacedSurface {
 
 using Touchable = std::variant<TouchBox, PlacedSurface>;
 
-// Puts it before the probe of the plant. Axes that the machine does not have are left out.
+// Adds the object to the plant. Axes that the machine does not have are ignored.
 void add(FittedPlant& plant, const Touchable& thing, const MachineDescription& machine);
 
 }  // namespace passo

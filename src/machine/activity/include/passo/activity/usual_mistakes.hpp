@@ -1,10 +1,10 @@
-// UsualMistakes: warns of what is allowed, but seldom meant. A program says no units; it feeds while the spindle
-// stands; M3 runs at S0; '%' ends it with the spindle on; a dwell of minutes was probably meant in milliseconds; an arc
-// is nearly a circle; S or T has no effect.
+// UsualMistakes: warns of code that is valid, but rarely intended: a program without a unit; a feed while the spindle
+// is off; M3 at S0; '%' at the end with the spindle on; a dwell of minutes, probably meant in milliseconds; an arc that
+// is nearly a circle; S or T without effect.
 //
-// Each mistake is reported once, where the program makes it first, with the other lines that make it. The warnings
-// about the spindle are for machines whose file gives the spindle a speed (tool.max_rpm). A laser, a hot wire and a pen
-// have none; S is idle there.
+// Each mistake is reported once, at its first position, with the other lines that repeat it. The spindle warnings are
+// for machines whose file gives the spindle a speed (tool.max_rpm). A laser, a hot wire and a pen have none; there S is
+// unused.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace passo {
 
 class UsualMistakes : OperationWatcher {
  public:
-  // `units`: the units before the program says any; inches were then chosen by the user.
+  // `units`: the units before the program sets any; inches were then chosen by the user.
   UsualMistakes(const MachineDescription& machine, LengthUnits units, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
@@ -38,13 +38,13 @@ class UsualMistakes : OperationWatcher {
   bool knows_units_;
   SpindleDirection spindle_ = SpindleDirection::off;
   double speed_ = 0;  // S
-  // M3 or M4 while S is 0. A later S makes it good, so this is reported at the first feed.
+  // M3 or M4 while S is 0. A later S corrects this, so it is reported at the first feed.
   std::optional<Diagnostic> turned_at_zero_;
-  std::optional<Diagnostic> left_on_;  // M3 or M4, while the spindle is on
-  // The tool is a probe since its first probe move, until the tool is changed. A probe does not turn when it is fed.
+  std::optional<Diagnostic> left_on_;  // set by M3 or M4, while the spindle is on
+  // From its first probe move until a tool change, the tool is a probe. A probe does not rotate during a feed.
   bool probes_ = false;
   bool changes_tools_ = false;
-  std::optional<Diagnostic> idle_tool_;  // a T word, as long as no tool is changed
+  std::optional<Diagnostic> idle_tool_;  // a T word without a tool change so far
 };
 
 }  // namespace passo

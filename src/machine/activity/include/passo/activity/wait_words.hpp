@@ -1,8 +1,8 @@
-// WaitWords: what a program says to the person for whom it waits, at M0, M1 and M6.
+// WaitWords: the messages of a program for the operator at its stops: M0, M1 and M6.
 //
-// The program is read ahead of the machine. So the words of each stop are kept until the machine has passed the stop.
-// They are the messages, (MSG,…), since the last feed or stop, the comment of the stop's own line, and, for a tool
-// change, the remark of the tool table. The place of a stop is its line: stops are passed in the order in which they
+// The program is read ahead of the machine. So the messages of each stop are kept until the machine has passed the
+// stop. They are the (MSG,…) comments since the last feed or stop, the comment on the stop's own line, and, for a tool
+// change, the remark of the tool table. A stop is identified by its line: stops are passed in the order in which they
 // were read.
 #pragma once
 
@@ -20,13 +20,13 @@ class WaitWords {
  public:
   static constexpr std::size_t most_stops = 64;    // the oldest are dropped
   static constexpr std::size_t most_messages = 8;  // the first are dropped
-  static constexpr std::size_t longest = 200;      // bytes of each, cut at a character
+  static constexpr std::size_t longest = 200;      // bytes of each message, truncated at a character
 
-  // Takes the next operation of the program.
+  // Processes the next operation of the program.
   void watch(const Operation& operation, const ToolTable& tools);
-  // The words at the next stop of that line, separated by line ends. Empty: the program says nothing.
+  // Returns the messages of the next stop on that line, separated by line ends. Empty: there are none.
   std::string at(std::uint32_t line) const;
-  // The machine has passed the stop of that line, and with it all stops before.
+  // Call when the machine has passed the stop on that line. Earlier stops are dropped too.
   void pass(std::uint32_t line);
 
  private:

@@ -6,8 +6,8 @@
 
 namespace passo {
 
-// `counts_items`: places on the path are counted in items. A path that is taken up in its middle is counted from its
-// beginning, where no axis had its backlash taken up for motion down.
+// `counts_items`: positions on the path are item numbers. A path that is started in its middle is counted from its
+// beginning, where no axis had its backlash taken up for motion in the negative direction.
 BacklashOptions backlash_options(const StepOptions& steps, bool counts_items);
 bool takes_up_backlash(const StepOptions& steps);
 

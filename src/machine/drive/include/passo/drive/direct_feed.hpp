@@ -1,5 +1,5 @@
-// DirectFeed: sends board items to a board in this process, in order, as far ahead as the commitment says. Nothing can
-// be lost, so the feed only stores the motion that was planned ahead.
+// DirectFeed: sends board items to a board in this process, in order, as far ahead as the commitment allows. Nothing
+// can be lost, so the feed only stores the motion that was planned ahead.
 #pragma once
 
 #include <deque>
@@ -16,11 +16,11 @@ class DirectFeed final : public Feed {
   using Stages = FeedStages;
   struct Options {
     Commitment live;
-    bool follows_spindle = false;     // in the parts of the path that say so
-    bool waits_for_operator = false;  // the drive carries out the program's stops
-    bool reads_again = false;         // read_again() may be called: the path keeps what is planned ahead
+    bool follows_spindle = false;     // in the parts of the path that require it
+    bool waits_for_operator = false;  // the drive performs the program's stops
+    bool reads_again = false;         // read_again() may be called: the path keeps the items planned ahead
   };
-  // All stages outlive the feed.
+  // All stages must outlive the feed.
   DirectFeed(const Stages& stages, const Options& options);
 
   Progress advance() override;
@@ -52,17 +52,17 @@ class DirectFeed final : public Feed {
 
   Stages stages_;
   Options options_;
-  Commitment live_;   // while there is nothing to attend to
-  Commitment ahead_;  // the last settings of the stages
+  Commitment live_;   // while no event needs a fast reaction
+  Commitment ahead_;  // the commitment last passed to the stages
   Attention attention_ = Attention::none;
   BoardItem item_;
   std::deque<LinkItem>
-      waiting_;  // for room on the board: an item, and outputs that were changed while the item was made
+      waiting_;  // waiting for room on the board: an item, and outputs that changed while the item was made
   std::optional<Action> action_;
   bool ended_ = false;
-  PathPlace given_;     // behind the motion given; only for read_again()
-  Seconds planned_{0};  // time of all motion given by the planner
-  Seconds rested_;      // the board's time in which this drive moved nothing
+  PathPlace given_;     // the end of the planned motion; only for read_again()
+  Seconds planned_{0};  // total time of the planned motion
+  Seconds rested_;      // the board's time during which this drive moved nothing
 };
 
 }  // namespace passo

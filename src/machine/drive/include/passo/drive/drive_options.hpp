@@ -1,4 +1,4 @@
-// DriveOptions: what a drive is to do besides its path.
+// DriveOptions: the options of a drive, in addition to its path.
 #pragma once
 
 #include <optional>
@@ -12,22 +12,22 @@
 namespace passo {
 
 struct DriveOptions {
-  // For a board at the end of a line. The board's queue always ends in a stop, and after an interruption of the link,
-  // the drive continues from there. Empty: items go to the board directly.
+  // For a board on a link. The board's queue always ends in a stop, and after an interruption of the link, the drive
+  // continues from there. Empty: items go to the board directly.
   std::optional<TailOptions> tails = {};
-  Commitment live = endless_commitment;  // only for a board without a line
-  // Where to begin in the middle of a path. Another host has done all before this place.
+  Commitment live = endless_commitment;  // only for a board without a link
+  // The start in the middle of a path. An earlier session has executed everything before this position.
   std::optional<PathPlace> begin_at = {};
-  // Leads from the current position to `begin_at`, and ends in a stop. Empty: the machine stands there.
+  // Leads from the current position to `begin_at`, and ends in a stop. Empty: the machine is already there.
   std::vector<PathItem> lead_in = {};
   Seconds not_before{0};            // no motion before this time on the board's side
-  Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
+  Seconds spindle_wait{0};          // before motion continues, after the board had switched its outputs off
   Seconds spindle_run_up{0};        // from standstill to 1000 rpm; the wait is at least as long as the run-up
-  int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
-  bool guards_by_probe = false;     // a touch outside a probe move stops the drive
+  int counts_per_turn = 0;          // counts per revolution of the spindle's encoder; 0: nothing follows the spindle
+  bool guards_by_probe = false;     // a probe contact outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
-  bool waits_at_optional = true;    // at M1 too, if it waits for the operator at all
-  bool stops_at_lines = false;      // rests in a hold after each line of the program
+  bool waits_at_optional = true;    // also at M1, if it waits for the operator at all
+  bool stops_at_lines = false;      // holds after each line of the program
   bool may_stop_at_lines = false;   // stop_at_lines() may be called later
 };
 

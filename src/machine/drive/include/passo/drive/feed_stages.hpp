@@ -1,4 +1,4 @@
-// FeedStages: what stands above and below a feed.
+// FeedStages: the stages before and after a feed in the pipeline.
 #pragma once
 
 #include "passo/base/source.hpp"
@@ -14,7 +14,7 @@ struct FeedStages {
   RewindablePath& path;
   Planner& planner;
   StepGenerator& generator;
-  Source<BoardItem>& items;  // the generator's, seen by those who watch
+  Source<BoardItem>& items;  // the generator's output, as seen by observers
   Link& link;
   OutputsOrder& outputs;
 };

@@ -1,14 +1,14 @@
 // MotionDrive: turns a path into steps on a board. The motion may be held, resumed, changed in speed or stopped at any
 // instant.
 //
-// The lower half of the street: planner, step generator, feed, link. Motion that the planner has given is committed and
-// played unchanged. A change makes the planner plan anew from the end of the committed motion, on the path and within
-// the limits. So a change takes effect after the committed time. Each part has one task: MotionPipeline has the stages,
-// the feed transfers items to the board, PlannerHolds has the hold reasons, OutputsAtRest switches outputs during a
-// pause, ProbeMove evaluates the probe, SpindleTracker synchronises motion with the spindle.
+// The second half of the pipeline: planner, step generator, feed, link. Motion emitted by the planner is committed and
+// executed unchanged. After a change, the planner plans again from the end of the committed motion, on the path and
+// within the limits. Thus a change takes effect after the committed time. Each part has one task: MotionPipeline has
+// the stages, the feed transfers items to the board, PlannerHolds has the hold reasons, OutputsAtRest switches outputs
+// during a pause, ProbeMove evaluates the probe, SpindleTracker synchronises motion with the spindle.
 //
 // No function of a drive waits. advance() does what can be done now. When advance() returns `waits`, the owner lets the
-// board go on with poll() or wait(). See docs/decisions/0017 and 0065.
+// board continue with poll() or wait(). See docs/decisions/0017 and 0065.
 #pragma once
 
 #include <cstdint>
@@ -36,96 +36,95 @@ class MotionDrive {
  public:
   enum class State : std::uint8_t {
     running,
-    holding,  // braking for a hold, after the committed motion and where the program enables holds
+    holding,  // decelerating for a hold, after the committed motion and where the program enables holds
     held,     // stopped on the path; see holds() for the reason
     ended,    // the path is done or stopped, or the link has an error
   };
   enum class Progress : std::uint8_t { goes_on, waits, ended };
 
-  // `path`, `board` and `answers` outlive the drive. The board has been greeted, and no other drive uses it meanwhile.
-  // The drive writes the machine's results into `answers`.
+  // `path`, `board` and `answers` must outlive the drive. The handshake with the board is complete, and no other drive
+  // uses the board at the same time. The drive writes the machine's results into `answers`.
   MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, BoardSession& board,
               AnswerBook& answers, const DriveOptions& options = {});
   ~MotionDrive();
 
-  // Does what can be done without waiting.
+  // Does all work that needs no waiting.
   Progress advance();
-  // Calls advance() and, where the drive waits, wait(). False when the drive has ended. In a hold, virtual time passes
-  // for as long as `most`; with an endless `most`, no time passes.
+  // Calls advance() and, if the drive waits, wait(). Returns false when the drive has ended. In a hold, virtual time
+  // passes for `most`; with an endless `most`, no time passes.
   bool poll(Seconds most = Seconds(std::numeric_limits<double>::infinity()));
-  // Lets the board go on until there is news, but no longer than `most`.
+  // Lets the board continue until there is a message from it, but for at most `most`.
   void wait(Seconds most);
 
   State state() const { return state_; }
   const HoldReasons& holds() const { return holds_.reasons(); }
-  // The outputs as the program and the operator have ordered them.
+  // The outputs as commanded by the program and the operator.
   OutputState outputs() const { return outputs_.in_force(); }
   // The time on the board's side.
   Seconds now() const { return board_.now(); }
-  // How long the motion lasts that is planned and not played yet. Nothing can be changed for that time.
+  // The time of the motion that is planned and not executed yet. It can no longer be changed.
   Seconds committed() const { return feed_->ahead(); }
 
-  // Brings the machine to rest on the path, as soon as the limits and the program (M53) allow. The hold lasts until
-  // resume() takes back the same reason.
+  // Stops the machine on the path, as soon as the limits and the program (M53) allow. The hold lasts until resume()
+  // removes the same reason.
   void hold(HoldReason reason = HoldReason::operator_hold);
   void resume(HoldReason reason = HoldReason::operator_hold);
-  // The stop or tool change that the program waits at, if any. done() lets the program go on.
+  // The stop or tool change at which the program waits, if any. done() continues the program.
   const std::optional<Action>& waits_for() const { return waits_for_; }
-  // How many stops and tool changes the motion has come to, those at which nobody was waited for too.
+  // The number of stops and tool changes that the motion has reached, including those without a wait for the operator.
   std::uint64_t stops() const { return stops_; }
   void done();
-  // From now on the program waits at M1, or rests there for a moment only.
+  // From now on the program waits at M1, or only stops there for a moment.
   void wait_at_optional(bool waits) { waits_at_optional_ = waits; }
-  // The machine rests in a hold after each line of the program (single block). During motion it also stops now, because
-  // lines are planned ahead.
+  // Holds after each line of the program (single block). During motion it also stops now, because lines are planned
+  // ahead.
   void stop_at_lines(bool wanted);
-  // Stops, and drops the path up to its next action. The source of the path is to have an action next.
+  // Stops, and drops the path up to its next action. The next item of the path's source must be an action.
   void drop();
-  // Only for a board without a line. Continues a path that ended with an action await_line, which is dropped. Returns
-  // false, and changes nothing, once the machine comes to rest there in any case.
+  // Only for a board without a link. Continues a path that ended with an action await_line, which is dropped. Returns
+  // false, and changes nothing, if the stop there can no longer be avoided.
   bool pass_await_line(PathMode last);
-  // With a board on a link, after a drop(): the position of the stop. Empty: at the end of the motion given.
+  // For a board on a link, after a drop(): the position of the stop. Empty: the end of the planned motion.
   const std::optional<Point>& dropped_to() const { return dropped_to_; }
-  // Feeds are multiplied by both factors where the program enables them (M48 to M50, M52). The operator's factor is 0
-  // to 2, the machine's 0 to 1. When the factors leave less than a hundredth of the feed, the motion is held until they
-  // leave more.
+  // Multiplies feeds by both factors where the program enables them (M48 to M50, M52). The operator's factor is 0 to 2,
+  // the machine's 0 to 1. While the factors reduce the feed below a hundredth, the motion is held.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
   // Multiplies the speed of rapids; above 0, at most 1.
   void set_rapid_override(double factor) { pipeline_.planner().set_rapid_override(factor); }
-  // The operator's switches for coolant. They count until the program switches the same itself.
+  // Switches the coolant for the operator. The setting is valid until the program switches the same output.
   void switch_mist(bool on);
   void switch_flood(bool on);
-  // Only in a hold, at rest: stops the spindle, or the spindle and the coolant. Before motion goes on, everything is
-  // switched on again, with a wait for the spindle.
+  // Only during a hold, at standstill: stops the spindle, or the spindle and the coolant. Before motion continues,
+  // everything is switched on again, with a wait for the spindle.
   void stop_spindle(bool stands);
   void stop_outputs();
   // Multiplies the spindle speed by `factor`, 0 to 2, where the program enables it (M48, M49, M51).
   void set_spindle_override(double factor);
-  // Holds and ends the drive: the rest of the path is dropped, a dwell is cut short, and the outputs are switched off.
+  // Holds and ends the drive: the remaining path is dropped, a dwell is cut short, and the outputs are switched off.
   void stop();
   bool stopped() const { return holds_.has(HoldReason::stop); }
-  // True: the drive stopped because the probe was touched outside a probe move.
+  // True: the drive stopped because of a probe contact outside a probe move.
   bool stopped_by_probe() const { return stopped_by_probe_; }
-  // Only with tails, before the first advance(). Switches the outputs on as required at the start of the path: the
-  // spindle first, then the wait, then the other outputs.
+  // Only with stop ramps (tails), before the first advance(). Switches the outputs on as required at the start of the
+  // path: the spindle first, then the wait, then the other outputs.
   void switch_on(const OutputState& outputs, Seconds spindle_wait);
-  // How often the board had switched its outputs off because it did not hear the host.
+  // How often the board had switched its outputs off because it received nothing from the host.
   int output_timeouts() const { return output_timeouts_; }
 
-  // For watchers of what probe moves find. Watchers are added before the first advance().
+  // For observers of probe results. Add observers before the first advance().
   ProbeMove& probe() { return probe_; }
 
-  // For watchers of motion and items. Watchers are added before the first advance().
+  // Taps for observers of motion and items. Add observers before the first advance().
   Tap<MotionItem>& motion() { return pipeline_.motion(); }
   Tap<BoardItem>& items() { return pipeline_.items(); }
-  // The sent and executed items of queue updates; null: the drive sends none.
+  // The sent and executed items of queue updates; null: the drive does not use queue updates.
   RefillLedger* ledger() { return feed_->ledger(); }
   const RefillLedger* ledger() const { return feed_->ledger(); }
   const BoardSession& link() const { return board_; }
-  // The board's position, for the next drive on this board. Valid at rest, after the end.
+  // The board's position, for the next drive on this board. Valid at standstill, after the end.
   BoardPlace place() const { return pipeline_.generator().place(); }
-  // The axes whose backlash is then taken up for motion down.
+  // The axes whose backlash is then taken up for motion in the negative direction.
   AxisSet downs() const { return pipeline_.generator().downs(); }
 
  private:
@@ -161,7 +160,7 @@ class MotionDrive {
   std::unique_ptr<Feed> feed_;  // board segments -> wire
   ProbeMove probe_;
   SpindleTracker spindle_;
-  Script script_;  // the steps to do at rest
+  Script script_;  // the steps to do during a stop
   OutputsAtRest switching_;
   int output_timeouts_ = 0;
   bool awaits_index_ = false;
@@ -171,14 +170,14 @@ class MotionDrive {
   std::optional<Action> waits_for_;
   std::uint64_t stops_ = 0;
   bool waits_at_optional_;
-  bool reads_again_ = false;  // at the next rest, because lines were planned ahead
+  bool reads_again_ = false;  // at the next stop, because lines were planned ahead
   bool stopped_by_probe_ = false;
   std::optional<Point> dropped_to_;
-  Point end_of_tap_;  // where the committed motion ends
+  Point end_of_tap_;  // end of the committed motion
 };
 
-// Why the greeted board cannot drive a machine with these step options, as a sentence without a full stop. Empty:
-// nothing is in the way.
+// Why the connected board cannot drive a machine with these step options, as a sentence without a full stop. Empty: it
+// can.
 std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // MotionPipeline: the stages from a path to board items, in order: backlash, the rewindable path, stops after lines,
-// the planner, the step generator. Between them, watchers see what passes.
+// the planner, the step generator. Taps between them show the data to observers.
 //
-// Place on the street: the drive pulls nothing here. Its feed pulls items(), and with them all stages.
+// Position in the pipeline: the drive itself pulls nothing here. Its feed pulls items(), and thus runs all stages.
 #pragma once
 
 #include "passo/base/source.hpp"
@@ -17,7 +17,7 @@ namespace passo {
 
 class MotionPipeline {
  public:
-  // `path` outlives the pipeline.
+  // `path` must outlive the pipeline.
   MotionPipeline(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
                  const DriveOptions& options);
   MotionPipeline(const MotionPipeline&) = delete;
@@ -37,7 +37,7 @@ class MotionPipeline {
   BacklashAtRest backlash_at_rest(const StepOptions& steps) const;
 
   Tap<PathItem> path_items_;
-  BacklashTaker backlash_taker_;  // rests where an axis with backlash turns back
+  BacklashTaker backlash_taker_;  // stops where an axis with backlash reverses
   RewindablePath path_;
   LineStops line_stops_;
   Planner planner_;  // segments -> phases

@@ -1,5 +1,5 @@
-// OutputsAtRest: how outputs are switched while the machine rests, one after the other: first the spindle, then a wait
-// until it turns as ordered, then the coolant. The steps go into the drive's script.
+// OutputsAtRest: switches outputs while the machine is stopped, one after the other: first the spindle, then a wait for
+// its run-up, then the coolant. The steps are added to the drive's script.
 #pragma once
 
 #include "passo/drive/feed.hpp"
@@ -22,20 +22,20 @@ class OutputsAtRest {
     Seconds spindle_wait{0};    // after the board had switched its outputs off
     Seconds spindle_run_up{0};  // from standstill to 1000 rpm; the wait is at least as long as the run-up
   };
-  // All parts outlive this.
+  // All parts must outlive this object.
   OutputsAtRest(const Parts& parts, const Times& times) : parts_(parts), times_(times), pause_end_(times.not_before) {}
 
-  // The board hears what is ordered.
+  // Sends the commanded outputs to the board.
   void switch_as_ordered();
   void switch_off();
   void switch_on(const OutputState& outputs, Seconds spindle_wait);
-  // As they were before the board switched them off.
+  // Restores the outputs after the board had switched them off.
   void switch_on_again() { switch_on(parts_.order.ordered(), times_.spindle_wait); }
-  // What was stopped in a hold is switched on again. Nothing was: only the pause is waited for.
+  // Switches on again what was stopped in a hold. If nothing was, only waits for the end of the pause.
   void let_go();
-  // The spindle alone stops, or turns again.
+  // Stops the spindle alone, or starts it again.
   void stop_spindle(bool stands);
-  // Before a thread that no encoder guides: the spindle turns as the program says when the thread begins.
+  // Call before a thread without an encoder: sets the spindle to the programmed speed before the thread begins.
   void hold_speed(const Action& action);
 
   void await_pause_end();

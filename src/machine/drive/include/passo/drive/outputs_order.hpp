@@ -1,4 +1,4 @@
-// OutputsOrder: the outputs as the program has ordered them, with the operator's override of the spindle.
+// OutputsOrder: the outputs as commanded by the program, with the operator's overrides.
 #pragma once
 
 #include <cstdlib>
@@ -9,12 +9,12 @@
 
 namespace passo {
 
-// Converts the outputs of a path's action to the message for the wire.
+// Converts the outputs of a path's action to the message for the board.
 BoardOutputs board_outputs(const OutputState& state, double spindle_factor = 1);
 
 class OutputsOrder {
  public:
-  // Takes the outputs that the program orders by an action. The board hears of the order in any case.
+  // Applies the outputs that an action of the program commands. The board always receives the command.
   void apply(const Action& action) {
     ordered_ = action.outputs;
     if (mist_ && mist_->ordered != ordered_.mist) mist_.reset();
@@ -23,22 +23,22 @@ class OutputsOrder {
     told_.reset();
   }
   void order(const OutputState& outputs) { ordered_ = outputs; }
-  // Whether the program heeds the override from here on (M48, M49, M51).
+  // Sets whether the program enables the spindle override from here on (M48, M49, M51).
   void enable_override(bool heeds) { override_enabled_ = heeds; }
   bool override_enabled() const { return override_enabled_; }
   // The operator's factor, 0 to 2.
   void set_override(double factor) { override_ = factor; }
   const OutputState& ordered() const { return ordered_; }
-  // What the operator has switched counts until the program switches the same itself.
+  // A setting of the operator is valid until the program switches the same output.
   void switch_mist(bool on) { mist_.emplace(Switched{.on = on, .ordered = ordered_.mist}); }
   void switch_flood(bool on) { flood_.emplace(Switched{.on = on, .ordered = ordered_.flood}); }
-  // The spindle stands until it is let go.
+  // Stops the spindle; it stays off until stop_spindle(false).
   void stop_spindle(bool stands) { spindle_stands_ = stands; }
   bool spindle_stands() const { return spindle_stands_; }
-  // All outputs that a program switches stand still until they are let go: the door is open.
+  // Switches all outputs of the program off until stop_all(false), because the door is open.
   void stop_all(bool stands) { all_stand_ = stands; }
   bool all_stand() const { return all_stand_; }
-  // The outputs as they are to be now.
+  // The outputs to be applied now.
   OutputState in_force() const {
     OutputState outputs = ordered_;
     if (mist_) outputs.mist = mist_->on;
@@ -48,7 +48,7 @@ class OutputsOrder {
     return outputs;
   }
 
-  // True: the spindle is ordered to turn, and the board was told something else.
+  // True: the spindle is commanded on, and the board's last command is different.
   bool is_news() const {
     const BoardOutputs wanted = for_board();
     const bool same = told_ && told_->switches == wanted.switches && told_->spindle_rpm == wanted.spindle_rpm;
@@ -56,13 +56,13 @@ class OutputsOrder {
   }
   // The difference of the spindle speed from the board's commanded speed, rpm.
   double change_of_speed() const { return told_ ? std::abs(for_board().spindle_rpm - told_->spindle_rpm) : 0; }
-  // The message for the board. The caller sends it.
+  // Returns the message for the board, and records it as sent. The caller sends it.
   BoardOutputs tell() { return *(told_ = for_board()); }
 
  private:
   struct Switched {
     bool on = false;
-    bool ordered = false;  // by the program at that time
+    bool ordered = false;  // as commanded by the program at that time
   };
   BoardOutputs for_board() const { return board_outputs(in_force(), override_enabled_ ? override_ : 1); }
 

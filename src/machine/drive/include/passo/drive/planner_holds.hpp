@@ -1,5 +1,5 @@
-// PlannerHolds: the hold reasons, and their state in the planner. The planner brakes as soon as there is a reason that
-// demands it, and goes on when there is none any more.
+// PlannerHolds: the hold reasons, and their state in the planner. The planner decelerates while at least one reason
+// requires a stop, and continues otherwise.
 #pragma once
 
 #include "passo/drive/holds.hpp"
@@ -9,21 +9,21 @@ namespace passo {
 
 class PlannerHolds {
  public:
-  // The planner outlives this.
+  // The planner must outlive this object.
   explicit PlannerHolds(Planner& planner) : planner_(planner) {}
 
   const HoldReasons& reasons() const { return reasons_; }
   bool has(HoldReason reason) const { return reasons_.has(reason); }
   bool any_of(HoldReasons others) const { return reasons_.any_of(others); }
 
-  // The planner brakes for the reason, or goes on.
+  // Sets or clears the reason, and updates the planner.
   void change(HoldReason reason, bool holds);
-  // The reason alone: at rest the planner is not asked.
+  // Sets or clears the reason without updating the planner, at standstill.
   void set(HoldReason reason, bool holds = true) { reasons_.set(reason, holds); }
-  // At rest: these reasons have done what they were for.
+  // Clears these reasons at standstill, because their purpose is fulfilled.
   void end(std::initializer_list<HoldReason> ended);
 
-  // Feeds are multiplied by both factors. Less than a hundredth of the feed is a reason to rest.
+  // Multiplies feeds by both factors. Less than a hundredth of the feed is a reason to hold.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
 

@@ -1,7 +1,7 @@
-// PlayedMotion: shows the motion that a board has executed to who wants to see it.
+// PlayedMotion: passes the motion that a board has executed to an observer.
 //
 // With a board on a link, motion is planned ahead, and a part of it may never be executed: the machine stops with a
-// stop ramp, and the path is planned again from its end. PlayedMotion keeps what was given until the board has executed
+// stop ramp, and the path is planned again from its end. PlayedMotion keeps planned motion until the board has executed
 // it.
 #pragma once
 
@@ -18,24 +18,24 @@ namespace passo {
 class PlayedMotion {
  public:
   void watch(std::function<void(const MotionItem&)> watcher) { watcher_ = std::move(watcher); }
-  // Without a watcher nothing is kept.
+  // Without an observer nothing is kept.
   bool is_watched() const { return watcher_ != nullptr; }
 
   void record_given(const MotionItem& motion) {
     if (is_watched()) given_.push_back(motion);
   }
-  // How many were given since the beginning, without those that were forgotten.
+  // The number of motion items planned since the beginning, without the dropped ones.
   std::uint64_t given() const { return shown_ + given_.size(); }
 
-  // The board has executed the first `count` of them.
+  // Reports the first `count` items as executed.
   void show(std::uint64_t count) {
     for (; shown_ < count && !given_.empty(); ++shown_, given_.pop_front()) watcher_(given_.front());
   }
-  // The board has then played this tail.
+  // Reports that the board has then executed this stop ramp.
   void show_tail(const std::vector<PlannedMove>& tail) const {
     for (const PlannedMove& move : tail) watcher_(move);
   }
-  // What was given and is not executed never will be.
+  // Drops the unexecuted motion, which will never be executed.
   void forget() { given_.clear(); }
 
  private:

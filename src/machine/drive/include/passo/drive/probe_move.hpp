@@ -1,8 +1,8 @@
 // ProbeMove: a probe move as a drive runs it. The board watches its probe from the beginning to the end of the move.
 // ProbeMove converts the board's reports into machine positions.
 //
-// The board tells the motors' positions at the very event of the contact. So the place is exact to the step, however
-// much later the machine comes to rest.
+// The board reports the motors' positions at the event of the contact. So the contact position is exact to the step, no
+// matter how much later the machine stops.
 #pragma once
 
 #include <functional>
@@ -19,37 +19,37 @@ namespace passo {
 
 class ProbeMove {
  public:
-  // `link` and `answers` outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
-  // (whether the move is refused) and at the end.
+  // `link` and `answers` must outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
+  // (whether the move is rejected) and at the end.
   ProbeMove(Link& link, AnswerBook& answers, const Kinematics& kinematics)
       : link_(link), answers_(answers), kinematics_(kinematics) {}
 
-  // Adds a watcher that gets the outcome at the end of each probe move.
+  // Adds an observer that receives the outcome at the end of each probe move.
   void watch(std::function<void(const ProbeOutcome&)> watcher) { watchers_.push_back(std::move(watcher)); }
 
-  // Watches the probe in other moves too: contact() then tells that the probe, which was free, was touched.
+  // Also watches the probe in other moves: contact() then reports that the open probe was triggered.
   void guard_other_moves() { guards_ = true; }
   bool guards() const { return guards_; }
-  // Two questions to the board, at rest: the first between probe moves, the second before a probe move. The board has
-  // to answer before the next step.
+  // Two queries to the board, at standstill: the first between probe moves, the second before a probe move. The board
+  // has to answer before the drive continues.
   void ask_to_watch_others() { link_.watch_probe(guards_ ? ProbeUntil::touched : ProbeUntil::off); }
   void ask_to_watch(const Action& action);
 
-  // The board watches now. The machine rests at the place that the action names. `downs`: the axes whose backlash is
-  // taken up for motion down there.
+  // Call when the board watches. The machine is stopped at the position given by the action. `downs`: the axes whose
+  // backlash is taken up there for motion in the negative direction.
   void begin(const Action& action, AxisSet downs);
   bool is_running() const { return running_; }
-  // True: what the board watches for has happened.
+  // True: the watched event has happened.
   bool contact() const { return link_.probe_report().happened; }
   // The same, once for each watch.
   [[nodiscard]] bool is_new_contact() { return contact() && !std::exchange(contact_seen_, true); }
-  // Motion in the move ends there, if not at the move's end.
+  // Sets the end of the motion in the move, if it is not the move's end.
   void record_end(const Point& end) { end_ = end; }
   // After the move, while stopped: recall() reads the captured position, unless the move was rejected. When the board
-  // has answered, find() works out the outcome. `planned_end`: of the move.
+  // has answered, find() computes the outcome. `planned_end`: the programmed end of the move.
   void recall();
   void find(const Point& planned_end);
-  // Tells the outcome to `answers` and to the watchers.
+  // Passes the outcome to `answers` and to the observers.
   void end();
 
  private:

@@ -1,4 +1,5 @@
-// is_program_stop(action): a program waits there for a person, if it waits for persons at all: M0, M1, M6.
+// is_program_stop(action): whether a program waits there for the operator, if it waits for operators at all: M0, M1,
+// M6.
 #pragma once
 
 #include "passo/path/segment.hpp"

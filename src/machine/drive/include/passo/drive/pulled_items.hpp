@@ -17,8 +17,8 @@ class PulledItems {
   struct Item {
     LinkItem item;
     Seconds time{0};
-    SpeedForTails::Speed speed = {};       // about the speed at its end
-    std::optional<BrakingTail> tail = {};  // after the item; empty: no refill may end here
+    SpeedForTails::Speed speed = {};       // approximate speed at its end
+    std::optional<BrakingTail> tail = {};  // stop ramp after the item; empty: no queue update may end here
   };
 
   void add(const LinkItem& item, Seconds time, const SpeedForTails::Speed& speed);
@@ -28,12 +28,12 @@ class PulledItems {
   const Item& operator[](std::size_t i) const { return items_[i]; }
   Item& last() { return items_.back(); }
   Seconds time() const { return time_; }
-  // True: after the last item, a refill may end.
+  // True: a queue update may end after the last item.
   bool may_end() const { return items_.empty() || items_.back().tail; }
-  // True: it is worth looking for a tail after the last item.
+  // True: it is worth computing a stop ramp after the last item.
   bool is_far_from_last_tail() const;
   SpeedForTails::Speed highest_speed() const;
-  // The first items are sent.
+  // Removes the first `items` items, which were sent.
   void drop_first(std::size_t items);
 
   bool goes_on() const { return !holds_ && !ended_ && !action_; }
@@ -50,9 +50,9 @@ class PulledItems {
  private:
   std::deque<Item> items_;
   Seconds time_{0};
-  bool holds_ = false;            // after the items, the planner holds
-  bool ended_ = false;            // after the items, the path has ended
-  std::optional<Action> action_;  // after the items, this is to be done
+  bool holds_ = false;            // the planner holds after the items
+  bool ended_ = false;            // the path has ended after the items
+  std::optional<Action> action_;  // to be performed after the items
 };
 
 }  // namespace passo

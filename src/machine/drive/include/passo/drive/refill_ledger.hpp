@@ -1,7 +1,7 @@
 // RefillLedger: the items sent to a board in queue updates (refills), and those that the board has executed. It
 // notifies the observers of executed motion and items, and of possible stop points.
 //
-// All times are of motion alone: the ledger's clock stands while nothing moves.
+// All times are times of motion: the ledger's clock stops while nothing moves.
 #pragma once
 
 #include <cstdint>
@@ -26,70 +26,69 @@ class RefillLedger {
     BrakingTail tail = {};  // no later queue update stops before its start
   };
 
-  // The link outlives the ledger. Nothing before `done` is to be executed.
+  // The link must outlive the ledger. Everything before `done` is already executed.
   RefillLedger(const Link& link, Hertz tick_rate, const PathPlace& done)
       : link_(link), tick_rate_(tick_rate), done_(done) {}
 
-  // The watcher sees each item that the board has reported as executed, including tails that were played.
+  // Adds an observer of each item that the board has reported as executed, including executed stop ramps.
   void watch_executed(std::function<void(const LinkItem&)> watcher) { played_.watch(std::move(watcher)); }
-  // The watcher sees the motion that the board has executed, tails that were played included. Motion that was planned
-  // and then planned anew is shown as it was executed.
+  // Adds an observer of the motion that the board has executed, including executed stop ramps. Motion that was planned
+  // again is reported as executed.
   void watch_motion(std::function<void(const MotionItem&)> watcher) { motion_played_.watch(std::move(watcher)); }
-  // The observer is notified before each queue update of the stop points that are possible from then on.
+  // Adds an observer that is called before each queue update with the stop points possible from then on.
   void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
 
-  // To where the planner has given motion, and how far the board has executed it. Motion repeated after an early stop
-  // replaces the unexecuted motion.
+  // The total time of the planned motion, and of its executed part. Motion repeated after an early stop replaces the
+  // unexecuted motion.
   Seconds given_time() const { return given_in_all_; }
   Seconds executed_time() const;
-  // How often a tail was played to its end and the path was taken up again there.
+  // How often a stop ramp was executed to its end and the path was continued from there.
   int recoveries() const { return counts_.recoveries; }
-  // How often the speed was limited because a tail was long.
+  // How often the speed was limited because of a long stop ramp.
   int slowdowns() const { return counts_.slowdowns; }
-  // How many of the items sent belonged to tails.
+  // How many of the sent items belonged to stop ramps.
   std::uint64_t tail_items() const { return counts_.tail_items; }
   std::uint64_t refills() const { return counts_.refills; }
-  // The longest motion in the board's queue, without the stop ramp, while a queue update waited for its
-  // answer. After a contact the board has at most twice as much: the answer that the probe is free is no older than
-  // that.
+  // The longest motion in the board's queue, without the stop ramp, while a queue update waited for its answer. After a
+  // contact the board has at most twice as much: the answer that the probe is open is no older than that.
   Seconds longest_ahead() const { return longest_ahead_; }
 
-  // The planner has given this motion.
+  // Records motion emitted by the planner.
   void record_given(const MotionItem& motion, Seconds time);
   const PlayedMotion& motion_played() const { return motion_played_; }
-  // Call it before a queue update or outputs are sent: from then on, the board stops there.
+  // Reports a possible stop point. Call it before a queue update or outputs are sent: from then on, the board may stop
+  // there.
   void report_rest(ItemNumber executed, const PathPlace& place) const;
   void record_motion(const LinkItem& item, ItemNumber number, Seconds time);
-  void record_refill(Refill refill);  // after its motion
-  // A refill waits for an answer now.
+  void record_refill(Refill refill);  // call it after its motion
+  // Call when a queue update waits for an answer.
   void on_question();
-  // Outputs that were sent alone are switched.
+  // Reports outputs that were sent separately and are switched.
   void show(const BoardOutputs& outputs) const { played_.show(outputs); }
 
-  // Processes the reported progress of the board. `done`: the board is known to be at least there.
+  // Processes the number of the last executed item, as reported by the board.
   void on_executed(ItemNumber executed);
-  // The refill that the board plays: it has begun no other. Null: none.
+  // The queue update that the board executes: none later has begun. Null: none.
   const Refill* under_way() const { return under_way_.empty() ? nullptr : &under_way_.front(); }
-  // True: the board has executed the last queue update, with or without its stop ramp. Returns the rest that it came
-  // to.
+  // Call when the board has executed the last queue update. `on_tail`: including its stop ramp. Returns the stop point.
   RestOnPath end_refill(bool on_tail);
   void on_recovery() { ++counts_.recoveries; }
   void set_slowdowns(int slowdowns) { counts_.slowdowns = slowdowns; }
-  // The board rests, and all that was sent is executed.
+  // Call when the board is stopped and all sent items are executed.
   void record_rest();
-  // The board rests. All that was sent after the rest never will be executed.
+  // Call when the board is stopped. Drops all items sent after the stop point, which will never be executed.
   void forget_unexecuted();
 
-  // How much motion is sent and not executed, counted in whole items; and without the item that is played now, because
+  // The time of motion sent and not executed, counted in whole items; surely_ahead() excludes the current item, because
   // the board may be at its end.
   Seconds ahead() const { return ahead_; }
   Seconds surely_ahead() const { return motion_.empty() ? ahead_ : ahead_ - motion_.front().time; }
-  // The same, as the board last told with the spindle's place.
+  // The same, as last reported by the board together with the spindle's angle.
   const std::optional<Seconds>& told_ahead() const { return told_ahead_; }
   void forget_told() { told_ahead_.reset(); }
-  // Of all motion given. The answer tells the event at which the board was at `time`.
+  // The same for all planned motion, at `time`, the time of the reported event.
   Seconds ahead_of(const Turned& turned, Seconds time);
-  // When the motion under way began, by the board's clock.
+  // The start time of the current motion, by the board's clock.
   const std::optional<Seconds>& began() const { return began_; }
   // The time of the item's first `of_events` events.
   Seconds time_of(const LinkItem& item, int of_events = most_events) const;
@@ -98,7 +97,7 @@ class RefillLedger {
   struct Motion {
     ItemNumber number = 0;
     Seconds time{0};
-    Seconds end{0};  // since the last rest
+    Seconds end{0};  // time since the last stop
     LinkItem item = {};
   };
   struct Counts {
@@ -114,14 +113,14 @@ class RefillLedger {
   PlayedMotion motion_played_;
   std::function<void(const BoardRest&)> rest_watcher_;
   std::deque<Motion> motion_;     // sent and not executed
-  std::deque<Refill> under_way_;  // the board plays the first
-  PathPlace done_;                // up to here the board is known to have executed
+  std::deque<Refill> under_way_;  // the board executes the first
+  PathPlace done_;                // the board is known to have executed everything up to here
   Seconds ahead_{0};
-  Seconds given_time_{0};  // all motion since the last rest that the planner gave
+  Seconds given_time_{0};  // all planned motion since the last stop
   Seconds sent_time_{0};   // the part of given_time_ that was sent
   Seconds given_in_all_{0};
-  Seconds passed_{0};       // all motion that was executed before the last rest
-  Seconds item_begins_{0};  // when the board began its present item, as far as is known
+  Seconds passed_{0};       // all motion executed before the last stop
+  Seconds item_begins_{0};  // when the board began the current item, as far as is known
   std::optional<Seconds> told_ahead_;
   std::optional<Seconds> began_;
   Seconds longest_ahead_{0};

@@ -1,19 +1,19 @@
 // Refiller: keeps the board's queue filled, such that it always ends in a stop. If a queue update comes too late, the
 // machine stops, and the refiller continues from there.
 //
-// Place on the street: between the step generator and the link. A queue update (refill) consists of further motion and
-// a stop ramp (tail). The stop ramp is the motion that stops the machine on the path from there. It replaces the
+// Position in the pipeline: between the step generator and the link. A queue update (refill) consists of further motion
+// and a stop ramp (tail). The stop ramp is the motion that stops the machine on the path from there. It replaces the
 // previous stop ramp completely or not at all. PulledItems has the items of the next queue update, TailMaker finds the
 // stop ramps, RefillPace determines when an update is due, and RefillLedger tracks sent and executed items.
 //
-// A tail must fit into the board. A tail is long round tight bends or over many short segments. There, the refiller
-// limits the speed, so that the stop ramp fits. When not even the first tail of a stretch fits, the machine waits and
-// begins the stretch more slowly.
+// A stop ramp must fit into the board's queue. It is long in tight bends and on many short segments. There, the
+// refiller limits the speed, so that the stop ramp fits. If not even the first stop ramp after a stop fits, the machine
+// waits and starts more slowly.
 //
-// The board tells the numbers of the items that it has executed. From them, the refiller determines which stop ramp was
-// executed, if any. For each possible stop ramp, the ledger stores its end point on the path and the generator's state
-// there. The refiller plans again from that stop point, so no step is lost or made twice. Why a refill was late or a
-// line was broken makes no difference.
+// The board reports the numbers of the executed items. From them, the refiller determines which stop ramp was executed,
+// if any. For each possible stop ramp, the ledger stores its end point on the path and the generator's state there. The
+// refiller plans again from that stop point, so no step is lost or made twice. This works for any cause of a late queue
+// update or a broken link.
 #pragma once
 
 #include <optional>
@@ -33,8 +33,7 @@ namespace passo {
 class Refiller final : public Feed {
  public:
   using Stages = FeedStages;
-  // All stages outlive the refiller.
-  // `waits_for_operator`: the drive carries out the program's stops.
+  // All stages must outlive the refiller. `waits_for_operator`: the drive performs the program's stops.
   Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options, bool waits_for_operator = false);
 
   // Sends a queue update, or returns what the refiller is waiting for.
@@ -47,9 +46,9 @@ class Refiller final : public Feed {
   void switch_outputs(const BoardOutputs& outputs) override;
   bool settled() override;
 
-  // The time of the motion ahead, without the tail.
+  // The time of the motion ahead, without the stop ramp.
   Seconds ahead() const override { return ledger_.ahead() + pulled_.time(); }
-  // Before the next advance().
+  // Call before the next advance().
   Seconds ahead_of(const Turned& turned, Seconds time) override { return ledger_.ahead_of(turned, time); }
   std::optional<Seconds> began() const override { return ledger_.began(); }
   bool is_remote() const override { return true; }
@@ -65,7 +64,7 @@ class Refiller final : public Feed {
 
   void expect_thread() override {}
 
-  // A tail that is played in a part that follows the spindle by place ends the whole path.
+  // From now on, a stop ramp executed in a part that is locked to the spindle's angle ends the whole path.
   void guard_threads() { guards_threads_ = true; }
   RefillLedger* ledger() override { return &ledger_; }
 
@@ -88,24 +87,24 @@ class Refiller final : public Feed {
 
   Stages stages_;
   TailOptions options_;
-  ItemNumber behind_ = 0;  // the next refill goes after this item
-  std::size_t places_;     // the places for items that we use on the board
-  RefillLedger ledger_;    // what was sent
+  ItemNumber behind_ = 0;  // the next queue update replaces everything after this item
+  std::size_t places_;     // the number of queue places used on the board
+  RefillLedger ledger_;    // the sent items
   TailMaker tails_;
   RefillPace pace_;
-  PulledItems pulled_;  // what is sent next
-  PathPlace given_;     // up to here the planner has given motion
-  RestOnPath rested_;   // the last rest
+  PulledItems pulled_;  // the items to send next
+  PathPlace given_;     // the planner has emitted motion up to here
+  RestOnPath rested_;   // the last stop
   SpeedForTails speed_;
   bool on_tail_ = false;  // the board executes a stop ramp: nothing is sent until it has stopped
   bool brakes_ = false;
   bool guards_threads_ = false;
-  std::optional<PathPlace> before_action_;  // the action taken last, while nothing was sent since
+  std::optional<PathPlace> before_action_;  // the position before the last action, while nothing was sent since
   bool waits_for_operator_;
-  bool outputs_changed_ = false;               // the board still has to hear of the change
-  std::optional<BoardOutputs> switched_ = {};  // sent alone, and not known to be switched
+  bool outputs_changed_ = false;               // the board has not received the change yet
+  std::optional<BoardOutputs> switched_ = {};  // sent separately, and not known to be switched
   BoardItem item_;
-  std::vector<LinkItem> items_;  // the items of a refill
+  std::vector<LinkItem> items_;  // the items of a queue update
 };
 
 }  // namespace passo

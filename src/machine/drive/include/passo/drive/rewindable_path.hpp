@@ -1,8 +1,8 @@
-// RewindablePath: a path that can be taken up again from a place that was passed already.
+// RewindablePath: a path that can be continued from an earlier position.
 //
-// Place on the street: before the planner. The path keeps each item until the board has executed it, because after a
-// broken line the machine rests at a place that the planner has long left. The remainder of a started segment is a
-// separate segment. Without keep() the path keeps nothing.
+// Position in the pipeline: before the planner. The path keeps each item until the board has executed it, because after
+// a broken link the machine is stopped at a position that the planner has long passed. The remainder of a started
+// segment is a separate segment. Without keep() the path keeps nothing.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace passo {
 
-// A place on the path: all items before `item` are done, and `s` of the curve of `item`.
+// A position on the path: all items before `item` are done, and the length `s` of the curve of `item`.
 struct PathPlace {
   std::uint64_t item = 0;
   Mm s{0};
@@ -29,29 +29,29 @@ class RewindablePath final : public Source<PathItem> {
 
   // Keeps items from now on. Call before the first next().
   void keep() { keeps_ = true; }
-  // Leaves out all before `place`, because another session has done it. Call after keep() and before the first next().
-  // `lead_in` comes first: it leads from the current position to that point, and its last item ends in a stop. Its
-  // items are counted too: the numbers of what comes after it are greater by their count. If such a path starts inside
-  // an item, s of the item is counted from that point.
+  // Skips everything before `place`, because another session has executed it. Call after keep() and before the first
+  // next(). `lead_in` comes first: it leads from the current position to that point, and its last item ends in a stop.
+  // Its items are counted too, so all later item numbers are greater by their count. If such a path starts inside an
+  // item, s of the item is counted from that point.
   void begin_at(const PathPlace& place, std::vector<PathItem> lead_in = {});
-  // Keeps only what was handed out last. There will be no rewind.
+  // Keeps only the item returned last. There will be no rewind.
   void forget_passed() { forgets_ = true; }
-  // The place of the item that the next call of next() gives.
+  // The position of the item that the next call of next() returns.
   PathPlace place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
   [[nodiscard]] bool next(PathItem& item) override;
 
-  // The place after a motion that begins at `place`. Valid for motion planned since the last rewind().
+  // The position after a motion that begins at `place`. Valid for motion planned since the last rewind().
   PathPlace behind(const PathPlace& place, const MotionItem& motion) const;
-  // From now on next() hands out the path from `place` again.
+  // From now on next() returns the path from `place` again.
   void rewind(const PathPlace& place);
   std::uint64_t rewinds() const { return rewinds_; }
-  // The point at `place`. The item must have been handed out and be kept.
+  // The point at `place`. The item must have been returned and be kept.
   Point point_at(const PathPlace& place) const;
-  // True: the item that next() gives next is known, and follows the spindle by place.
+  // True: the item that next() returns next is known, and is locked to the spindle's angle.
   bool is_in_thread() const;
-  // The place of the item handed out last.
+  // The position of the item returned last.
   PathPlace last() const { return {.item = next_ - 1}; }
-  // Forgets the items before this one. No rewind() goes back before it.
+  // Drops the items before this one. A rewind() never goes back before it.
   void forget_before(std::uint64_t item);
   std::size_t items_kept() const { return kept_.size(); }
 
@@ -62,12 +62,12 @@ class RewindablePath final : public Source<PathItem> {
   bool keeps_ = false;
   bool forgets_ = false;
   Mm left_out_of_item_{0};      // of the first item after a lead-in
-  std::uint64_t left_out_ = 0;  // items to leave out before the first one
+  std::uint64_t left_out_ = 0;  // items to skip before the first one
   std::deque<PathItem> kept_;
   std::uint64_t first_ = 0;  // number of the first item kept
   std::uint64_t rewinds_ = 0;
-  std::uint64_t next_ = 0;  // number of the next item to hand out
-  PathPlace rewound_;       // the item of which only the rest was handed out
+  std::uint64_t next_ = 0;  // number of the next item to return
+  PathPlace rewound_;       // the item of which only the remainder was returned
 };
 
 }  // namespace passo

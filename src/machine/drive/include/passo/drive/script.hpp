@@ -1,5 +1,5 @@
-// Script: things to do at rest, one after the other, with waits between. Nothing in a script blocks: a wait is a
-// condition that each call of go_on() checks again.
+// Script: a sequence of steps to do at standstill, with waits between them. No step blocks: a wait is a condition that
+// each call of go_on() checks again.
 #pragma once
 
 #include <deque>
@@ -13,7 +13,7 @@ class Script {
   using Act = std::function<void()>;
   using Condition = std::function<bool()>;
 
-  // Adds an act after all that the script already holds. An act may add to the script.
+  // Adds a step at the end of the script. A step may add further steps.
   void then(Act act) {
     steps_.push_back([act = std::move(act)] {
       act();
@@ -23,10 +23,10 @@ class Script {
   void until(Condition condition) { steps_.push_back(std::move(condition)); }
   void clear() { steps_.clear(); }
 
-  // Does what can be done now. True: nothing is left.
+  // Runs all steps that are possible now. True: none is left.
   [[nodiscard]] bool go_on() {
     while (!steps_.empty()) {
-      // The step may clear the script, and itself with it.
+      // Moved out first, because the step may clear the script, including itself.
       const Condition step = std::move(steps_.front());
       steps_.pop_front();
       const std::size_t left = steps_.size();

@@ -1,7 +1,7 @@
-// SpeedForTails: how fast the path may go so that its braking tails fit into the board.
+// SpeedForTails: limits the path speed so that the stop ramps (tails) fit into the board's queue.
 //
-// Where stop ramps get long, the speed is limited so that they fit; where they have been short for a while, the limit
-// is raised or removed. Where not even the first tail of a stretch fits, the stretch is begun more slowly.
+// Where stop ramps get long, the speed is limited so that they fit; after a while with short ones, the limit is raised
+// or removed. If not even the first stop ramp after a stop fits, the motion is started more slowly.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +14,26 @@ namespace passo {
 
 class SpeedForTails {
  public:
-  // `places`: of the board, for items. A refill has at least `least_refill` of them. The planner outlives this.
+  // `places`: the board's queue places. A queue update has at least `least_refill` items. The planner must outlive this
+  // object.
   SpeedForTails(Planner& planner, std::size_t places, std::size_t least_refill);
 
   struct Speed {
-    double on_path = 0;  // mm/s, or degrees/s where only rotary axes move
-    double of_axis = 0;  // of the axis that moves the most, mm/s or degrees/s
+    double on_path = 0;  // mm/s, or degrees/s if only rotary axes move
+    double of_axis = 0;  // of the fastest axis, mm/s or degrees/s
   };
-  // The planner has given that motion.
+  // Records motion emitted by the planner.
   void record_given(const PlannedMove& move);
-  // At its end.
+  // The speed at the end of that motion.
   const Speed& speed() const { return speed_; }
-  // So much motion was pulled since.
+  // Records the time of pulled motion.
   void record_motion(Seconds time) { limited_for_ += time; }
   // Processes the number of items of the stop ramp after the last pulled item.
   void record_tail(std::size_t items);
-  // From rest, where none of the motion fits that was pulled. `highest` has the highest speeds of that motion. False:
-  // the motion is as slow as can be already.
+  // Call at standstill, if none of the pulled motion fits. `highest` has the highest speeds of that motion. Returns
+  // false if the motion cannot be slower.
   [[nodiscard]] bool begin_more_slowly(const Speed& highest);
-  // The machine rests.
+  // Call when the machine has stopped.
   void rest() { speed_ = {}; }
   // How often the speed was limited.
   int slowdowns() const { return slowdowns_; }
@@ -41,10 +42,10 @@ class SpeedForTails {
   void limit_to(double speed);
 
   Planner& planner_;
-  std::size_t long_tail_;  // items: longer tails leave too few places
-  Speed speed_;            // at the end of what the planner has given
+  std::size_t long_tail_;  // items: longer stop ramps leave too few places
+  Speed speed_;            // at the end of the planned motion
   double limit_ = std::numeric_limits<double>::infinity();
-  Seconds limited_for_{0};  // of motion that was pulled
+  Seconds limited_for_{0};  // time of pulled motion under the limit
   int slowdowns_ = 0;
 };
 

@@ -1,8 +1,7 @@
-// SpindleEncoder: turns the counts of a board's encoder into turns and seconds, and tells whether the counts are
-// plausible.
+// SpindleEncoder: converts the counts of a board's encoder into revolutions and seconds, and checks their plausibility.
 //
-// Counts and ticks come modulo 2^32, and each reading continues the one before. After a long pause that is not certain,
-// so call restart(). The direction in which the encoder counts does not matter.
+// Counts and ticks are modulo 2^32, and each reading continues the previous one. After a long pause this is not
+// certain, so call restart(). The counting direction of the encoder does not matter.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,8 @@
 namespace passo {
 
 struct SpindleReading {
-  Seconds time{0};   // by the board's clock, from any start
-  double turns = 0;  // from any start
+  Seconds time{0};   // by the board's clock, from an arbitrary zero
+  double turns = 0;  // revolutions from an arbitrary zero
 };
 
 class SpindleEncoder {
@@ -28,15 +27,16 @@ class SpindleEncoder {
   void read(const SpindleCount& count);
   const SpindleReading& now() const { return now_; }
 
-  // Turns at the last index since the restart. Empty before the first index.
+  // The revolutions at the last index since the restart. Empty before the first index.
   const std::optional<double>& index() const { return index_; }
-  // For how long, up to now, the encoder has counted nothing.
+  // The time since the encoder last counted.
   Seconds stood() const { return now_.time - moved_at_; }
-  // How long `counts` take at one turn a second.
+  // The time of `counts` at one revolution per second.
   Seconds time_of_counts(double counts) const { return Seconds(counts / counts_per_turn_); }
-  // True: indexes came at places that are not whole turns from the first index, or no index came for several turns.
+  // True: index pulses were not a whole number of revolutions after the first one, or no index came for several
+  // revolutions.
   bool is_wrong() const;
-  // True: two indexes were one or more whole turns apart, and no doubt is open.
+  // True: two index pulses were a whole number of revolutions apart, and no doubt is open.
   bool is_right() const { return known_good_ && doubts_ == 0; }
 
  private:
@@ -50,7 +50,7 @@ class SpindleEncoder {
   double moved_to_ = 0;
   std::optional<double> index_;
   std::optional<double> first_index_;
-  double indexed_at_ = 0;  // turns at the last index, or at the start
+  double indexed_at_ = 0;  // revolutions at the last index, or at the start
   Seconds indexed_then_{0};
   int doubts_ = 0;
   bool known_good_ = false;

@@ -1,5 +1,5 @@
-// SpindleRunUp: tells when a spindle has reached its speed: when a turn takes as long as ordered, or nearly as long as
-// the turn before. From then on the spindle counts as at speed until the next begin().
+// SpindleRunUp: detects when a spindle has reached its speed: a revolution takes the commanded time, or nearly the time
+// of the previous one. From then on the spindle counts as at speed until the next begin().
 #pragma once
 
 #include "passo/drive/spindle_encoder.hpp"
@@ -13,7 +13,7 @@ class SpindleRunUp {
   bool at_speed() const { return at_speed_; }
 
  private:
-  double wanted_ = 0;  // seconds a turn
+  double wanted_ = 0;  // seconds per revolution
   SpindleReading turn_begun_;
   double turn_before_ = 0;  // seconds
   int turns_ = 0;

@@ -1,5 +1,5 @@
 // SpindleTracker: synchronises motion with the spindle, using the board's encoder. The tracker waits for the index,
-// sets the ratio of the feed, finds out when the spindle reverses in a tap, and gives up where it cannot follow the
+// sets the feed ratio, detects the reversal of the spindle during tapping, and gives up if it cannot follow the
 // spindle.
 //
 // The tracker mediates between the feed, which knows how far ahead motion is committed, and the planner, whose speed it
@@ -26,25 +26,25 @@ class SpindleTracker {
     Feed& feed;
     Link& link;
   };
-  // All stages outlive the tracker. `counts_per_turn` 0: there is no encoder, and nothing follows the spindle.
+  // All stages must outlive the tracker. `counts_per_turn` 0: there is no encoder, and nothing follows the spindle.
   SpindleTracker(const Stages& stages, const MotionLimits& limits, int counts_per_turn, Hertz clock);
   bool exists() const { return encoder_.exists(); }
 
   void watch(const PlannedMove& move) { follower_.watch(move); }
-  // How the motion planned last follows the spindle.
+  // How the last planned motion follows the spindle.
   SpindleLock lock() const { return follower_.lock(); }
   // True: motion follows the spindle, or is about to.
   bool follows() const { return follows_; }
 
-  // Called between two steps of the drive. False: the board has to answer first.
+  // Call between two steps of the drive. Returns false if the board has to answer first.
   [[nodiscard]] bool follow();
-  // Stops following where the motion planned last does not follow and no thread is about to begin. True: motion
-  // followed until now.
+  // Stops following if the last planned motion does not follow the spindle and no thread is about to begin. Returns
+  // true if motion followed the spindle until now.
   [[nodiscard]] bool let_go();
 
-  // Begins, at rest, to wait for the spindle to reach this speed and for its index to come by.
+  // Starts to wait, at standstill, until the spindle reaches this speed and its index passes.
   void begin_await(double revolutions_per_minute);
-  // True: the motion is to begin now, or the tracker has given up. False: call again when the board has answered, or at
+  // True: the motion must start now, or the tracker has given up. False: call again when the board has answered, or at
   // next_poll().
   [[nodiscard]] bool await_index();
   Seconds next_poll() const { return looks_at_; }
@@ -55,7 +55,7 @@ class SpindleTracker {
   [[nodiscard]] bool turned_back() { return std::exchange(turned_back_, false); }
   void reverse();
 
-  // Why the tracker cannot follow the spindle. Empty: no trouble.
+  // Why the tracker cannot follow the spindle. Empty: it can.
   const std::optional<LinkError>& trouble() const { return trouble_; }
 
  private:
@@ -72,14 +72,14 @@ class SpindleTracker {
   Stages stages_;
   SpindleEncoder encoder_;
   SpindleFollower follower_;
-  bool encoder_known_ = false;  // the encoder is known to be right
+  bool encoder_known_ = false;  // the encoder is known to count correctly
   bool follows_ = false;
-  bool asked_ = false;  // a reading was asked for, and the answer not yet taken
-  // When the next thread is to begin, by the board's clock. late_: how much later than planned the thread before began.
+  bool asked_ = false;  // a reading was queried, and the answer is not processed yet
+  // The start time of the next thread, by the board's clock. late_: the delay of the previous thread's start.
   std::optional<Seconds> index_time_;
   Seconds late_{0};
   int looks_at_start_ = 0;
-  std::optional<Seconds> outruns_since_;  // the spindle is faster than the axes can follow
+  std::optional<Seconds> outruns_since_;  // since when the spindle is too fast for the axes
   bool turn_expected_ = false;
   bool turned_back_ = false;
   std::optional<LinkError> trouble_;
@@ -88,7 +88,7 @@ class SpindleTracker {
   AwaitStep step_ = AwaitStep::ask;
   SpindleRunUp run_up_;
   bool begins_ = false;
-  Seconds alone_{0};  // how long an answer takes without a refill before it
+  Seconds alone_{0};  // response time without a preceding queue update
   Seconds looks_at_{0};
 };
 

@@ -1,6 +1,6 @@
-// TailMaker: finds the stop ramp (tail) of a queue update: the motion that stops the machine on the path after the
-// planned motion. The planner tells how it would brake, and a fork of the step generator makes that into items. Planner
-// and generator then go on as if nothing had been asked.
+// TailMaker: computes the stop ramp (tail) of a queue update: the motion that stops the machine on the path after the
+// planned motion. The planner computes the deceleration, and a fork of the step generator converts it into items. The
+// planner and the generator themselves remain unchanged.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct RestOnPath {
   OutputsOrder outputs = {};
 };
 
-// How the machine would come to rest. If the motion ends in a stop, the stop ramp has no items.
+// The stop ramp. If the motion already ends in a stop, the stop ramp has no items.
 struct BrakingTail {
   PathPlace from = {};
   RestOnPath rest = {};
@@ -32,13 +32,13 @@ struct BrakingTail {
 
 class TailMaker {
  public:
-  // All stages outlive the maker, and so does `played`. `places`: of the board, for items.
+  // All stages and `played` must outlive the maker. `places`: the board's queue places.
   TailMaker(const FeedStages& stages, const StepOptions& steps, const TailOptions& options, std::size_t places,
             const PlayedMotion& played);
 
-  // From `given`, which is as far as the planner has given motion. `in_few_items`: these are better than exact ones.
+  // Computes the stop ramp from `given`, the end of the planned motion. `in_few_items`: prefer few items to exact ones.
   BrakingTail brake(const PathPlace& given, bool in_few_items);
-  // The machine rests there already.
+  // Returns an empty stop ramp, for a machine that is already stopped there.
   BrakingTail at_rest(const PathPlace& given);
 
  private:

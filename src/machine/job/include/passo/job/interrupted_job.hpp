@@ -1,4 +1,4 @@
-// InterruptedJob: the job of an earlier program, as its journal and the board tell of it.
+// InterruptedJob: the unfinished job of an earlier process, found from its journal and the board's status.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,19 @@ namespace passo {
 
 // The job found in a journal and a board, before the board gets a new session.
 struct BrokenOff {
-  JournalHead head;  // its position: the board's stop point, if nothing is rejected
+  JournalHead head;  // its position is the board's stop point, unless the job is rejected
   std::optional<ResumeRefusal> refused;
-  PathPlace done;       // all before this place is executed
-  PathPlace farthest;   // nothing after this place is
-  double noted_at = 0;  // when the journal was last written; seconds since 1970
+  PathPlace done;       // everything before this position is executed
+  PathPlace farthest;   // nothing after this position is executed
+  double noted_at = 0;  // time of the last write to the journal; seconds since 1970
 };
-// A status in motion is refused. Takes the numbers of the greeting that follows into the head. Write the head as the
-// new journal before the board is greeted, unless the job is refused.
+// Rejects a status during motion. Puts the numbers of the coming handshake into the head. Unless the job is rejected,
+// write the head as the new journal before the handshake.
 BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Greeting& greeting);
 
-// Call before the board is greeted: looks in the journal for a job that was broken off, and writes there that the board
-// hears this greeting next. run.is_written() is false if that cannot be written. `outlives_host`: the board is not a
-// part of the program that has begun the job; else its place is lost. Nothing: there is no journal.
+// Call before the handshake: looks in the journal for an interrupted job, and records the coming handshake there.
+// run.is_written() is false if the journal cannot be written. `outlives_host`: the board is not a part of the process
+// that began the job; otherwise its position is lost. Nothing: there is no journal.
 std::optional<BrokenOff> resume_job(JobKeeper& keeper, JournaledRun& run, const BoardStatus& status,
                                     const Greeting& greeting, bool outlives_host = true);
 
@@ -34,11 +34,11 @@ struct InterruptedJob {
   HistoryJob job;
   BrokenOff journal;
   std::optional<ResumePoint> point;  // its stop point on the path
-  Sentence why;                      // without a code: it can
+  Sentence why;                      // without a code: it can continue
   // The point at which the machine can return to the path: its stop point, or before the last executed step.
   std::optional<ResumePoint> back_at;
-  std::optional<Box> range;  // where its motors may have been stopped, if the board has lost its place
-  std::string shift;         // what homing has found to be elsewhere than there; a sentence without a full stop
+  std::optional<Box> range;  // the possible stop positions, if the board has lost its position
+  std::string shift;         // the difference found by homing, as a sentence without a full stop
 };
 
 }  // namespace passo

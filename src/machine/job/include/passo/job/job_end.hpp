@@ -1,4 +1,4 @@
-// What becomes of a job, and so of its journal, when its run has ended.
+// The result of a job's run, and the resulting treatment of its journal.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,26 @@
 
 namespace passo {
 
-// The result of a request that has been answered, and the reason.
+// The result of a request, and the reason.
 struct Answered {
   Outcome outcome = Outcome::done;
   std::optional<ActivityFault> fault = {};
-  std::optional<Refusal> refused = {};  // it never began
+  std::optional<Refusal> refused = {};  // the request was rejected
 
   std::string message() const { return refused ? refused->message() : fault ? fault->message() : std::string(); }
 };
-// `changes`: those of the session since the request. Without an answer among them the request was stopped.
+// Returns the answer to a request. `changes`: the session's changes since the request. Without an answer among them,
+// the request counts as stopped.
 Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket);
 
 enum class JobEnd : std::uint8_t {
-  over,           // it has come to its end, is wrong, or did not begin: the journal goes
+  over,           // finished, failed, or did not start: the journal is removed
   interrupted,    // it can continue at the board's stop point, if the journal contains it
   board_silent,   // the stop point is unknown; it can continue if the board keeps its power
-  board_in_fault  // the board has lost its place or its session, so it cannot go on from there
+  board_in_fault  // the board has lost its position or its session, so the job cannot continue from there
 };
-// `trouble`: of the board. `is_resumed`: the run was to go on with an earlier job, which stays if the run is refused.
+// `trouble`: the board's error. `is_resumed`: the run was to continue an earlier job, which is kept if the run is
+// rejected.
 JobEnd end_of_run(const Answered& answered, std::optional<LinkError> trouble, bool is_resumed);
 
 }  // namespace passo

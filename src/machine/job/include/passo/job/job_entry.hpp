@@ -1,4 +1,5 @@
-// JobEntry: where a run enters the path of its program, if not at the path's beginning, and how the machine gets there.
+// JobEntry: the point at which a run enters the path of its program, if not at the path's beginning, and the lead-in to
+// that point.
 #pragma once
 
 #include <optional>
@@ -14,13 +15,13 @@ struct JobEntry {
   ResumePoint at;
   std::vector<PathItem> lead_in;     // from the current position to that point; empty: the machine is there
   std::optional<Point> stands;       // the current position, if it is on the path of the job; machine coordinates
-  std::vector<ProbeOutcome> probes;  // what the probe moves before that place have found
+  std::vector<ProbeOutcome> probes;  // the results of the probe moves before that point
 };
 
-// For a machine at the board's stop point. `head`: of the journal. The status must be one at rest.
+// For a machine at the board's stop point. `head`: the head of the journal. The status must be that of a stopped board.
 JobEntry entry_at_rest(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                        const MachineDescription& machine);
-// For a machine that is led back onto the path. `probes`: what the program's first probe moves have found.
+// For a machine that returns to the path. `probes`: the results of the program's first probe moves.
 JobEntry entry_by_way(const Reentry& way, std::vector<ProbeOutcome> probes);
 void enter(request::Start& start, JobEntry entry);
 

@@ -1,15 +1,14 @@
-// JobHistory: the jobs that wait, those that have run and how each ended, and the machine's alarms, in a file of
-// SQLite.
+// JobHistory: the queued jobs, the ended jobs with their results, and the machine's alarms, in an SQLite file.
 //
-// Position in the pipeline: outside it. It knows no machine. Its owner reports events and their times.
+// Position in the pipeline: outside it. It is independent of the machine. Its owner reports events and their times.
 //
-// A job is queued, runs, and ends. It never starts by itself. A job that ran when the program ended in whatever way is
-// `interrupted` after the next open(). A killed program loses nothing: each call is one transaction, in a write-ahead
-// log. The log reaches the disk with keep(), which takes as long as the disk takes: call it while the machine rests. So
-// a power cut may lose what came since the last keep(), and never leaves half a job.
+// A job is queued, runs, and ends. It never starts automatically. A job that was running when the process ended is
+// `interrupted` after the next open(). A killed process loses nothing: each call is one transaction, in a write-ahead
+// log. keep() flushes the log to the disk, which may be slow: call it while the machine is stopped. So a power failure
+// may lose what was written since the last keep(), but never leaves an incomplete job.
 //
-// A job whose beginning cannot be written does not begin. Events such as the end of a job or an alarm are kept in
-// memory until the disk has space, and are included in queries.
+// A job does not start if its start cannot be written. Events such as the end of a job or an alarm are kept in memory
+// until the disk has space, and are included in queries.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +27,13 @@ namespace passo {
 enum class HistoryState : std::uint8_t { queued, running, done, stopped, failed, interrupted };
 std::string_view name_of(HistoryState state);
 
-// Where a job has waited for a person.
+// A stop at which a job has waited for the operator.
 struct HistoryWait {
   double at = 0;
   std::string code;  // M0, M1 or M6
   std::uint32_t line = 0;
-  std::optional<std::int32_t> tool = {};  // of M6
-  std::string words;                      // of the program, line by line
+  std::optional<std::int32_t> tool = {};  // the tool of M6
+  std::string words;                      // the program's message, line by line
   friend bool operator==(const HistoryWait&, const HistoryWait&) = default;
 };
 
@@ -42,10 +41,10 @@ struct HistoryJob {
   std::int64_t id = 0;
   std::string name;
   std::string dialect;
-  std::uint64_t bytes = 0;  // of the program
+  std::uint64_t bytes = 0;  // size of the program
   HistoryState state = HistoryState::queued;
-  std::string why;           // of one that failed
-  std::string why_sentence;  // the same as the caller has it; empty: an older program has written it
+  std::string why;           // why the job failed
+  std::string why_sentence;  // the same as a Sentence, in the caller's format; empty: written by an older version
   // Seconds since 1970; 0: not yet.
   double queued_at = 0;
   double begun_at = 0;
@@ -62,32 +61,33 @@ struct HistoryAlarm {
 class JobHistory {
  public:
   static constexpr std::size_t most_queued = 256;
-  static constexpr std::int64_t most_ended = 10'000;  // older ones are forgotten
+  static constexpr std::int64_t most_ended = 10'000;  // older ones are deleted
   static constexpr std::int64_t most_alarms = 10'000;
-  static constexpr std::int64_t most_waits = 32;  // of a job; later ones are not noted
+  static constexpr std::int64_t most_waits = 32;  // per job; later ones are not recorded
 
-  // Opens or makes the file. The error is a sentence with the reason: the file is damaged, of a newer version, or
-  // another program has it.
+  // Opens or creates the file. The error is a sentence with the reason: the file is damaged, belongs to a newer
+  // version, or is in use by another process.
   static Result<std::unique_ptr<JobHistory>, std::string> open(const std::string& file);
   ~JobHistory();
   JobHistory(const JobHistory&) = delete;
   JobHistory& operator=(const JobHistory&) = delete;
 
-  // Queues a job at the end. Empty: too many wait, or trouble() tells why it cannot be written.
+  // Adds a job at the end of the queue. Empty: the queue is full, or trouble() gives the reason why the job cannot be
+  // written.
   std::optional<std::int64_t> add(std::string_view name, std::string_view dialect, std::string_view program,
                                   double now);
-  // A job that runs at once. Empty: it cannot be written.
+  // Adds a job that starts immediately. Empty: it cannot be written.
   std::optional<std::int64_t> add_running(std::string_view name, std::string_view dialect, std::string_view program,
                                           double now);
   std::optional<HistoryJob> find(std::int64_t id) const;
-  // Empty: there is no such job, or its program was forgotten when it ended.
+  // Returns a job's program. Empty: there is no such job, or its program was deleted when it ended.
   std::optional<std::string> program_of(std::int64_t id) const;
-  // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a job that is
-  // done is forgotten.
+  // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a completed job
+  // is deleted.
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now, std::string_view why_sentence = {});
   bool record_wait(std::int64_t id, const HistoryWait& wait);
-  // Takes a job that waits out of the queue. False: it does not wait.
+  // Removes a waiting job from the queue. False: it is not waiting.
   bool remove(std::int64_t id);
   bool record_alarm(std::string_view words, double now, std::string_view sentence = {});
 
@@ -97,11 +97,11 @@ class JobHistory {
   std::vector<HistoryJob> ended(std::int64_t most) const;
   std::vector<HistoryAlarm> alarms(std::int64_t most) const;
 
-  // Brings all to the disk. False: not all of it is there; try again.
+  // Flushes everything to the disk. False: some data is not on the disk yet; try again.
   bool keep();
-  // Why the last call could not write. Empty: it could.
+  // The error of the last call that writes. Empty: it succeeded.
   const std::string& trouble() const { return trouble_; }
-  // True: something has happened that is not written yet.
+  // True: some events are not written yet.
   bool is_behind() const { return !unwritten_.empty() || !unwritten_alarms_.empty(); }
 
  private:
@@ -116,7 +116,7 @@ class JobHistory {
     std::string why_sentence;
     double at = 0;
   };
-  // Notes the trouble, if `done` is false.
+  // Records the error, if `done` is false.
   bool judge(bool done);
   bool write(const End& end);
   bool write(const HistoryAlarm& alarm);

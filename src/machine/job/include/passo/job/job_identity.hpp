@@ -1,4 +1,5 @@
-// JobIdentity: what must be as it was for a job to go on: the program that runs it, its text and the machine's file.
+// JobIdentity: the data that must be unchanged for a job to continue: the version of this program, the G-code text and
+// the machine file.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,12 @@
 
 namespace passo {
 
-// The stamp of a text of that name.
+// Returns the stamp of a text with that name.
 FileStamp stamp_of(std::string name, std::string_view text);
-// The stamp of a text that was read from the file `path`. Empty path: the stamp has no name.
+// Returns the stamp of a text that was read from the file `path`. Empty path: the stamp has no name.
 FileStamp stamp_of_text(const std::string& path, std::string_view text);
-// The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
+// Returns the stamp of a file in its present state. Standard input and pipes, which can be read only once, have a stamp
+// without a name.
 FileStamp stamp_of_file(const std::string& path);
 
 struct JobIdentity {
@@ -23,16 +25,16 @@ struct JobIdentity {
   FileStamp machine;
 };
 
-// What has changed since a job began.
+// The change since a job began.
 enum class JobChange : std::uint8_t {
-  version,  // another version of this program has begun the job
-  program,  // it is another program, or its text was changed
-  machine,  // it is another machine file, or the file was changed
+  version,  // another version of this software began the job
+  program,  // the program is another one, or its text was changed
+  machine,  // the machine file is another one, or was changed
 };
-// A code for scripts. A code never changes.
+// A stable code for scripts.
 std::string_view code_of(JobChange change);
 
-// `then`: the journal of the job. Empty: nothing has changed.
+// Compares with `then`, the head of the job's journal. Empty: nothing has changed.
 std::optional<JobChange> change_since(const JournalHead& then, const JobIdentity& now);
 
 }  // namespace passo

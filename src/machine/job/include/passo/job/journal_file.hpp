@@ -1,5 +1,5 @@
-// JournalFile: a journal on the disk. The journal survives when its program is killed. If the computer loses power, the
-// disk may keep an older state of the journal. That state does not know the board's rest, so it is refused.
+// JournalFile: a journal file on the disk. It survives if the process is killed. After a power failure, the disk may
+// hold an older version of the journal. That version does not contain the board's stop point, so it is rejected.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace passo {
 
-// What is in the place of a journal.
+// The content found at the path of a journal.
 struct FoundJournal {
   enum class Kind : std::uint8_t {
     none,     // no file
     empty,    // a file without text
-    foreign,  // no journal of Passo's
-    torn,     // a journal, and not whole
+    foreign,  // not a Passo journal
+    torn,     // an incomplete journal
     whole,
   };
   Kind kind = Kind::none;
-  std::optional<Journal> journal = {};  // the whole one
+  std::optional<Journal> journal = {};  // the journal, if it is complete
 };
 
 class JournalFile final : public JournalStore {
@@ -34,20 +34,20 @@ class JournalFile final : public JournalStore {
   JournalFile& operator=(const JournalFile&) = delete;
 
   const std::string& path() const { return path_; }
-  // Claims the journal for this program, as long as this object lives. The error is errno; EWOULDBLOCK: another program
+  // Locks the journal for this process while this object exists. The error is errno; EWOULDBLOCK: another process
   // writes the journal.
   [[nodiscard]] Status<int> claim();
   // The text of the file. Empty: there is none.
   std::string text() const;
   FoundJournal find() const;
-  // When the file was last written; seconds since 1970. 0: there is none.
+  // Returns the time of the last write; seconds since 1970. 0: there is no file.
   double written_at() const;
   [[nodiscard]] bool replace(std::string_view text) override;
   [[nodiscard]] bool overwrite(std::size_t offset, std::string_view bytes) override;
   bool append(std::string_view bytes) override;
-  // Why the journal could not be written, after a function has returned false.
+  // Returns the write error after a function has returned false.
   std::string trouble() const;
-  // Removes the journal when the job is done, or cannot go on.
+  // Removes the journal when the job is done or cannot continue.
   void remove();
 
  private:

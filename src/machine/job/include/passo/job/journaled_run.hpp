@@ -1,7 +1,7 @@
-// JournaledRun: a run of a program whose journal is kept, so that another run can go on with the job.
+// JournaledRun: a run of a program with a journal, so that a later run can continue the job.
 //
-// First begin() writes the head of the journal. Then the board hears the numbers in the head. Then the run begins, with
-// what add_to() adds to it.
+// First begin() writes the head of the journal. Then the handshake gives the board the numbers in the head. Then the
+// run starts, with the additions of add_to().
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@ namespace passo {
 
 class JournaledRun {
  public:
-  // The store outlives the run.
+  // The store must outlive the run.
   explicit JournaledRun(JournalStore& store) : writer_(store) {}
 
   // Writes the head. `entry`: for a continued job; empty: the caller of add_to() gives the entry point of the path.
   // False: the head cannot be written.
   [[nodiscard]] bool begin(const JournalHead& head, std::optional<JobEntry> entry = {});
   const std::optional<JobEntry>& entry() const { return entry_; }
-  // The run enters the path at its entry point, and its journal records stop points and probe moves. This outlives the
-  // run.
+  // Sets the run's entry point on the path, and adds the recording of stop points and probe results in the journal.
+  // This object must outlive the run.
   void add_to(request::Start& start);
-  // False: something could not be written, so the job could not go on.
+  // False: a write failed, so the job could not be continued.
   bool is_written() const { return !writer_.failed(); }
 
  private:

@@ -1,9 +1,9 @@
-// KeptJob: the job that runs, kept so that the next program can go on with it; and the job of an earlier program that
-// was broken off.
+// KeptJob: the running job, recorded so that the next process can continue it; and the interrupted job of an earlier
+// process.
 //
-// Place: below the API's JobRunner. The journal (decision 0047) has the possible stop points of a board on the path;
-// the history has the text of the job. A job that was broken off waits until somebody resumes it or drops it. See
-// docs/decisions/0075.
+// Position in the pipeline: below the API's JobRunner. The journal (decision 0047) has the possible stop points of a
+// board on the path; the history has the text of the job. An interrupted job waits until it is resumed or discarded.
+// See docs/decisions/0075.
 #pragma once
 
 #include <cstdint>
@@ -25,23 +25,23 @@ namespace passo {
 class KeptJob {
  public:
   struct Names {
-    std::string made_by;  // version of this program
-    FileStamp machine;    // the machine's file
+    std::string made_by;  // version of this software
+    FileStamp machine;    // the machine file
   };
-  // The offsets and the tools that a program of that dialect finds now.
+  // Returns the current offsets and tools for a program of that dialect.
   using OptionsOf = std::function<InterpreterOptions(Dialect dialect)>;
-  // All of them outlive this.
+  // All of them must outlive this object.
   KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
           OptionsOf options_of, Names names);
 
-  // Reports what was found before the handshake. Goes through the program up to the place.
+  // Processes the job found before the handshake. Interprets the program up to the job's position.
   void find(const BrokenOff& found);
-  // The same for a board that was lost and is greeted again. poll() finds the place later.
+  // The same for a board that was disconnected, at another handshake. poll() determines the position later.
   void hear(const BoardStatus& status, const Greeting& greeting);
   void poll();
-  // Null: no job was broken off. Its reason is as of now: the machine may have been moved since.
+  // Null: there is no interrupted job. The reason is up to date, because the machine may have moved since.
   const InterruptedJob* interrupted();
-  // The job's program, and where it began.
+  // The job's program, and its start.
   std::string program() const;
   InterpreterOptions options() const;
   void drop();
@@ -50,27 +50,27 @@ class KeptJob {
     std::int64_t history = 0;
     std::string text;
     std::uint64_t path = 0;            // the fingerprint of the job's path
-    PathPlace place;                   // where on its path it begins
-    Point start;                       // where its path begins
-    std::vector<ProbeOutcome> probes;  // what the probe moves before that place have found
+    PathPlace place;                   // the position on the path where it begins
+    Point start;                       // start point of the path
+    std::vector<ProbeOutcome> probes;  // the results of the probe moves before that position
   };
-  // Begins the journal of a job: writes its head, and gives the board a new number. False: the journal cannot be
-  // written.
+  // Begins the journal of a job: writes its head, and gives the board a new session number. False: the journal cannot
+  // be written.
   [[nodiscard]] bool begin(Beginning job);
-  // The same, to go on with the job that was broken off. False, with the reason in interrupted(): it cannot go on.
+  // The same, to continue the interrupted job. False, with the reason in interrupted(): it cannot continue.
   [[nodiscard]] bool resume(std::uint64_t path);
-  // The path back to the job from the current position.
+  // Returns the path back to the job from the current position.
   Result<Reentry, Sentence> reentry();
-  // The same as resume(), by that way.
+  // The same as resume(), on that path.
   [[nodiscard]] bool reenter(std::uint64_t path);
-  // True: the board has heard the number, so the job may begin.
+  // True: the board has received the number, so the job may start.
   bool is_named() const { return session_.board().ready(); }
-  // False: the journal of the job cannot be written any more, so it could not be resumed.
+  // False: a write to the journal of the job failed, so the job could not be resumed.
   bool is_written() const { return run_.is_written(); }
-  // For the job that is about to begin. Once it has begun, no other job is broken off.
+  // For the job that is about to start. After its start, an earlier interrupted job is no longer offered.
   void add_to(request::Start& start);
   void forget_interrupted() { interrupted_.reset(); }
-  // The job has ended. `may_go_on`: it was broken off, and is kept for the next program.
+  // Records the end of the job. `may_go_on`: it was interrupted, and is kept for the next process.
   void end(bool may_go_on);
 
  private:
@@ -91,7 +91,7 @@ class KeptJob {
   std::optional<InterruptedJob> interrupted_;
   std::optional<BrokenOff> heard_;
   Point hello_at_;           // the position at the handshake, as far as known
-  bool is_compared_ = true;  // the switches were compared with the places before
+  bool is_compared_ = true;  // the switch positions were compared with the previous ones
 };
 
 }  // namespace passo

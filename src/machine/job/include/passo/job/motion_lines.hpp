@@ -1,4 +1,4 @@
-// Which line of a program makes the motion at a place, or at a time: for words on what has happened there.
+// Finds the program line that makes the motion at a position or at a time, for messages.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,12 @@
 
 namespace passo {
 
-// Knows which line of the program made which part of the latest motion. The board holds no more than a part of it.
+// Records which program line made which part of the latest motion, at least as far back as the length of the board's
+// queue.
 class LatestMotion {
  public:
   void watch(const MotionItem& motion);
-  // The line whose motion comes nearest to the place; of several the first. 0: nothing has moved.
+  // Returns the line whose motion comes nearest to `place`; if several do, the first. 0: nothing has moved.
   std::uint32_t line_at(const Point& place) const;
 
  private:
@@ -27,15 +28,16 @@ class LatestMotion {
   std::deque<Piece> pieces_;
 };
 
-// Knows which line of the program is played when. Motion is planned ahead of the board, so it keeps the lines whose
-// motion has not been played yet.
+// Records at which time each program line is executed. Motion is planned ahead of the board, so the lines of unexecuted
+// motion are kept.
 class PlannedLines {
  public:
-  // `begins`: the board's time when the program begins.
+  // `begins`: the board's time at the start of the program.
   explicit PlannedLines(Seconds begins) : planned_(begins) {}
-  // What is planned, in order.
+  // Adds planned motion, in order.
   void watch(const MotionItem& motion);
-  // Of a time that was not forgotten. After all that is planned: the last line. 0: nothing is planned.
+  // Returns the line executed at `time`, which must not be in the dropped past. After the planned motion: the last
+  // line. 0: nothing is planned.
   std::uint32_t line_at(Seconds time) const;
   void forget_before(Seconds time);
 

@@ -1,20 +1,20 @@
-// Journal: the data with which a restarted host can continue a job. The journal tells which program the job runs and
-// under which numbers the board knows the job. For every point at which the board may have stopped by itself, the
-// journal has its location on the path.
+// Journal: the data with which a restarted host can continue a job. The journal identifies the job's program, and the
+// session numbers by which the board knows the job. For every point at which the board may have stopped by itself, the
+// journal has its position on the path.
 //
-// A journal is a text: a head, and a ring of lines of equal length, one for each rest that may still count. The head is
-// written when the session begins. A line is written before the queue update that makes its stop point possible is
-// sent. So a host that is killed at any instant leaves a journal that knows the rest to which the board comes. The head
-// and each line carry a check, so a torn write is noticed.
+// A journal is a text: a head, and a ring of lines of equal length, one for each stop point that is still possible. The
+// head is written when the session begins. A line is written before the queue update that makes its stop point possible
+// is sent. So a host that is killed at any instant leaves a journal that contains the board's stop point. The head and
+// each line have a checksum, so an incomplete write is detected.
 //
-// The path of a program after a probe move depends on the result. So the journal also has a line for each outcome, at
-// its end, in order. An outcome is on the disk before any motion goes on from there. See docs/decisions/0101.
+// The path of a program after a probe move depends on the result. So the journal also has a line for each probe result,
+// at its end, in order. A result is on the disk before any motion continues from there. See docs/decisions/0101.
 //
-// A session begins in four steps: the head is written, the board hears hello (and forgets the session before), the
-// board hears the session's number, and the board gets its first items. The host may be killed between any two of them.
-// The board's status tells which step was the last: a hello has a number that is not 0, and the board has that number
-// from nowhere else. A program that is not the first of its host begins without a hello, and is known by the session's
-// number alone.
+// A session begins in four steps: the head is written, the board receives a hello (and forgets the previous session),
+// the board receives the session's number, and the board gets its first items. The host may be killed between any two
+// of them. The board's status shows which step was the last: a hello has a number other than 0, which the board cannot
+// have from any other source. A program that is not the first of its host begins without a hello, and is identified by
+// the session's number alone.
 #pragma once
 
 #include <cstddef>
@@ -42,19 +42,19 @@ struct FileStamp {
 };
 
 struct JournalHead {
-  std::string made_by;          // version of the program that runs the job
-  FileStamp program;            // no name: the program is from no file
-  FileStamp machine;            // the machine's file
+  std::string made_by;          // version of the software that runs the job
+  FileStamp program;            // no name: the program is not from a file
+  FileStamp machine;            // the machine file
   std::uint64_t path = 0;       // fingerprint of the program's path
   std::vector<int> job_counts;  // the board's count of each motor at machine zero
-  Point start;                  // where the job began, machine coordinates
+  Point start;                  // where the job began, in machine coordinates
   SessionNumbers numbers;
   PathPlace place;                        // where this session begins
-  std::vector<ProbeOutcome> probes = {};  // what the probe moves before that place have found, in order
+  std::vector<ProbeOutcome> probes = {};  // the results of the probe moves before that position, in order
   friend bool operator==(const JournalHead&, const JournalHead&) = default;
 };
 
-// Where a journal is kept. The store knows nothing of the contents.
+// The storage of a journal. It is independent of the contents.
 class JournalStore {
  public:
   virtual ~JournalStore() = default;
@@ -68,50 +68,51 @@ class JournalStore {
 
 class JournalWriter {
  public:
-  // A board has fewer places than this for items, and so for rests.
+  // A board's queue has fewer places than this, and so fewer possible stop points.
   static constexpr std::size_t rests = 256;
 
-  // The store outlives the writer.
+  // The store must outlive the writer.
   explicit JournalWriter(JournalStore& store) : store_(store) {}
   void begin(const JournalHead& head);
   void record(const BoardRest& rest);
   void record(const ProbeOutcome& outcome);
-  // True: something could not be written, so the journal cannot be relied on.
+  // True: a write failed, so the journal is unreliable.
   bool failed() const { return failed_; }
 
  private:
   JournalStore& store_;
   std::size_t head_size_ = 0;
   std::uint64_t noted_ = 0;
-  std::size_t probes_ = 0;  // outcomes in the journal
+  std::size_t probes_ = 0;  // number of probe results in the journal
   bool failed_ = false;
 };
 
 class Journal {
  public:
-  // Empty if the head or an outcome is damaged.
+  // Reads a journal. Empty: the head or a probe result is damaged.
   static std::optional<Journal> read(std::string_view text);
-  // True: the text is a journal of any version, whole or not.
+  // True: the text is a journal of any version, even if it is incomplete.
   static bool is_journal(std::string_view text);
 
-  // Its outcomes of probe moves are all that are known, those of its session too.
+  // The head with all known probe results, including those of its session.
   const JournalHead& head() const { return head_; }
   // True: the board last worked on this job.
   bool is_of(const BoardStatus& status) const { return stage_of(status) != SessionNumbers::Stage::another; }
-  // Where on the path the board rests. The status must be one at rest. Empty: the journal does not know that rest.
+  // Returns the board's stop point on the path. The status must be that of a stopped board. Empty: the journal does not
+  // contain that stop point.
   std::optional<PathPlace> place_of(const BoardStatus& status) const;
-  // All of the path before this place is executed, whatever has become of the board.
+  // Returns a position up to which the path is certainly executed, whatever happened to the board.
   PathPlace done() const;
-  // The stop point of the board, if it has received everything that was sent.
+  // Returns the stop point of the board if it has received everything that was sent.
   PathPlace farthest() const;
-  // Lines that were torn in writing.
+  // The number of lines damaged by incomplete writes.
   std::size_t torn() const { return torn_; }
 
  private:
   SessionNumbers::Stage stage_of(const BoardStatus& status) const;
 
   JournalHead head_;
-  std::vector<BoardRest> rests_;  // the latest first
+  std::vector<BoardRest> rests_;  // the newest first
   std::size_t torn_ = 0;
 };
 

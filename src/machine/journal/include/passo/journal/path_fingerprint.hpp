@@ -1,5 +1,5 @@
-// PathFingerprint: a number that identifies the path of a program, whatever the text, tools and parameters it comes
-// from.
+// PathFingerprint: a hash that identifies the path of a program, independent of the text, tools and parameters that
+// produce it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace passo {
 
 class PathFingerprint {
  public:
-  // Adds the items in the path's order.
+  // Adds the items in the order of the path.
   void add(const PathItem& item);
   std::uint64_t value() const { return of_all_.value(); }
 

@@ -1,5 +1,5 @@
-// The text of records that a host keeps beside a job: words and numbers in lines, and a check at the end. RecordWords
-// reads such a text; one wrong word makes the whole text bad.
+// The text format of a host's record files: words and numbers in lines, and a checksum at the end. RecordWords reads
+// such a text; one invalid word makes the whole text invalid.
 #pragma once
 
 #include <charconv>
@@ -11,16 +11,16 @@
 
 namespace passo {
 
-// Hexadecimal digits that tell whether a text is whole.
+// Number of hexadecimal digits in the checksum.
 inline constexpr std::size_t record_check_size = 16;
 std::string record_check(std::string_view text);
-// A file name, made to fit on one line.
+// Converts a file name so that it fits on one line.
 std::string record_name(std::string_view name);
 
-// Ends a record with a line that holds its check.
+// Ends a record with a line that contains its checksum.
 void end_record(std::string& text);
-// The parts of a text that begins with a record of this title: the record's body, and what follows the record. Nothing:
-// the record is not whole, or has another title.
+// The parts of a text that begins with a record of this title: the record's body, and the text after the record.
+// Nothing: the record is incomplete, or has another title.
 struct RecordParts {
   std::string_view body;
   std::string_view rest;
@@ -47,7 +47,7 @@ class RecordWords {
     return value;
   }
   void expect(std::string_view word) { require(next() == word); }
-  // Reads to the end of the line, after one blank.
+  // Reads a name up to the end of the line, after one blank.
   std::string name();
   bool good() const { return good_; }
   bool at_end() const { return text_.find_first_not_of(" \n") == std::string_view::npos; }

@@ -1,8 +1,9 @@
-// Reentry: how a machine that stands somewhere else gets back onto the path of a program: up, spindle on, over, down.
+// Reentry: how a machine at another position returns to the path of a program: raise Z, start the spindle, traverse,
+// plunge.
 //
-// The place on the path is found by interpreting the program from its beginning, so all modes, offsets and outputs are
-// those that the program itself has set there, and the path from there on is the same as in a whole run. Nothing moves
-// until somebody has seen the steps. See docs/decisions/0081.
+// The point on the path is found by interpreting the program from its beginning. So all modal states, offsets and
+// outputs are those set by the program itself, and the path from there on is the same as in a complete run. Nothing
+// moves before the operator has seen the steps. See docs/decisions/0081.
 #pragma once
 
 #include <cstdint>
@@ -18,63 +19,63 @@
 namespace passo {
 
 enum class ReentryRefusal : std::uint8_t {
-  no_motion,     // no motion comes from that line on
-  done_often,    // the line is done more than once, and no pass was chosen
-  no_pass,       // the line is not done so often
+  no_motion,     // no motion follows from that line on
+  done_often,    // the line is executed more than once, and no pass was chosen
+  no_pass,       // the line has fewer passes
   beyond_end,    // the path ends before that distance after the line
-  other_file,    // a subprogram in another file has a line of that number too
+  other_file,    // a subprogram in another file has a line with that number too
   after_probe,   // the path to that point depends on a probe result
-  path_changed,  // the path has no such place
-  in_thread,     // a thread begins only at its own beginning
-  backlash,      // the machine takes up backlash: a path begins with it taken up
+  path_changed,  // the path does not contain that position
+  in_thread,     // a thread can be entered only at its beginning
+  backlash,      // the machine compensates backlash: a path begins with backlash taken up
   bad_program,   // the program has errors
 };
 std::string_view code_of(ReentryRefusal refusal);
 // A sentence without a full stop.
 std::string_view message_of(ReentryRefusal refusal);
 
-// A point of a program's path: `after` a line's motion has begun, along the path. In loops and subprograms the path
-// comes to a line several times: `pass` says which of them counts, 1 is the first. Times that follow each other without
-// another line's motion between them are one pass.
+// A point of a program's path: the distance `after` along the path from the start of a line's motion. In loops and
+// subprograms the path reaches a line several times: `pass` selects one, counted from 1. Repetitions without another
+// line's motion in between are one pass.
 struct LinePlace {
   std::uint32_t line = 0;
-  std::uint32_t pass = 0;  // 0: the line is done once
+  std::uint32_t pass = 0;  // 0: the line is executed only once
   Mm after{0};
 };
 struct LineProblem {
   ReentryRefusal refusal = ReentryRefusal::no_motion;
-  std::uint32_t times = 0;  // how often the line is done
+  std::uint32_t times = 0;  // how often the line is executed
 };
 std::string message_of(const LineProblem& problem);
 
-// Where that point is. A line without motion means the next one with motion. A line that was merged with lines before
-// it, because they go straight on, begins where the merged one does. Memory: 16 bytes a move.
+// Finds that point. A line without motion stands for the next one with motion. A line that was merged with collinear
+// lines before it begins where the merged line does. Memory: 16 bytes per move.
 Result<ResumePoint, LineProblem> find_line(const ProgramReader& program, const MachineDescription& machine,
                                            const InterpreterOptions& options, const LinePlace& wanted);
 
 struct Reentry {
   ResumePoint at;
   std::vector<PathItem> lead_in;  // from the current position to that point; ends in a stop
-  std::vector<Sentence> steps;    // the same for people, in order
+  std::vector<Sentence> steps;    // the same as sentences for the operator, in order
 };
 
-// The range of each axis on a path between two places, the first of which comes first. `probes`: what its first probe
-// moves have found.
+// Returns the range of each axis on the path between two positions, in path order. `probes`: the results of its first
+// probe moves.
 std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
                                  const InterpreterOptions& options, const PathPlace& first, const PathPlace& last,
                                  const std::vector<ProbeOutcome>& probes = {});
 
-// After a board has lost its place, and the machine was homed: whether the machine had stood where its path allows.
-// `range`: where the motors may have been stopped. `went`: how far the machine has gone from there to where homing
-// began. Returns a sentence without a full stop for an axis that stood elsewhere; empty: none did.
+// After a board has lost its position, and the machine was homed: checks whether the machine had been stopped on its
+// path. `range`: the possible stop positions of the motors. `went`: the distance that the machine has moved from there
+// to the start of homing. Returns a sentence without a full stop for an axis outside its range; empty: none is.
 std::string words_of_shift(const MachineDescription& machine, const std::vector<HomedAxis>& homed, const Box& range,
                            const Point& went);
 
-// `from`: the current position, machine coordinates.
+// Plans the return to the path. `from`: the current position, machine coordinates.
 Result<Reentry, ReentryRefusal> plan_reentry(const MachineDescription& machine, const ResumePoint& at,
                                              const Point& from);
 
-// Both together: the path to a point of the program from options.start, the current position.
+// Combines both: plans the return from options.start, the current position, to a point of the program.
 Result<Reentry, LineProblem> reentry_at_line(const ProgramReader& program, const MachineDescription& machine,
                                              const InterpreterOptions& options, const LinePlace& wanted);
 

@@ -1,6 +1,6 @@
-// ResumePoint: a point on the path of a program at which a job continues, with all modes and settings there.
+// ResumePoint: a point on the path of a program at which a job continues, with all modal states and settings there.
 //
-// The place is found by interpreting the program again: its meaning, and so its path, is the same each time.
+// The point is found by interpreting the program again, which gives the same path each time.
 #pragma once
 
 #include <array>
@@ -17,44 +17,46 @@
 
 namespace passo {
 
-// A probe move with an unknown result: the host was gone before its end. The probe move is made again, from its
+// A probe move with an unknown result, because the host ended before the move did. The probe move is repeated from its
 // beginning. The machine position is on the path of that move.
 struct UnknownProbe {
-  Point end;  // of the move, machine coordinates
+  Point end;  // end of the move, machine coordinates
   MmPerSecond speed{0};
 };
 
 struct ResumePoint {
   PathPlace place;
   Point point;                                   // machine coordinates
-  std::array<std::int64_t, max_motors> steps{};  // steps of each motor from machine zero, at rest there
-  AxisSet downs;                                 // the axes whose backlash is taken up for motion down
-  OutputState outputs;                           // the outputs at that place
-  // How long the program itself waited after it had switched the spindle, before it went on.
+  std::array<std::int64_t, max_motors> steps{};  // steps of each motor from machine zero, for a machine stopped there
+  AxisSet downs;                                 // the axes whose backlash is taken up for motion in the negative
+                                                 // direction
+  OutputState outputs;                           // the outputs at that point
+  // How long the program itself waited after switching the spindle.
   Seconds spindle_wait{0};
-  bool in_thread = false;  // the path there follows an encoder by place, and cannot begin there
+  bool in_thread = false;  // the path there is locked to the spindle's angle, so it cannot be entered there
   std::uint32_t line = 0;  // the program line at which the job continues; 0: at its end
   // The last commanded state, for the path to that point.
-  std::int32_t tool = 0;                   // of its last tool change; 0: there was none
-  MmPerSecond feed{0};                     // 0: nothing was fed
-  std::optional<double> clearance = {};    // the height of its last rapid across, machine coordinates
-  std::uint64_t stops = 0;                 // stops and tool changes before the place
-  std::size_t probes = 0;                  // probe moves before the place; what they have found counts
+  std::int32_t tool = 0;                   // tool of the last tool change; 0: there was none
+  MmPerSecond feed{0};                     // 0: there was no feed move
+  std::optional<double> clearance = {};    // Z of the last traverse rapid, machine coordinates
+  std::uint64_t stops = 0;                 // number of stops and tool changes before the point
+  std::size_t probes = 0;                  // number of probe moves before the point, whose results are needed
   std::optional<UnknownProbe> probe = {};  // the point is the beginning of this one
 };
 
-// Finds `place` in a program that was checked. `probes`: what its first probe moves have found. Amid a probe move the
-// place is moved on behind the move, if its outcome is known, or else back to its beginning. Empty: the path has no
-// such place.
+// Finds `place` in a program that was checked. `probes`: the results of its first probe moves. Inside a probe move, the
+// point is moved to the end of the move if its result is known, otherwise to its beginning. Empty: the path does not
+// contain that position.
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
                                              const InterpreterOptions& options, const PathPlace& place,
                                              const std::vector<ProbeOutcome>& probes = {});
 
-// The path back to the point from a position inside an unknown probe move. Empty: it stands there.
+// Returns the path back to the point from a position inside an unknown probe move. Empty: the machine is at the point.
 std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& from);
 
-// A drive counts the items of a lead-in too, and the item amid which the path begins from there. Returns the rest as
-// places on the path of the job. If the machine stops in the lead-in, its path still starts at the point.
+// Corrects a stop for the lead-in, whose items a drive counts too, and for the item inside which the path begins.
+// Returns the stop as a position on the path of the job. If the machine stops in the lead-in, its path still starts at
+// the point.
 BoardRest without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardRest rest);
 
 }  // namespace passo

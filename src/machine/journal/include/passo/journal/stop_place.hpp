@@ -1,9 +1,9 @@
 // find_stop(): the point at which the path of a program continues after one of its stops (M0, M1, M6), with the present
 // offsets and tools.
 //
-// While a program waits, a person may set another zero or measure a tool. The program is then interpreted again from
-// its beginning, with the new values, and goes on behind the same stop. Offsets set by the program before that point
-// would hide the new zero, so find_stop() reports them.
+// While a program waits, the operator may set another zero or measure a tool. The program is then interpreted again
+// from its beginning, with the new values, and continues after the same stop. Offsets set by the program before that
+// point would hide the new zero, so find_stop() reports them.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@
 namespace passo {
 
 struct StopPlace {
-  ResumePoint at;              // behind the stop
-  std::uint32_t line = 0;      // of the stop
-  std::uint8_t system = 1;     // the work system in force there: 1 is G54
-  bool sets_own_zero = false;  // the program has set a work offset, G92 or a tool itself before
+  ResumePoint at;              // after the stop
+  std::uint32_t line = 0;      // line of the stop
+  std::uint8_t system = 1;     // the active work offset there: 1 is G54
+  bool sets_own_zero = false;  // the program itself has set a work offset, G92 or a tool before
 };
 
-// `number`: which stop, from 1. `probes`: what the program's first probe moves have found. Empty: there is no such
-// stop, or the program has errors.
+// `number`: the number of the stop, from 1. `probes`: the results of the program's first probe moves. Empty: there is
+// no such stop, or the program has errors.
 std::optional<StopPlace> find_stop(const ProgramReader& program, const MachineDescription& machine,
                                    const InterpreterOptions& options, std::uint64_t number,
                                    const std::vector<ProbeOutcome>& probes);

@@ -1,8 +1,8 @@
 // VirtualLine: a serial link to a simulated machine, in simulated time. Bytes take time, and may be lost.
 //
 // While the link is cut, all bytes in both directions are lost, including those in transit when the cut begins. Other
-// faults are modelled by a function of the user, which gets every frame from the host and all bytes from the board, and
-// returns what arrives instead. A frame arrives with its last byte.
+// faults are modelled by a function of the caller, which gets every frame from the host and all bytes from the board,
+// and returns what arrives instead. A frame arrives with its last byte.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ namespace passo {
 
 class VirtualMachine final : public BoardPort {
  public:
-  // As on a board with a few kilobytes of memory.
+  // The queue length of a board with a few kilobytes of memory.
   static constexpr std::size_t items_held = 240;
 
   // `clock`: the board's timer frequency, a whole number of hertz below 2^32. The board rejects segments faster than
@@ -40,8 +40,8 @@ class VirtualMachine final : public BoardPort {
   // Connects a plant, at the start. The plant must live until the last run(). Before connect(), the machine has an
   // ideal plant with only motors and a spindle.
   void connect(Plant& plant);
-  // Closes or opens switches of the plant, with immediate effect. `which`: bits of BoardInput, except the probe's.
-  // Other changes of the plant take effect in the next run().
+  // Closes or opens switches of the plant immediately. `which`: bits of BoardInput, except the probe's. Other changes
+  // of the plant take effect in the next run().
   void set_switch(std::uint16_t which, bool closed);
   // Sets how the plant's switches and drivers are connected to the board's pins, at the start. The pin set-up of the
   // host must match it.
@@ -75,7 +75,7 @@ class VirtualMachine final : public BoardPort {
   MachineCounts counts() const;
 
  private:
-  // What is connected to the board: counters, observers, the plant, and the line to the host.
+  // The connections of the board: counters, observers, the plant, and the link to the host.
   struct Hardware {
     struct Motor {
       std::int64_t total = 0;
@@ -146,7 +146,7 @@ class VirtualMachine final : public BoardPort {
   bool waits_ = false;  // for the next event, due at next_event_
   std::int64_t events_ = 0;
   std::int64_t shortest_event_interval_ = INT64_MAX;
-  std::vector<std::uint8_t> taken_;  // what replies() has returned
+  std::vector<std::uint8_t> taken_;  // bytes returned by replies()
 };
 
 }  // namespace passo

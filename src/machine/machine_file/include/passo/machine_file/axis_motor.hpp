@@ -1,10 +1,10 @@
 // AxisMotor: the acceleration that the motor of an axis can give, at each speed.
 //
-//     J φ'' = share · pull-out(φ') - friction         J: rotor, load and slide, as felt at the shaft
+//     J φ'' = share · pull-out(φ') - friction         J: rotor, load and slide, reflected to the shaft
 //
 // `share` is the largest fraction of the pull-out torque that is used, including friction. The remainder is a margin
-// for what the file does not describe: resonance, warm windings, a weak supply. The same limit applies to braking,
-// although friction helps there.
+// for effects that the file does not describe: resonance, warm windings, a weak supply. The same limit applies to
+// deceleration, although friction helps there.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct DrivenMotor {
   MotorDrive drive = {};
 };
 
-// The default tolerance: the torque of a standard motor differs from its data sheet by up to this fraction.
+// The default tolerance: the torque of a standard motor differs from its data sheet by at most this fraction.
 inline constexpr double usual_tolerance = 0.15;
 
 struct AxisMotor {

@@ -33,7 +33,7 @@ struct HomeDescription {
   MmPerSecond seek{0};
   MmPerSecond latch{0};      // slow speed of the second approach
   double pull_off = 0;       // distance from the switch at which the axis stops; the switch is open there
-  int input = -1;            // the number of the board's limit switch; below 0: not set yet, the motor's own
+  int input = -1;            // the number of the board's limit switch; negative: not set yet, the motor's own switch
   double hysteresis = 0.05;  // of the simulated switch: the distance between closing and opening
   Seconds bounce{0};         // of the simulated switch: the duration of contact bounce after each change
 
@@ -56,23 +56,24 @@ struct ScrewDescription {
 struct EncoderDescription {
   int counts_per_turn = 0;   // of the motor's shaft
   double most_error = 0;     // following error, mm or degrees, beyond which the machine stops. 0: no limit
-  bool closes_loop = false;  // the drive corrects the rotor's position
+  bool closes_loop = false;  // whether the drive corrects the rotor's position
 };
 
 // The second motor of an axis with two motors, e.g. a gantry. Homing squares the axis with two switches.
 struct SecondMotor {
   bool inverted = false;  // true: this motor has the reversed direction
-  int input = -1;         // the number of its limit switch; below 0: not set yet, the motor's own
+  int input = -1;         // the number of its limit switch; negative: not set yet, the motor's own switch
   double square = 0;      // correction of its position: how far its switch closes too early for a square axis
   double most_skew = 5;   // the largest correction of the skew in homing
   double skew = 0;        // in the simulated machine: the initial skew
 };
 
-// For a rotary axis, all values are in degrees instead of millimetres. The board's inputs that a drive alarm can use:
-// below 8 the pin of that limit switch, then those of the buttons.
+// The board's inputs that a drive alarm can use: below 8 the pin of the limit switch with that number, then the
+// buttons.
 inline constexpr int alarm_at_feed_hold = 8;
 inline constexpr int alarm_at_cycle_start = 9;
 
+// For a rotary axis, all values are in degrees instead of millimetres.
 struct AxisDescription {
   Axis axis = Axis::x;
   double steps_per_unit = 0;  // motor steps per millimetre (rotary axis: per degree); always positive
@@ -127,7 +128,7 @@ struct BoardDescription {
 
 struct ToolDescription {
   std::string name;
-  double highest_rpm = 0;  // 0: a relay, on or off
+  double highest_rpm = 0;  // 0: the tool is switched by a relay
   Mm diameter{0};          // 0: not given
 };
 
@@ -141,7 +142,7 @@ struct SpindleDescription {
   Seconds run_up{0};        // from standstill to 1000 rpm; motion waits for it
   bool run_up_is_given = false;
   double droop = 0;   // speed drop under load, as a fraction
-  double ripple = 0;  // speed variation, as a fraction
+  double ripple = 0;  // amplitude of the speed variation, as a fraction
   Hertz ripple_rate{1};
 };
 

@@ -1,4 +1,4 @@
-// What kind of machine a description is of, by the axes that it has.
+// Determines the kind of a machine from its axes.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace passo {
 inline bool has_axis(const MachineDescription& machine, Axis axis) {
   return std::ranges::find(machine.axes, axis, &AxisDescription::axis) != machine.axes.end();
 }
-// X and Z, and no Y.
+// Returns true for a machine with X and Z, but without Y.
 inline bool is_lathe(const MachineDescription& machine) {
   return has_axis(machine, Axis::x) && has_axis(machine, Axis::z) && !has_axis(machine, Axis::y);
 }

@@ -1,9 +1,9 @@
-// read_option_profile: the options of commands, kept in a file: a table for each command, a key for each option.
+// read_option_profile: reads command options from a file with a table for each command and a key for each option:
 //
 //   [isolate]
-//   tool = "1,0.2"      # as --tool 1,0.2
-//   width = 0.5         # as --width 0.5
-//   clear = true        # as --clear; false: as without it
+//   tool = "1,0.2"      # same as --tool 1,0.2
+//   width = 0.5         # same as --width 0.5
+//   clear = true        # same as --clear; false: option not given
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 namespace passo {
 
 struct OptionSection {
-  std::string name;                // of the table
-  std::uint32_t line = 0;          // of the file, from 1
+  std::string name;                // name of the table
+  std::uint32_t line = 0;          // line in the file, from 1
   std::vector<std::string> words;  // as on a command line: "--tool", "1,0.2"
 };
 

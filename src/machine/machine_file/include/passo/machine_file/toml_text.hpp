@@ -1,14 +1,13 @@
-// TomlText: edits values in the text of a machine file. Everything else stays as it is, byte for byte: comments, order,
-// spaces, line ends.
+// TomlText: edits values in the text of a machine file. Everything else remains unchanged, byte for byte: comments,
+// order, spaces, line ends.
 //
-//   max_velocity_mm_s = 200     # 2400 turns a minute        set("axis.X.max_velocity_mm_s", 85.5)
-//   max_velocity_mm_s = 85.5    # 2400 turns a minute        the comment stays in its column, if there is room
+//   max_velocity_mm_s = 200     # 2400 rpm                   set("axis.X.max_velocity_mm_s", 85.5)
+//   max_velocity_mm_s = 85.5    # 2400 rpm                   the comment stays in its column, if there is room
 //
-// A key that the file does not have is written below the last key of its table. A table that the file does not have is
-// written at the end of the file.
+// A new key is written below the last key of its table. A new table is written at the end of the file.
 //
-// Invariant: the text is valid TOML. A failed change leaves the text as it was. Whether the file is still a valid
-// machine file is checked by parse_machine().
+// Invariant: the text is valid TOML. A failed change leaves the text unchanged. parse_machine() checks whether the file
+// is still a valid machine file.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +29,8 @@ class TomlText {
   // Numbers must be finite. A list of numbers is written on one line.
   using Setting = std::variant<double, bool, std::string, std::vector<double>>;
 
-  // `text`: a file that parse_machine() has accepted. (The TOML library has no limit for the depth of keys, so other
-  // files would need one.)
+  // `text`: a file that parse_machine() has accepted. (The TOML library does not limit the depth of keys, so other
+  // files would need a limit.)
   static Result<TomlText, TomlTextError> read(std::string text);
 
   // `path`: the key with its tables, "axis.X.max_velocity_mm_s". Its parts are letters, digits, '_' and '-'.
@@ -39,7 +38,8 @@ class TomlText {
 
   const std::string& text() const { return text_; }
 
-  // All editable values by their paths, in the order of the file; without others such as lists of lists and dates.
+  // All editable values with their paths, in the order of the file. Others, such as nested lists and dates, are
+  // omitted.
   struct Value {
     std::string path;
     Setting setting;

@@ -1,12 +1,12 @@
-// read_tool_shapes: the shapes of the cutters, from a file in TOML with a table for each tool:
+// read_tool_shapes: reads the shapes of cutters from a TOML file with a table for each tool:
 //
 //     [tool.1]                    # T1 in the program
 //     shape = "taper"             # flat, ball, bull, vee, taper
-//     diameter_mm = 6             # where it is widest
-//     tip_diameter_mm = 1         # vee: of its flat tip, 0 without; taper: of the ball
-//     angle_deg = 12              # vee, taper: between the two sides
-//     corner_radius_mm = 0.5      # bull: of its round corners
-//     flute_length_mm = 22        # all below may be left out
+//     diameter_mm = 6             # largest diameter
+//     tip_diameter_mm = 1         # vee: diameter of the flat tip (default: 0); taper: of the ball
+//     angle_deg = 12              # vee, taper: included angle
+//     corner_radius_mm = 0.5      # bull: corner radius
+//     flute_length_mm = 22        # this key and those below are optional
 //     holder_diameter_mm = 30
 //     holder_from_mm = 28         # from the tip up to the holder
 //
@@ -24,7 +24,7 @@
 
 namespace passo {
 
-using ToolShapes = std::map<std::int32_t, ToolShape>;  // by the tool's number, 0 to 99999
+using ToolShapes = std::map<std::int32_t, ToolShape>;  // by tool number, 0 to 99999
 
 // Empty: the file has errors, which are in `diagnostics`.
 std::optional<ToolShapes> read_tool_shapes(const std::string& path, Diagnostics& diagnostics);

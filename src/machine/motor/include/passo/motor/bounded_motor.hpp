@@ -1,8 +1,8 @@
-// BoundedMotor: a stepping motor in motion, integrated in full only where its bound does not hold.
+// BoundedMotor: a stepper motor in motion, fully integrated only where its bound does not hold.
 //
-// While the bound of ReducedMotor holds, the currents are not integrated. Where the bound fails, RunningMotor goes on
-// from the rotor's state, with the currents that the driver wants; when the motor is calm again, ReducedMotor takes
-// over. docs/ramps/physics.md states how far the places may differ from those of a motor that is always integrated.
+// While the bound of ReducedMotor holds, the currents are not integrated. Where the bound fails, RunningMotor continues
+// from the rotor's state, with the currents that the driver sets; when the motor has settled, ReducedMotor takes over
+// again. docs/ramps/physics.md states the possible difference in position from a motor that is always fully integrated.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 namespace passo {
 
 enum class Integration : std::uint8_t {
-  where_needed,  // in full only where the bound does not hold
+  where_needed,  // fully only where the bound does not hold
   always,
 };
 
 class BoundedMotor {
  public:
-  // The motor rests at place 0, as a RunningMotor. The setup's parts have passed their checks.
+  // The motor starts at rest at position 0, like a RunningMotor. The setup's parts must have passed their checks.
   BoundedMotor(const MotorSetup& setup, Integration integration);
 
   void step(int way) {
@@ -32,7 +32,7 @@ class BoundedMotor {
     reduced_->run(time.value());
     if (!reduced_->holds()) leave();
   }
-  // run() and then step() in one, where the bound holds and the motor turns: the usual case, and the short way.
+  // Combines run() and step() for the most frequent case, in which the bound holds and the motor turns.
   [[nodiscard]] PulseDone turn(Seconds time, int way) {
     if (!is_reduced_) return PulseDone::nothing;
     const PulseDone done = reduced_->turn(time.value(), way);
@@ -40,11 +40,11 @@ class BoundedMotor {
     return done;
   }
   void set_resistance(NewtonMetres torque);
-  // While a hand carries the rotor, the motor is integrated in full.
+  // While the rotor is carried by hand, the motor is fully integrated.
   void carry(RadiansPerSecond speed);
   void let_go();
 
-  // As RunningMotor has them.
+  // The same as those of RunningMotor.
   double place() const { return is_reduced_ ? reduced_->place() : full_.place(); }
   double lag() const { return is_reduced_ ? reduced_->load_angle() * full_steps_per_radian : full_.lag(); }
   std::int64_t slipped() const { return full_.slipped(); }
@@ -52,7 +52,7 @@ class BoundedMotor {
   NewtonMetres mean_torque() const { return is_reduced_ ? reduced_->mean_torque() : full_.mean_torque(); }
   bool rests() const { return is_reduced_ ? reduced_->rests() : full_.rests(); }
   int steps_per_full_step() const { return full_.steps_per_full_step(); }
-  // The bound holds now.
+  // True: the bound holds now.
   bool is_reduced() const { return is_reduced_; }
 
  private:
@@ -68,7 +68,7 @@ class BoundedMotor {
   std::optional<ReducedMotor> reduced_;
   bool is_reduced_ = false;
   double calm_ = 0;   // seconds
-  double since_ = 0;  // the last step, in full
+  double since_ = 0;  // the last step, fully integrated
   double interval_ = 0;
 };
 

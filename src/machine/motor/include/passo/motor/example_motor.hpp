@@ -1,6 +1,6 @@
 // The small motor of the examples: `passo loop` without a machine file, docs/ramps/torque.md, tests and benchmarks.
 //
-// 1.8 degrees, 42 mm square, 48 mm long: the motor of many small machines, with values of typical data sheets.
+// A 1.8° NEMA 17 motor, 42 mm square and 48 mm long, with typical data sheet values.
 #pragma once
 
 #include <string_view>
@@ -17,7 +17,8 @@ inline MotorData small_motor() {
           .inductance = {2.8e-3}};
 }
 
-// On a chopper of 24 V, with a load as heavy as the rotor. `excitation`: a name that Excitation::named() knows.
+// On a 24 V chopper drive, with a load inertia equal to the rotor's. `excitation`: a name accepted by
+// Excitation::named().
 inline MotorSetup small_motor_setup(std::string_view excitation, NewtonMetres friction) {
   MotorSetup setup{.motor = small_motor(), .drive = {.supply = {24}}, .excitation = *Excitation::named(excitation)};
   setup.load = {.inertia = setup.motor.rotor.inertia, .friction = friction, .friction_per_speed = {}};

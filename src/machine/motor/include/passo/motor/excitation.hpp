@@ -3,12 +3,13 @@
 //
 //   two on       1100 0110 0011 1001   both phases at full current: 1.4 times the torque, for twice the power
 //   wave         1000 0100 0010 0001   one phase at a time
-//   half step    the two in turn, eight patterns
-//   microsteps   N to a full step: the currents are sine and cosine, and the field turns by 90°/N
+//   half step    alternates the two, eight patterns
+//   microsteps   N per full step: the currents are sine and cosine, and the field turns by 90°/N
 //
 // The patterns are those of the firmware (firmware/winding_table.hpp): outputs F1 to F4 in their order of rotation, F1
-// and F3 the two halves of phase A, F2 and F4 those of phase B. So the current of A is that of F1 less that of F3. The
-// field points where the two currents add up; a full step turns it by a quarter, and the rotor by a full step.
+// and F3 the two halves of phase A, F2 and F4 those of phase B. So the current of A is that of F1 minus that of F3. The
+// field has the direction of the sum of the two current vectors; a full step turns it by a quarter turn, and the rotor
+// by a full step.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ namespace passo {
 
 struct WindingState {
   std::uint8_t pattern = 0;  // bit 0: F1 carries current
-  double phase_a = 0;        // share of the rated current, −1 … 1
+  double phase_a = 0;        // fraction of the rated current, −1 … 1
   double phase_b = 0;
 
   bool on(unsigned output) const { return (pattern >> output & 1) != 0; }  // 0: F1
@@ -29,12 +30,13 @@ struct WindingState {
 
 class Excitation {
  public:
-  // "two-on", "wave", "half-step" or "microsteps:N" with N from 2 to 256. The error's words fit after "--drive: ".
+  // Accepts "two-on", "wave", "half-step" or "microsteps:N" with N from 2 to 256. The error text fits after "--drive:
+  // ".
   static Result<Excitation, std::string> named(std::string_view name);
 
   WindingState at(std::int64_t place) const;
   int steps_per_full_step() const { return steps_; }
-  // Microsteps: the currents are sines.
+  // True for microsteps: the currents are sines.
   bool is_sine() const { return kind_ == Kind::microsteps; }
   // The angle of an unloaded rotor at `place`, relative to place 0, in degrees.
   double rotor_degrees(std::int64_t place, std::int32_t full_steps_per_turn) const;

@@ -1,9 +1,10 @@
 // MonotoneCurve: a smooth curve through points. It rises or falls only where the points do.
 //
-// A torque curve from a data sheet is a handful of points. A cubic spline through them overshoots: it promises torque
-// that nobody measured. Here each piece is a cubic whose slopes at the points are limited, so that the piece stays
+// A torque curve from a data sheet has only a few points. A cubic spline through them overshoots, and gives torque that
+// was never measured. Here each piece is a cubic whose slopes at the points are limited, so that the piece stays
 // between its two ends. The curve and its slope are continuous. Outside the points the curve keeps the first and the
-// last value. The numbers are plain: the caller knows what x and y mean, and what a value outside is worth.
+// last value. The numbers are plain doubles: the caller knows the quantities x and y, and how to use values outside the
+// points.
 //
 // Source: F. N. Fritsch and R. E. Carlson, Monotone piecewise cubic interpolation, SIAM J. Numer. Anal. 17 (1980). The
 // slopes: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), known as PCHIP.

@@ -1,18 +1,18 @@
-// TorqueBand: between which two torques the true pull-out torque of a motor lies, at each speed.
+// TorqueBand: the lower and the upper bound of a motor's true pull-out torque, at each speed.
 //
-// A motor of the shelf is weaker or stronger than its data sheet by its tolerance. A stronger magnet also has a higher
+// A real motor is weaker or stronger than its data sheet, within its tolerance. A stronger magnet also has a higher
 // back-EMF, so at high speed the stronger motor may be the weaker one. Therefore the band is taken from both.
 //
 //   torque  .......
-//    |------.     `..   of_curve().high     The curves leave the rotor's own swinging out. A motor that runs at a
-//    |::::::`--.     `  of_curve().low      steady rate may begin to swing by itself and fall out of step far below
-//    |----.  .-`--.                         the curve. The trials of motor_trials.hpp show where: while_steady().
+//    |------.     `..   of_curve().high     The curves ignore rotor resonance. A motor that runs at a constant
+//    |::::::`--.     `  of_curve().low      rate may start to oscillate by itself and lose steps far below
+//    |----.  .-`--.                         the curve. The trials of motor_trials.hpp find these rates: while_steady().
 //    |     `-'  while_steady()
 //    +------------------- speed
 //
 // The curves themselves differ from the full physics: docs/ramps/physics.md. The band includes that.
 //
-// Cost of try_steady(): 80 trials, some milliseconds each. A look takes below a microsecond.
+// Cost of try_steady(): 80 trials, some milliseconds each. A query takes less than a microsecond.
 #pragma once
 
 #include <vector>
@@ -27,22 +27,22 @@ struct TorqueRange {
   NewtonMetres high = {};
 };
 
-// The same motor with a weaker or stronger magnet: all torques and the back-EMF are multiplied. `factor` > 0.
+// Returns the same motor with a weaker or stronger magnet: all torques and the back-EMF are multiplied. `factor` > 0.
 MotorSetup with_torque(const MotorSetup& setup, double factor);
 
 class TorqueBand {
  public:
-  // `tolerance`, 0 to 0.5, is the share by which the true torque may differ from the setup's. The setup's parts have
-  // passed their checks.
+  // `tolerance`, 0 to 0.5, is the fraction by which the true torque may differ from the setup's. The setup's parts must
+  // have passed their checks.
   TorqueBand(const MotorSetup& setup, double tolerance);
 
-  // Finds the rates up to `fastest` at which the motor resonates. Without trials while_steady() is that of the curve.
+  // Finds the rates up to `fastest` at which the motor resonates. Without these trials while_steady() equals the curve.
   void try_steady(RadiansPerSecond fastest);
   bool tried() const { return !tried_.empty(); }
 
-  // Pull-out of a motor that does not swing. `speed` ≥ 0.
+  // Returns the pull-out torque of a motor that does not oscillate. `speed` ≥ 0.
   TorqueRange of_curve(RadiansPerSecond speed) const;
-  // The low end for a motor that stays at about that speed, and so has the time to swing. Never above the curve's.
+  // Returns the lower bound for a motor that stays near that speed, long enough to oscillate. Never above the curve's.
   NewtonMetres while_steady(RadiansPerSecond speed) const;
 
   Hertz rate_at(RadiansPerSecond speed) const { return weak_.rate_at(speed); }

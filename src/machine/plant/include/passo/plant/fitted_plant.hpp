@@ -1,7 +1,7 @@
-// FittedPlant: what every plant of this project has: screws, switches, bodies for the probe, and a spindle. How its
-// motors obey is left to the kinds of plants.
+// FittedPlant: the common parts of all plants: screws, switches, objects for the probe, and a spindle. Derived classes
+// define how the motors follow their pulses.
 //
-// Switches and the probe see the slides. A slide without a screw model has the position of its motor.
+// Switches and the probe act on the slides. A slide without a screw model has the position of its motor.
 #pragma once
 
 #include "passo/plant/plant.hpp"
@@ -12,11 +12,12 @@ namespace passo {
 
 class FittedPlant : public Plant {
  public:
-  // Gives the plant a spindle. Without a model the spindle turns as commanded, and has no encoder.
+  // Adds a spindle to the plant. Without a model the spindle turns as commanded, and has no encoder.
   void fit_spindle(const SpindleModel& model) { spindle_ = VirtualSpindle(model); }
   // Sets the motors' steps from machine zero. Call this and add() before a board drives the plant.
   void stand_at(const MotorSteps& steps);
-  // Puts a screw between a motor and its slide. The backlash is taken up in the direction of its sign.
+  // Puts a screw between a motor and its slide. Its backlash is initially taken up in the direction of the backlash's
+  // sign.
   void fit_screw(std::size_t motor, const ScrewModel& model);
   void add(const TravelSwitch& added);
   void add(const TouchBody& body);
@@ -31,9 +32,9 @@ class FittedPlant : public Plant {
  protected:
   const MotorPositions& positions() const { return positions_; }
   const MotorPositions& slides() const { return screws_.any() ? slides_ : positions_; }
-  // Every motor's position, between two settings of the switches.
+  // The position of every motor, to be changed between two updates of the switches.
   MotorPositions& moving_positions() { return positions_; }
-  // Lets the slides follow the motors. Call it at each change of a motor's direction.
+  // Moves the slides with the motors. Call it at each change of a motor's direction.
   void move_slides() {
     if (screws_.any()) screws_.follow(positions_, slides_);
   }
@@ -45,14 +46,14 @@ class FittedPlant : public Plant {
     return screws_.motor_steps_for(switches_.steps_to_next_change(slides()));
   }
   const Switches& switches() const { return switches_; }
-  // What is true at `time`, with the motors and the switches as they were set last.
+  // The true state at `time`, with the motors and switches as last set.
   Truth truth_now(Seconds time) const {
     return {.positions = slides(), .spindle_turns = spindle_.turns_at(time), .inputs = switches_.closed()};
   }
 
  private:
   MotorPositions positions_{};
-  MotorPositions slides_{};  // where a motor has a screw
+  MotorPositions slides_{};  // for motors with a screw
   Screws screws_;
   Switches switches_;
   VirtualSpindle spindle_;

@@ -1,8 +1,8 @@
-// IdealPlant: a plant whose motors do at once all that they are told.
+// IdealPlant: a plant whose motors follow every pulse immediately.
 //
-// The inputs that depend on the motors change only at pulses. The plant knows from the places of its switches how many
-// pulses that takes. So a board gives most pulses as sums. Where nothing depends on the motors, the plant adds no cost
-// to an event.
+// Inputs that depend on the motors change only at pulses. The plant computes from the positions of its switches the
+// number of pulses until then. So a board can pass most pulses as sums. If nothing depends on the motors, the plant
+// adds no cost to an event.
 #pragma once
 
 #include "passo/plant/fitted_plant.hpp"

@@ -1,4 +1,4 @@
-// MotorSteps: how far the motors of a plant were told to go. MotorPositions: where the motors are.
+// MotorSteps: the commanded steps of a plant's motors. MotorPositions: the true positions of the motors.
 #pragma once
 
 #include <array>
@@ -9,6 +9,6 @@
 namespace passo {
 
 using MotorSteps = std::array<std::int64_t, max_motors>;  // pulses up minus pulses down
-using MotorPositions = std::array<double, max_motors>;    // in steps; a real motor may stand between two steps
+using MotorPositions = std::array<double, max_motors>;    // in steps; a real motor may be between two steps
 
 }  // namespace passo

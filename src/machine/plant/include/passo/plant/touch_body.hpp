@@ -1,4 +1,4 @@
-// TouchBody: something in a plant that the probe can touch: a box in steps of the motors.
+// TouchBody: an object in a plant that the probe can touch: a box in motor steps.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace passo {
 
-// The probe touches the body where every motor's position is from its `low` to its `high`, both included.
+// The probe touches the body if every motor's position is between `low` and `high`, both included.
 struct TouchBody {
   struct Range {
     std::int64_t low = INT64_MIN;
@@ -22,14 +22,14 @@ struct TouchBody {
 
   bool contains(const MotorPositions& positions) const { return beyond(positions) <= 0; }
 
-  // How many steps any motor may go until the probe may begin or cease to touch the body.
+  // Returns how many steps any motor may move until the probe may start or stop touching the body.
   double steps_to_border(const MotorPositions& positions) const {
     const double out = beyond(positions);
     return out > 0 ? out : 1 - out;
   }
 
  private:
-  // The distance to the box for the motor that is furthest from it. Inside the box: 0 or less, the distance to the
+  // Returns the largest distance of any motor to its range of the box. Inside the box: 0 or less, the distance to the
   // nearest side.
   double beyond(const MotorPositions& positions) const {
     double most = -std::numeric_limits<double>::infinity();

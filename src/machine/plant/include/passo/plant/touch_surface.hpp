@@ -1,4 +1,4 @@
-// TouchSurface: something in a plant that the probe can touch: all that is on or below a surface.
+// TouchSurface: an object in a plant that the probe can touch: everything on or below a surface.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace passo {
 // The probe is a point.
 class TouchSurface {
  public:
-  // How a coordinate of the machine depends on a motor. Without a motor the probe stays at 0.
+  // How a machine coordinate depends on a motor. Without a motor the coordinate stays at 0.
   struct Along {
     std::optional<std::size_t> motor = {};
-    double steps_per_mm = 1;  // below 0: the motor turns the other way
-    double zero = 0;          // of the surface, in machine coordinates
+    double steps_per_mm = 1;  // negative: the motor has the reversed direction
+    double zero = 0;          // zero of the surface, in machine coordinates
   };
 
   TouchSurface(std::shared_ptr<const Surface> surface, const std::array<Along, 3>& along)
@@ -34,13 +34,13 @@ class TouchSurface {
     const SurfacePoint at = place(positions);
     return at.z <= surface_->top(at.x, at.y) + rounding;
   }
-  // How many steps any motor may go until the probe may begin or cease to touch the surface.
+  // Returns how many steps any motor may move until the probe may start or stop touching the surface.
   double steps_to_border(const MotorPositions& positions) const {
     return std::max(1.0, (surface_->clearance(place(positions)) - rounding) * least_scale_);
   }
 
  private:
-  static constexpr double rounding = 1e-9;  // mm, when steps become millimetres
+  static constexpr double rounding = 1e-9;  // mm, for the conversion of steps to millimetres
 
   SurfacePoint place(const MotorPositions& positions) const {
     const auto along = [&](const Along& one) {

@@ -1,4 +1,4 @@
-// TravelSwitch: a limit switch in a plant, closed by one of its axes near an end of the travel.
+// TravelSwitch: a limit switch in a plant, closed by an axis near an end of its travel.
 #pragma once
 
 #include <array>
@@ -8,15 +8,15 @@
 
 namespace passo {
 
-// Places are in steps of the switch's motor. A switch opens a little later than it closes: `opens_at` is further from
-// the end of the travel.
+// Positions are in steps of the switch's motor. A switch has hysteresis: `opens_at` is further from the end of the
+// travel than `closes_at`.
 struct TravelSwitch {
   std::uint16_t input = 0;  // bit of BoardInput; several switches may share one
   std::uint8_t motor = 0;
   bool at_high_end = false;
   std::int64_t closes_at = 0;
   std::int64_t opens_at = 0;
-  Seconds bounce{0};  // after each change the contact opens and closes for so long
+  Seconds bounce{0};  // how long the contact opens and closes after each change
 
   // Whether the switch is closed with its motor at `position`. `before`: whether it was closed before.
   bool closed(double position, bool before) const {
@@ -26,9 +26,9 @@ struct TravelSwitch {
     return before && opens_at != closes_at ? position < at : position <= at;
   }
 
-  // Whether the contact, which began to change `since` ago, shows its new state. At first it does.
+  // Returns whether the contact, which began to change `since` ago, shows its new state. Initially it does.
   bool shows_change(Seconds since) const {
-    constexpr std::array<double, 6> turns{0.08, 0.21, 0.35, 0.42, 0.71, 0.83};  // as shares of the bounce
+    constexpr std::array<double, 6> turns{0.08, 0.21, 0.35, 0.42, 0.71, 0.83};  // as fractions of the bounce time
     bool shown = true;
     for (const double turn : turns) {
       if (since.value() >= turn * bounce.value()) shown = !shown;

@@ -1,7 +1,7 @@
-// VirtualSpindle: a spindle with an encoder that runs up, droops under load and ripples, as a real spindle does.
+// VirtualSpindle: a spindle with an encoder that runs up, droops under load and ripples, like a real spindle.
 //
 // The angle is known at every time in closed form, so the same commands give the same angles. After a command the speed
-// goes at an even rate to the commanded speed minus the droop. The ripple is added to that, as a part of the speed.
+// changes at a constant rate to the commanded speed minus the droop. The ripple is added as a fraction of the speed.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace passo {
 struct SpindleModel {
   std::int32_t counts_per_turn = 0;  // of the encoder; 0: there is no encoder
   double run_up = 0;                 // seconds from standstill to 1000 rpm; 0: immediately
-  double droop = 0;                  // the part of the commanded speed that is missing
-  double ripple = 0;                 // the part of the speed by which the speed goes up and down
-  double ripple_rate = 0;            // ripples a second
+  double droop = 0;                  // the fraction by which the speed is below the commanded one
+  double ripple = 0;                 // amplitude of the speed variation, as a fraction
+  double ripple_rate = 0;            // ripples per second
 };
 
 class VirtualSpindle {
@@ -24,29 +24,29 @@ class VirtualSpindle {
   VirtualSpindle() = default;
   explicit VirtualSpindle(const SpindleModel& model) : model_(model) {}
 
-  // Sets the speed from `time` on. Negative: the other way round.
+  // Sets the speed from `time` on. Negative: reverse.
   void command(Seconds time, double revolutions_per_minute);
 
-  // Exact turns since the start, not rounded to the encoder's counts.
+  // Returns the exact revolutions since the start, not rounded to the encoder's counts.
   double turns_at(Seconds time) const;
   bool has_encoder() const { return model_.counts_per_turn > 0; }
   std::int32_t counts_per_turn() const { return model_.counts_per_turn; }
   const SpindleModel& model() const { return model_; }
-  // What the encoder has counted, and its count at the last index. The index is where the turns are a whole number, in
-  // the commanded direction. The tick is not set.
+  // Returns the encoder's count, and its count at the last index. The index is at whole revolutions, in the commanded
+  // direction. The tick is not set.
   SpindleCount count_at(Seconds time) const;
 
  private:
-  double speed_at(double time) const;  // turns a second after the last command, without the ripple
+  double speed_at(double time) const;  // rev/s after the last command, without the ripple
   double way(double from_speed, double rise, double from, double to) const;
 
   SpindleModel model_;
   double commanded_at_ = 0;
-  double turns_ = 0;   // then
-  double speed_ = 0;   // then
-  double target_ = 0;  // minus the droop
-  double rise_ = 0;    // turns a second, a second
-  double ramp_ = 0;    // seconds to reach the target
+  double turns_ = 0;   // at the last command
+  double speed_ = 0;   // at the last command
+  double target_ = 0;  // less the droop
+  double rise_ = 0;    // rev/s²
+  double ramp_ = 0;    // time until the target speed is reached, in seconds
 };
 
 }  // namespace passo

@@ -27,7 +27,8 @@ constexpr std::string_view name_of(Trust trust) {
 struct KnownPosition {
   Point place;  // machine coordinates
   Trust trust = Trust::unknown;
-  AxisSet downs = {};  // the axes whose backlash is taken up for downward motion; none, unless a motion was stopped
+  AxisSet downs = {};  // the axes whose backlash is taken up for motion in the negative direction; none, unless a
+                       // motion was stopped
   // With Trust::unknown: step counting was interrupted, so earlier work offsets are wrong. False: machine zero was
   // never known, and counting has continued.
   bool is_lost = false;

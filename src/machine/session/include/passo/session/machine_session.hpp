@@ -68,8 +68,8 @@ class MachineSession {
   }
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
-  // Performs one bounded step. If the session can only wait for the board, time passes until there is news, but at most
-  // `most`, which may be infinite only while something moves.
+  // Performs one bounded step. If the session can only wait for the board, time passes until something changes, but at
+  // most `most`, which may be infinite only while something moves.
   void poll(Seconds most);
 
   MachineStatus status() const;

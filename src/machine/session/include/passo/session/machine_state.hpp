@@ -67,8 +67,8 @@ struct StateRow {
   bool program_has_outputs;  // spindle and coolant are as programmed; in all other states they are off
 };
 
-// In a fault, and after it until the board has answered, this is unknown: a board without a connection plays its stop
-// ramp to the end, and keeps its outputs. An open door may have stopped an activity, or nothing.
+// In a fault, and afterwards until the board has answered, motion and outputs are unknown: a board without a connection
+// executes its stop ramp to the end, and keeps its outputs. In the state door, there may be a stopped activity or none.
 inline constexpr std::array<StateRow, state_count> state_rows = {{
     {MachineState::offline, "Offline", false, true, true},
     {MachineState::idle, "Idle", false, false, false},

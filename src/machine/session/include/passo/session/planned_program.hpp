@@ -26,18 +26,19 @@ class PlannedProgram final : public Source<MotionItem> {
   PlannedProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  const ProgramCheck& check, const MotionFactors& factors = {});
 
-  // A loop that only a probe ends continues as far as the check has followed it.
+  // If the program probes, the motion ends after as many segments as in the check, because a loop that only a probe
+  // result can end would be endless.
   [[nodiscard]] bool next(MotionItem& item) override;
 
   // For observers, which must be added before the first next().
   Tap<Operation>& operations() { return activity_.operations(); }
   Tap<PathItem>& path() { return activity_.path(); }
-  // Of what was planned so far.
+  // The nominal time of the motion planned so far.
   Seconds nominal_time() const { return activity_.nominal_time(); }
 
  private:
   const ProgramCheck& check_;
-  Diagnostics findings_;  // after a good check only what is known already
+  Diagnostics findings_;  // after a good check only known findings
   Program activity_;
   BacklashTaker path_with_rests_;
   Planner planner_;

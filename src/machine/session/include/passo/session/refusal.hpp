@@ -1,4 +1,4 @@
-// Refusal: why a request is not begun. Each reason is one row of a table: the code that clients compare, a finer code
+// Refusal: why a request is rejected. Each reason is one row of a table: the code that clients compare, a finer code
 // for translations, and the English sentence.
 #pragma once
 
@@ -12,13 +12,13 @@
 namespace passo {
 
 enum class RefusalCode : std::uint8_t {
-  busy,           // something else is going on
+  busy,           // another activity is running
   not_ready,      // the board has not answered yet
-  alarm,          // a reset has to come first
-  asleep,         // a wake has to come first
+  alarm,          // a reset is needed first
+  asleep,         // a wake-up is needed first
   nothing_runs,   // there is nothing to hold, resume, stop or renew
   not_waiting,    // the program does not wait for the operator
-  door_open,      // the door has to be closed first
+  door_open,      // the door must be closed first
   no_switches,    // the machine has no switches for homing
   bad_value,      // not a number, or out of range
   limit_closed,   // a limit switch is closed: only a jog off it or homing is possible
@@ -28,9 +28,9 @@ std::string_view code_of(RefusalCode code);
 
 enum class RefusalReason : std::uint8_t {
   busy,
-  outputs_left_on,  // by lines that were sent before
+  outputs_left_on,  // by lines sent before
   not_ready,
-  // The board stopped the motors at once, and why
+  // The board stopped the motors instantly, and why
   emergency_stop,
   limit_switch_of_axis,  // {axis}
   limit_switch,          // {number}
@@ -46,7 +46,7 @@ enum class RefusalReason : std::uint8_t {
   no_jog,
   no_program_held,
   no_program_runs,
-  spindle_turns,  // it is stopped in a hold only
+  spindle_turns,  // the spindle can be stopped only in a hold
   not_waiting,
   no_switches,
   bad_jog,
@@ -66,8 +66,8 @@ enum class RefusalReason : std::uint8_t {
 struct RefusalRow {
   RefusalReason reason;
   RefusalCode code;
-  std::string_view finer_code;  // stable: that of the RefusalCode, or one that begins with it
-  std::string_view sentence;    // without a full stop; {name} stands for an argument
+  std::string_view finer_code;  // stable: the RefusalCode's own code, or one that starts with it
+  std::string_view sentence;    // without a full stop; {name} is replaced by an argument
 };
 std::span<const RefusalRow> refusal_rows();
 const RefusalRow& row_of(RefusalReason reason);

@@ -56,21 +56,21 @@ struct Start {
 // Runs a program that arrives line by line, until Stop. While there is no line, the machine is stopped in the state
 // await_line. The program starts at the current position.
 struct Stream {
-  OpenProgram* program = nullptr;  // outlives the stream
+  OpenProgram* program = nullptr;  // must outlive the stream
   Watchers watchers = {};
 };
 // For a stream: stops on the path, and drops the queued lines. The stream continues with the next line.
 struct DropLines {};
-// Moves axes as long as the lease (the keep-alive timeout) is renewed. The machine begins to brake before the timeout.
+// Moves axes as long as the keep-alive timeout (lease) is renewed. The machine begins to decelerate before the timeout.
 // No axis moves towards a closed limit switch.
 struct Jog {
-  // A lease must be longer than the committed motion. After `longest_lease` without a renewal, the operator is assumed
-  // to have left.
+  // The keep-alive timeout must be longer than the committed motion. After `longest_lease` without a renewal, the
+  // operator is assumed to have left.
   static constexpr Seconds shortest_lease{0.1};
   static constexpr Seconds longest_lease{10};
 
   JogWay way;
-  Seconds lease{0.25};  // duration of the first lease, and of each renewal
+  Seconds lease{0.25};  // duration of the first keep-alive timeout, and of each renewal
 };
 struct RenewLease {};
 // Homes the machine.
@@ -85,7 +85,7 @@ struct Probe {
 struct Check {
   ProgramReader program;
   InterpreterOptions options;
-  Diagnostics* findings = nullptr;  // outlives the check
+  Diagnostics* findings = nullptr;  // must outlive the check
 };
 // Feed hold: stops on the path. Activities other than programs end there.
 struct Hold {

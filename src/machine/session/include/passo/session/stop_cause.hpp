@@ -1,4 +1,4 @@
-// What has stopped a machine's motors at once, in words.
+// The cause of an instant stop of the motors, in words.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace passo {
 
 struct StopCause {
   enum class Kind : std::uint8_t { unknown, emergency_stop, drive_alarm, limit_switch_of_axis, limit_switch };
-  std::string what;    // a sentence without a full stop, as "the emergency stop was pressed"
-  std::string remedy;  // what to do first, as "release it"; empty: unknown
+  std::string what;    // a sentence without a full stop, e.g. "the emergency stop was pressed"
+  std::string remedy;  // what to do first, e.g. "release it"; empty: unknown
   Kind kind = Kind::unknown;
   SentenceArguments arguments = {};  // {axes}, {axis} or {number}, by kind
 };

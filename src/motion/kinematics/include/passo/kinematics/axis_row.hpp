@@ -26,7 +26,7 @@ class AxisRow {
   // An empty row: the sum is 0.
   AxisRow() = default;
   AxisRow(Axis axis, double factor) { shares_[0] = {axis, factor}; }
-  // One to most_axes shares, each of another axis. Further shares are ignored.
+  // Creates a row of one to most_axes shares, each of another axis. Further shares are ignored.
   AxisRow(std::initializer_list<Share> shares) {
     count_ = 0;
     for (const Share& share : shares) {
@@ -39,7 +39,7 @@ class AxisRow {
   // The axis of a row with one axis, and its factor.
   Axis axis() const { return shares_[0].axis; }
   double factor() const { return shares_[0].factor; }
-  // 0: the axis is not in the row.
+  // Returns the axis' factor; 0: the axis is not in the row.
   double factor_of(Axis axis) const {
     for (const Share& share : shares()) {
       if (share.axis == axis) return share.factor;
@@ -52,7 +52,7 @@ class AxisRow {
     for (std::size_t i = 1; i < count_; ++i) sum += shares_[i].factor * values[shares_[i].axis];
     return sum;
   }
-  // A bound of the size of the row's sum, from bounds of the sizes of the axes' values.
+  // Returns a bound of the row's absolute value, from bounds of the axes' absolute values.
   double most_of(const PerAxis<double>& sizes) const {
     double sum = std::fabs(shares_[0].factor) * sizes[shares_[0].axis];
     for (std::size_t i = 1; i < count_; ++i) sum += std::fabs(shares_[i].factor) * sizes[shares_[i].axis];

@@ -2,11 +2,11 @@
 //
 // Each motor has a row: its steps are a sum over axes (AxisRow), optionally corrected by the errors and the backlash of
 // a screw. A Cartesian machine has one axis in each row and one row for each axis. A gantry has two rows for the axis
-// that two motors turn. CoreXY has two rows of X and Y. Under such rows a line stays a line, and an arc or a cubic
-// stays a sum of the same functions of the distance, so the step generator and the planner follow the rows themselves.
+// with two motors. CoreXY has two rows of X and Y. Under such rows a line stays a line, and an arc or a cubic stays a
+// sum of the same functions of the distance, so the step generator and the planner follow the rows themselves.
 //
-// Programs, jogs and limits of travel are in axes. Step counts, switches on motors and the wire are in motors. No other
-// module converts one into the other.
+// Programs, jogs and travel limits refer to axes. Step counts, switches at motors and the wire protocol refer to
+// motors. No other module converts between them.
 #pragma once
 
 #include <array>
@@ -25,11 +25,12 @@ namespace passo {
 
 // A motor, and the axes that it moves.
 struct MotorRow {
-  AxisRow steps;      // for each millimetre or degree; negative: the motor counts down when the axis goes up
-  double offset = 0;  // steps where the axes are at 0; not for a motor with a screw
-  std::shared_ptr<const ScrewMap> screw = {};  // only for a row of one axis; null: motor and axis are in proportion
+  AxisRow steps;      // per millimetre or degree; negative: the motor counts down when the axis moves up
+  double offset = 0;  // steps with all axes at 0; not for a motor with a screw
+  std::shared_ptr<const ScrewMap> screw = {};  // only for a row of one axis; null: motor and axis are proportional
 
-  // With a fraction. `downs`: the axes whose backlash is taken up for motion down.
+  // Returns the steps, with a fraction. `downs`: the axes whose backlash is taken up for motion in the negative
+  // direction.
   double steps_at(const Point& place, AxisSet downs = {}) const {
     if (!screw) return steps.of(place) + offset;
     return screw->nominal(place[steps.axis()], downs.has(steps.axis())) * steps.factor() + offset;
@@ -43,7 +44,7 @@ struct MotorPlace {
   double operator[](std::size_t motor) const { return steps[motor]; }
 };
 
-// The steps since the counts were `zero`.
+// Returns the steps since the counts were `zero`.
 template <class Counts, class Zero>
 MotorPlace steps_since(const Zero& zero, const Counts& counts) {
   MotorPlace place;
@@ -63,10 +64,10 @@ class Kinematics {
   std::span<const MotorRow> rows() const { return {rows_.data(), count_}; }
   std::uint8_t motor_count() const { return static_cast<std::uint8_t>(count_); }
 
-  // `downs`: the axes whose backlash is taken up for motion down, here as in axes().
+  // `downs`: the axes whose backlash is taken up for motion in the negative direction, here and in axes().
   MotorPlace motors(const Point& axes, AxisSet downs = {}) const;
-  // The position of an axis with a motor of its own follows from that motor (from the first, if there are two); those
-  // of axes that share motors follow from all of these. `others`: the positions of axes without a motor.
+  // Converts motor positions to axis positions. An axis with a motor of its own follows that motor (the first, if there
+  // are two); axes that share motors follow all of these. `others`: the positions of axes without a motor.
   Point axes(const MotorPlace& motors, AxisSet downs = {}, const Point& others = {}) const;
   // The same, if only some motors have moved since the axes were at `from`: bit i of `moved` is motor i. The other axes
   // keep exactly their positions.

@@ -1,9 +1,10 @@
 // ScrewMap: converts the true position of an axis into the nominal position that its motor must be commanded to, which
 // corrects the errors and the backlash of its screw.
 //
-// The *true* position is that of the axis. The *nominal* position is the one that the axis would have with a perfect
-// screw. Both are in millimetres or degrees of the axis. The backlash is taken up in one of two directions. After
-// upward motion, the nominal position corrects the errors only. After downward motion, it is lower by the backlash.
+// The *true* position is that of the axis. The *nominal* position is the position that the axis would have with a
+// perfect screw. Both are in millimetres or degrees of the axis. The backlash is taken up in one of two directions.
+// After motion in the positive direction, the nominal position corrects only the errors. After motion in the negative
+// direction, it is lower by the backlash.
 #pragma once
 
 #include <vector>
@@ -13,11 +14,11 @@ namespace passo {
 class ScrewMap {
  public:
   struct Error {
-    double at = 0;   // nominal place
-    double off = 0;  // true place minus nominal place
+    double at = 0;   // nominal position
+    double off = 0;  // true position minus nominal position
   };
   // `errors` may be empty. In ascending order of `at`; between two entries the error is interpolated, and beyond the
-  // ends it is constant. The error must change by less than the distance.
+  // ends it is constant. The slope of the error must be below 1 in magnitude.
   explicit ScrewMap(double backlash, std::vector<Error> errors = {});
 
   double backlash() const { return backlash_; }

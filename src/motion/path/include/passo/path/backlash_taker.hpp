@@ -2,12 +2,12 @@
 //
 // Position in the pipeline: before the planner. Segments are cut where an axis with backlash reverses. There, the path
 // stops, and an extra segment moves only the motor of that axis, within the limits of the axis, until the backlash is
-// taken up. The tool does not move during that time, so it stays on the path, to the step. Each segment tells on which
-// side the backlash of each axis is (Segment::downs), so that motion can be followed from any point of a segment. See
-// docs/decisions/0083-backlash-is-taken-up-at-rest.md.
+// taken up. The tool does not move during that time, so it stays on the path, to the step. Each segment records on
+// which side the backlash of each axis is (Segment::downs), so that motion can be followed from any point of a segment.
+// See docs/decisions/0083-backlash-is-taken-up-at-rest.md.
 //
-// A path begins and ends with all backlash taken up for upward motion, so the step counts alone determine the machine
-// position.
+// A path begins and ends with all backlash taken up for motion in the positive direction, so the step counts alone
+// determine the machine position.
 //
 // Invariants: without backlash, items pass unchanged. Reversals shorter than `least` are ignored; the tool is then off
 // the path by less than `least`. At the end of a probe move, where the machine may have left the path, a callback gives
@@ -23,16 +23,17 @@
 namespace passo {
 
 struct BacklashOptions {
-  Point start;               // where the path begins
+  Point start;               // start of the path
   PerAxis<double> backlash;  // 0: the axis has none
-  PerAxis<double> least;     // an axis that goes back by no more has not turned back
-  AxisSet downs;             // the axes whose backlash is taken up for motion down when the path begins
+  PerAxis<double> least;     // an axis that moves back by at most this has not reversed
+  AxisSet downs;             // the axes whose backlash is taken up for motion in the negative direction at the start of
+                             // the path
   // True: the first item takes up the initial backlash, even if there is none, so that the number of items does not
   // depend on `downs`.
   bool counts_items = false;
 };
 
-// The position of a stopped machine, and the axes whose backlash is taken up for downward motion.
+// The position of a stopped machine, and the axes whose backlash is taken up for motion in the negative direction.
 struct BacklashAtRest {
   AxisSet downs;
   Point place;
@@ -69,10 +70,10 @@ class BacklashTaker final : public Source<PathItem> {
   bool started_ = false;
   bool ended_ = false;
 
-  Segment segment_;  // the present segment
+  Segment segment_;  // the current segment
   bool in_segment_ = false;
-  double from_ = 0;      // the part before this s was given
-  double followed_ = 0;  // farthest_ counts the part before this s
+  double from_ = 0;      // the part before this s was returned
+  double followed_ = 0;  // farthest_ includes the part before this s
   AxisSet turned_;       // the axes that reverse at followed_
   std::optional<Action> before_segment_;
 };

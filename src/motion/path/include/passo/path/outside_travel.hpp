@@ -1,5 +1,5 @@
 // OutsideTravel: the axes on which a path is outside the travel, at each end of it. An excursion begins with the first
-// move that leaves the travel and lasts until a move ends within it, so that it is reported once and not at each move.
+// move that leaves the travel, and lasts until a move ends within it. It is thus reported once and not at each move.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ enum class TravelEnd : std::uint8_t { low, high };
 
 class OutsideTravel {
  public:
-  // A move leaves the travel at this end. `ends_outside`: it also ends out there. True: a new excursion has begun.
+  // Call when a move leaves the travel at this end. `ends_outside`: the move also ends outside. Returns true if a new
+  // excursion has begun.
   bool leaves(Axis axis, TravelEnd end, bool ends_outside) {
     AxisSet& axes = at(end);
     const bool is_new = !axes.has(axis);

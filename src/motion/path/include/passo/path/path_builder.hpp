@@ -1,14 +1,14 @@
-// PathBuilder: converts operations into segments. It applies the work frame, keeps geometry exact (no chords), and
-// checks the travel.
+// PathBuilder: converts operations into segments. It applies the work coordinate system, keeps geometry exact (no
+// chords), and checks the travel.
 //
-// There are two exceptions. While the work frame is rotated about Z, an arc in the plane ZX or YZ is in no coordinate
-// plane of the machine. Such an arc is divided into chords within half a thousandth of a millimetre, or half the
-// tolerance if that is less. A spline is converted into cubics of its arc length, which deviate from it by at most a
-// tenth of the path tolerance, or half a thousandth of a millimetre where the tolerance is 0.
+// There are two exceptions. While the work coordinate system is rotated about Z, an arc in the plane ZX or YZ is in no
+// coordinate plane of the machine. Such an arc is divided into chords within half a thousandth of a millimetre, or half
+// the tolerance if that is less. A spline is converted into cubics of its arc length, which deviate from it by at most
+// a tenth of the path tolerance, or half a thousandth of a millimetre where the tolerance is 0.
 //
-// Position in the pipeline: between the interpreter and the planner. Segments join without a gap: each begins, bit for
-// bit, where the one before ended. Moves shorter than a thousandth of a nanometre are rounding errors, and are dropped.
-// Outputs (spindle, coolant) that change without a move between them become one action.
+// Position in the pipeline: between the interpreter and the planner. Segments join without a gap: the start of each is
+// bit-identical to the end of the previous one. Moves shorter than a thousandth of a nanometre are rounding errors, and
+// are dropped. Outputs (spindle, coolant) that change without a move between them become one action.
 //
 // The builder collects errors and continues, so that one pass finds all of them. The path after an error must not be
 // executed.
@@ -40,16 +40,18 @@ struct TravelLimit {
 struct PathOptions {
   AxisSet axes;                     // the axes that the machine has
   PerAxis<TravelLimit> travel;      // machine coordinates
-  PerAxis<MmPerSecond> velocity{};  // the axes' top speeds, for feeds that follow the spindle; 0: no feed is refused
-  Mm tolerance{0.01};               // of junctions, if the program gives none (G64 P)
-  double spindle_limit = 0;         // fastest spindle, revolutions a minute; 0: no spindle speed is refused
+  PerAxis<MmPerSecond> velocity{};  // maximum speeds of the axes, for feeds that follow the spindle; 0: no feed is
+                                    // rejected
+  Mm tolerance{0.01};               // for junctions, if the program gives none (G64 P)
+  double spindle_limit = 0;         // maximum spindle speed, rpm; 0: no spindle speed is rejected
   Point start;                      // machine position at the start
   // True: more operations may follow later, so nothing is switched off at the end of the source.
   bool open_ended = false;
-  // The time from standstill to 1000 rpm. Motion waits for the spindle, and tapping leaves room to reverse it.
+  // The spindle's time from standstill to 1000 rpm. Motion waits for the spindle, and tapping leaves room to reverse
+  // it.
   Seconds spindle_run_up{0};
-  // True: in threads the spindle has the programmed speed, whatever its override. This is needed without an encoder:
-  // the axes cannot follow the spindle, so another speed would cut another pitch.
+  // True: in threads the spindle runs at the programmed speed, regardless of its override. Without an encoder this is
+  // necessary: the axes cannot follow the spindle, so another speed would cut another pitch.
   bool threads_hold_speed = false;
   std::string file;  // names the program in diagnostics
 };
@@ -60,7 +62,7 @@ inline constexpr std::string_view travel_exceeded = "travel.exceeded";
 // The state of a path builder between two operations.
 struct PathMemory {
   Frame frame_;
-  bool in_step_ = false;  // in step with the spindle since its index
+  bool in_step_ = false;  // synchronised with the spindle since its index
   Point position_;        // machine
 
   LengthUnits units_ = LengthUnits::mm;  // for messages
@@ -81,12 +83,12 @@ struct PathMemory {
 
   OutsideTravel outside_;
   AxisSet missing_;
-  std::array<bool, 4> told_{};  // what was already reported, by Lack
+  std::array<bool, 4> told_{};  // findings already reported, by Lack
 };
 
 class PathBuilder final : public Source<PathItem>, private PathMemory {
  public:
-  // `options` outlives the builder.
+  // `options` must outlive the builder.
   PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics,
               const MachineAnswers& answers = no_answers());
   ~PathBuilder() override;
@@ -160,16 +162,16 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   Diagnostics& diagnostics_;
   const MachineAnswers& answers_;
 
-  // An arc in the rotated work frame, of which some chords are still to come.
+  // An arc in the rotated work coordinate system, some of whose chords are still to be returned.
   struct TiltedArc {
     Curve work;
     std::uint32_t next = 0;
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
-  // A spline of which some pieces are still to come.
+  // A spline, some of whose pieces are still to be returned.
   std::unique_ptr<SplinePieces> spline_;
-  Mm piece_tolerance_{0};  // how far the pieces may deviate from the present curve
+  Mm piece_tolerance_{0};  // maximum deviation of the pieces from the current curve
   // A probe move consists of three items. After them, the path continues from the position at which the machine
   // stopped.
   enum class ProbeStep : std::uint8_t { none, move, end, rest };
@@ -184,7 +186,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   Operation operation_;  // the current operation
   std::array<OperationKind, 4> tap_;
   std::size_t tap_step_ = tap_.size();
-  std::deque<PathItem> held_;  // items that wait while an item before them is handed on
+  std::deque<PathItem> held_;  // items that wait until the items before them are returned
   PathMemory kept_;
 };
 

@@ -4,13 +4,13 @@
 // a run, which reaches from one stop point to the next. First, lines that are straight within the merge tolerance
 // become one line, and the rounded chords of a curve become the curve again. Then the junctions of a run are rounded,
 // over the longest distance that the tolerance allows. Long lines and arcs between junctions stay lines and arcs,
-// shortened to what is left. The result is lines, arcs and cubics (Curve::cubic). Actions pass unchanged.
+// shortened accordingly. The result consists of lines, arcs and cubics (Curve::cubic). Actions pass unchanged.
 //
 // Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes,
-// millimetres and degrees alike. Segments join bit for bit. Within a run dP/ds and d²P/ds² are continuous, and the last
-// segment of a run has the mode exact_stop. The result does not depend on when items are pulled. Memory is bounded: 256
-// knots, of at most 64 pieces each, and 512 lines. Time: about 1 µs per segment, 1.5 µs with slow_bending. See
-// docs/decisions/0013.
+// millimetres and degrees alike. The end of each segment is bit-identical to the start of the next. Within a run dP/ds
+// and d²P/ds² are continuous, and the last segment of a run has the mode exact_stop. The result does not depend on when
+// items are pulled. Memory is bounded: 256 knots, of at most 64 pieces each, and 512 lines. Time: about 1 µs per
+// segment, 1.5 µs with slow_bending. See docs/decisions/0013.
 #pragma once
 
 #include <cstdint>

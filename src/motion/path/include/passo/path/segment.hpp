@@ -14,7 +14,7 @@ namespace passo {
 struct Heeds {
   bool feed_override = true;
   bool spindle_override = true;
-  bool adaptive_feed = false;  // the machine's own factor on feeds
+  bool adaptive_feed = false;  // the machine's own factor on the feed
   bool feed_hold = true;
   friend bool operator==(const Heeds&, const Heeds&) = default;
 };
@@ -24,19 +24,19 @@ enum class SpindleLock : std::uint8_t { none, speed, place };
 
 struct Segment {
   Curve curve;
-  MmPerSecond speed{0};  // programmed, along s; infinite for a rapid, which only the axes limit
+  MmPerSecond speed{0};  // programmed, along s; infinite for a rapid, which only the axes' limits restrict
   bool rapid = false;
   PathMode mode = PathMode::continuous;  // at the junction to the next segment
-  Mm tolerance{0};                       // how far the junction to the next segment may leave the path
+  Mm tolerance{0};                       // maximum deviation from the path at the junction to the next segment
   Mm merge{0};                           // tolerance for merging lines; a part of the tolerance
-  Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
+  Point work_zero{};                     // zero of the work coordinate system in machine coordinates
   Heeds heeds{};
   SpindleLock lock = SpindleLock::none;
   Mm pitch{0};  // for a lock: the distance per revolution; `speed` follows from the commanded spindle speed
   // For tapping down: the point at which the spindle is reversed. The remainder of the segment leaves room for the
   // spindle to stop.
   Mm reverse_at{0};
-  // On machines with backlash compensation: the axes whose backlash is taken up for downward motion.
+  // On machines with backlash compensation: the axes whose backlash is taken up for motion in the negative direction.
   AxisSet downs{};
   // True: the segment takes up the backlash of an axis that reverses. The motor moves along the curve, while the tool
   // stays at the curve's end.
@@ -73,8 +73,8 @@ struct Action {
     tool_change,
     program_end,
     feed_hold,
-    probe_begin,  // the probe move comes after this,
-    probe_end,    // then this; no stage reads further before the machine has stopped here
+    probe_begin,  // probe_begin, then the probe move, then probe_end
+    probe_end,    // no stage reads further before the machine has stopped here
     await_index,
     await_line,  // the next line has not arrived yet; no stage reads further before the machine has stopped here
     tap_turns,   // after tapping down; no stage reads further before the spindle reverses

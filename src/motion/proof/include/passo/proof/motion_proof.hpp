@@ -1,12 +1,12 @@
 // MotionProver: observes a job independently, and measures its actual motion.
 //
-// It verifies the planner and the path smoother, and shares no code with them. It evaluates curves by formulas of its
-// own, replays steps from the definition in wire/board_segment.hpp, and compares the time with the shortest possible
-// time on the same path. docs/motion-proof.md has every formula.
+// It verifies the planner and the path smoother, and shares no code with them. It evaluates curves by independent
+// formulas, simulates steps from the definition in wire/board_segment.hpp, and compares the time with the shortest
+// possible time on the same path. docs/motion-proof.md has every formula.
 //
-// It is not a stage of the pipeline. Feed it, in the order in which they come, the programmed path (Job::path()), the
-// planned motion (Job::motion()) and the board items (Job::board()). An item of the motion may come only after the path
-// segments that it executes. Memory is bounded: a window of the path, for a job of any length.
+// It is not a stage of the pipeline. Pass it, in their order, the programmed path (Job::path()), the planned motion
+// (Job::motion()) and the board items (Job::board()). A motion item must come after the path segments that it executes.
+// Memory is bounded: a window of the path, for a job of any length.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,8 @@ struct ProvenAxis {
   // At a stop point, the velocity may jump between two values, of which neither exceeds this and which differ by at
   // most this. 0: no jump.
   MmPerSecond start_stop = MmPerSecond(0);
-  // A limit that falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all speeds.
+  // A limit that falls with the speed: monotonically falling, and above 0 up to `velocity`. Empty: `acceleration` at
+  // all speeds.
   std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
 };
 struct ProofOptions {
@@ -40,8 +41,8 @@ struct ProofOptions {
   Hertz tick_rate{16e6};
 };
 
-// The worst value of one kind: the largest, or the largest multiple of the limit where the limit changes with the
-// speed. Units: mm (or degrees) and seconds.
+// The worst value of a quantity: the largest value, or, if the limit changes with the speed, the largest multiple of
+// the limit. Units: mm (or degrees) and seconds.
 struct Finding {
   double value = 0;
   double limit = 0;        // 0: no limit
@@ -58,7 +59,7 @@ struct AxisProof {
   Finding acceleration;
   Finding jerk;
   // Between two phases.
-  Finding velocity_jump;      // the limit is the rounding error, or the start-stop velocity at a stop point
+  Finding velocity_jump;      // the limit is the rounding tolerance, or the start-stop velocity at a stop point
   Finding acceleration_jump;  // no limit where the jerk has no limit
   // Measured from the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add
   // `..._noise`. Permitted jumps at stop points do not count as acceleration.
@@ -74,9 +75,9 @@ struct MotionProof {
   Finding deviation;  // between planned and programmed path; the limit is the tolerance at that point
   Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
-  Seconds time_bound{0};  // no motion on the same path within velocity, acceleration, jerk and feed takes less
+  Seconds time_bound{0};  // no motion on the same path within velocity, acceleration, jerk and feed limits takes less
   // No motion on any path within the tolerance takes less, within the same limits. 0 without a programmed path. Axes
-  // with a start-stop velocity count as if any acceleration were possible.
+  // with a start-stop velocity count as having no acceleration limit.
   Seconds tube_bound{0};
   std::uint64_t moves = 0;
   std::uint64_t phases = 0;

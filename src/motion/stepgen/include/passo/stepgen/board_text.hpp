@@ -1,4 +1,4 @@
-// Board items as text, one line each, for golden files and for readers. Board items are the input of the wire protocol.
+// Board items as text, one line each, for golden files and for people. Board items are the input of the wire protocol.
 //
 //   segment 200 events, 250.5 ticks, change 0.125, X +1 Y -0.40002 Z 0
 //   outputs spindle clockwise 1000 rpm, flood

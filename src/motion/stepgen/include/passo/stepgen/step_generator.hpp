@@ -27,11 +27,11 @@ struct BoardPlace {
   std::array<std::int64_t, max_motors> motors{};
   std::uint16_t tick = whole_tick / 2;
   std::int64_t steps(std::size_t motor) const { return motors[motor] >> 16; }
-  // Sets another whole step for the motor. The fraction of a step is kept.
+  // Changes the motor's whole step count. The fraction of a step is kept.
   void set_steps(std::size_t motor, std::int64_t steps) {
     motors[motor] = steps * whole_step + (motors[motor] & (whole_step - 1));
   }
-  // With the fractions.
+  // Returns the position with fractions.
   MotorPlace exact() const {
     MotorPlace place;
     for (std::size_t m = 0; m < motors.size(); ++m) place[m] = static_cast<double>(motors[m]) / whole_step - 0.5;
@@ -43,11 +43,10 @@ struct BoardPlace {
 struct StepOptions {
   Kinematics kinematics = {};
   BoardClock clock;
-  Point start = {};  // machine position at the start; the motors' step counts begin at its whole steps
-  bool bends =
-      true;  // whether segments may have a change of the increments, which does not suit the second motor of an axis
+  Point start = {};   // machine position at the start; the motors' step counts begin at its whole steps
+  bool bends = true;  // whether segments may have a bend, which does not suit the second motor of an axis
   std::optional<BoardPlace> place = {};  // the board's position; empty: the handshake has just taken place at `start`
-  AxisSet downs = {};                    // the axes whose backlash is taken up for downward motion
+  AxisSet downs = {};                    // the axes whose backlash is taken up for motion in the negative direction
 };
 
 // The items that are sent to the board, in order. The segments before an Action end in a stop. A dwell becomes segments
@@ -70,8 +69,8 @@ struct Exactness {
   friend bool operator==(const Exactness&, const Exactness&) = default;
 };
 inline constexpr int longest_segment_of_all = 2047;
-// Below this rate of events the steps of the fastest motor are divided, if no other exactness was asked for: this share
-// of the board's highest rate, or Exactness::least_rate if that is lower.
+// Below this event rate the steps of the fastest motor are divided, unless another exactness was requested: this
+// fraction of the board's highest rate, or Exactness::least_rate if that is lower.
 inline constexpr double slow_share = 1.0 / 16;
 inline Hertz slow_event_rate(Hertz highest_event_rate) {
   return std::min(Exactness{}.least_rate, highest_event_rate * slow_share);
@@ -90,7 +89,8 @@ class StepGenerator final : public Source<BoardItem> {
   void be_exact_to(const Exactness& exactness);
 
   // Takes over the state of `other`, but keeps its own source of motion, waiting time and exactness. `other` must have
-  // been made with the same options. A copy can thus try another motion from here, and its end state can be continued.
+  // been made with the same options. A copy can thus try another motion from here, and motion can continue from the
+  // copy's end state.
   void assume(const StepGenerator& other);
   // Whether the motion pulled so far ends in a stop.
   bool ends_at_rest() const;
@@ -102,7 +102,7 @@ class StepGenerator final : public Source<BoardItem> {
   Seconds cut_dwell();
   // The board's position after all items returned so far. Call it only at a stop.
   BoardPlace place() const;
-  // The axes whose backlash is taken up for downward motion, at the end of the motion pulled so far.
+  // The axes whose backlash is taken up for motion in the negative direction, at the end of the motion pulled so far.
   AxisSet downs() const;
 
  private:

@@ -1,13 +1,13 @@
 // AccelerationCurve: the acceleration limit of an axis, which falls with its speed.
 //
-// The input is samples of a falling function A(v). The curve kept is a convex function of w = v² below the samples: the
-// highest of a few straight lines at_rest − fall·w. It is a function of w because the planner's constraints are linear
-// in squared speeds. Each line is thus a constraint that holds at any speed, and the highest line at the present speed
-// is almost exact (speed_window.hpp).
+// The input is samples of a falling function A(v). The stored curve is a convex function of w = v² below the samples:
+// the maximum of a few straight lines at_rest − fall·w. It is a function of w because the planner's constraints are
+// linear in squared speeds. Each line is thus a constraint that holds at any speed, and the highest line at the present
+// speed is almost exact (speed_window.hpp).
 //
 //   A ^ ......                 ...  the samples: flat up to a shoulder, then falling
 //     |    \  `.               \    the lines; left of the shoulder they are above the constant limit that
-//     |     \__ `.                  every axis has besides, and have no effect
+//     |     \__ `.                  every axis also has, and so have no effect
 //     |        `---\____
 //     +-------------------> w
 //
@@ -39,9 +39,9 @@ class AccelerationCurve {
   };
 
   AccelerationCurve() = default;
-  // A curve that is nowhere above a falling function through the samples. The speeds of the samples ascend from 0;
-  // their accelerations fall and stay above 0. `most` is the constant limit beside the curve; samples above it are not
-  // needed.
+  // Returns a curve that is nowhere above a falling function through the samples. The speeds of the samples ascend from
+  // 0; their accelerations fall and stay above 0. `most` is the constant limit that applies besides the curve; samples
+  // above it are not needed.
   static AccelerationCurve below(std::span<const Sample> samples, MmPerSecond2 most);
 
   bool empty() const { return lines_.empty(); }

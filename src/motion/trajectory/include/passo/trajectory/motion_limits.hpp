@@ -13,12 +13,12 @@
 
 namespace passo {
 
-// A speed beyond any machine, in mm/s, which keeps a segment finite that no axis limits.
+// A speed beyond that of any machine, in mm/s, for segments that no axis limits.
 inline constexpr double fastest = 1e6;
 inline constexpr double strongest = 1e9;
 inline constexpr double sharpest = 1e13;
 
-// The limits of a motor that moves several axes. Its position is the row's sum, in millimetres.
+// The limits of a motor that moves several axes. Its position is the sum of the row, in millimetres.
 struct RowLimits {
   AxisRow row;
   MmPerSecond velocity{0};
@@ -27,7 +27,7 @@ struct RowLimits {
   AccelerationCurve falling = {};
 };
 
-// A machine has no more motors that axes share.
+// The maximum number of motors that axes share on one machine.
 inline constexpr std::size_t most_limited_rows = 4;
 
 struct MotionLimits {
@@ -38,7 +38,7 @@ struct MotionLimits {
   // constant limit.
   PerAxis<AccelerationCurve> falling;
   // The velocity to which a motor can jump from standstill, and from which it can stop instantly, without losing a
-  // step. 0: none. Planning with limited jerk does not use it.
+  // step. 0: none. Planning with jerk limits does not use it.
   PerAxis<MmPerSecond> start_stop;
   // Limits in addition to those of the axes, at most most_limited_rows. None on a machine with a motor for each axis.
   std::vector<RowLimits> rows = {};

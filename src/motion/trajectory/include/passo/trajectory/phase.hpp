@@ -1,8 +1,8 @@
 // Phase: a piece of motion with constant jerk along the path. PlannedMove: a segment, or a part of one, and its phases.
 //
 // s(t) = s0 + v0 t + a0 t²/2 + j t³/6 for 0 <= t <= duration, with s along the segment's curve. The phases of a move
-// follow each other without gap. A segment with more phases than a move holds comes as several moves. The first begins
-// at s = 0, each of the others where the last one ended, and the last ends at the curve's length.
+// follow each other without a gap. A segment with more phases than fit into a move becomes several moves. The first
+// begins at s = 0, each later one at the end of the previous one, and the last ends at the curve's length.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ struct PlannedMove {
   }
   const Phase* begin() const { return phases.data(); }
   const Phase* end() const { return phases.data() + phase_count; }
-  // The part of the curve that the move covers: from the start of its first phase
+  // The part of the curve that the move covers: from the start of its first phase,
   Mm from() const { return phase_count > 0 ? phases[0].start : Mm(0); }
   Mm to{0};  // to here
   Seconds duration() const {

@@ -1,19 +1,19 @@
 // Planner: converts segments into phases. It finds the fastest motion along the path that keeps every axis within its
 // limits, and looks ahead as far as the braking distance, in bounded memory.
 //
-//   v²    top ________                 The path is cut into cells; in each cell v² is a straight line over the way.
-//        /|           \______          Backwards, from the last known cell: the highest entry from which braking can
-//       / |           |      \         still meet all later speeds. Forwards, from rest: the real speed, by
-//      /  |           |       \        accelerating. Feed and velocities cap both. The path rests at corners (where
-//     0 --+--cell-----+--------+-- s   directions of segments differ), after an exact stop and at actions.
+//   v²    top ________                 The path is cut into cells; in each cell v² is linear in the distance.
+//        /|           \______          Backwards, from the last known cell: the highest entry from which deceleration
+//       / |           |      \         can still meet all later speeds. Forwards, from rest: the actual speed,
+//      /  |           |       \        by accelerating. Feed and velocities limit both. The path stops at corners
+//     0 --+--cell-----+--------+-- s   (where segment directions differ), after an exact stop and at actions.
 //
-// On a curve, an axis needs part of its acceleration to change direction; the remainder is available for accelerating
-// and braking. The possible speeds at the two ends of a cell are a small linear program in each direction
+// On a curve, an axis needs part of its acceleration to change direction; the remainder is available for acceleration
+// and deceleration. The possible speeds at the two ends of a cell are a small linear program in each direction
 // (speed_window.hpp).
 //
-// Invariant: each move ends at a speed from which the queued cells can brake to rest. The motion is the same, bit for
-// bit, as if the whole program had been planned at once, unless a queue of `most_queued_cells` did not reach the
-// braking distance. Time: amortised constant for each cell. See docs/decisions/0010 and 0014.
+// Invariant: each move ends at a speed from which the queued cells can brake to rest. The motion is bit-identical to
+// that of a whole program planned at once, unless a queue of `most_queued_cells` did not reach the braking distance.
+// Time: amortised constant for each cell. See docs/decisions/0010 and 0014.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +37,9 @@ class Planner final : public Source<MotionItem> {
 
   [[nodiscard]] bool next(MotionItem& item) override;
 
-  // Changes while running. A move that was returned stays as it is. The motion after it is planned again from its end,
-  // on the path and within the limits. The delay of a change thus depends on how far the caller pulls ahead, and on the
-  // longest move.
+  // Real-time changes. A returned move stays unchanged. The motion after it is planned again from its end, on the path
+  // and within the limits. The delay of a change thus depends on how far the caller pulls ahead, and on the longest
+  // move.
 
   // From now on no move is longer than this time.
   void limit_moves_to(Seconds duration);
