@@ -137,7 +137,7 @@ endfunction()
 function(passo_test name)
   cmake_parse_arguments(ARG "ALONE;CALCULATES" "ONE_IN;COST" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   if(PASSO_SANITIZE)
-    set(ARG_ONE_IN 8)  # a trial takes ten times as long
+    set(ARG_ONE_IN 16)  # a trial takes ten times as long
   elseif(PASSO_TESTS_IN_FULL OR NOT ARG_ONE_IN)
     set(ARG_ONE_IN 1)
   endif()

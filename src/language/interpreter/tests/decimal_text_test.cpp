@@ -53,7 +53,7 @@ TEST(DecimalText, numbers_beside_a_half_are_rounded_as_printf_does) {
 TEST(DecimalText, random_numbers_are_the_characters_of_printf) {
   std::mt19937_64 random(test::seed());
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
-  for (int i = 0; i < test::fewer(100'000); ++i) {
+  for (int i = 0; i < test::fewer(40'000); ++i) {
     const double value = std::bit_cast<double>(random());
     if (std::isfinite(value)) expect_as_printf(value);
     expect_as_printf(std::uniform_real_distribution<double>(-2000, 2000)(random));

@@ -84,7 +84,7 @@ TEST(Fuzz, random_blocks_are_interpreted_or_refused) {
   const std::vector<std::string> controls = split(control_list);
   Random random(test::seed());
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     std::string program = below(random, 2) == 0 ? "G21 F100 S1 M3\n" : "";
     for (std::size_t line = 1 + below(random, 25); line > 0; --line) {
       if (below(random, 3) == 0) {
@@ -107,7 +107,7 @@ TEST(Fuzz, damaged_programs_are_interpreted_or_refused) {
        fs::directory_iterator(fs::path(PASSO_SOURCE_DIR) / "src/language/interpreter/tests/golden")) {
     if (entry.path().extension() != ".ngc") continue;
     const std::string whole = contents(entry.path().string());
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 100; ++i) {
       std::string program = whole;
       for (std::size_t hits = 1 + below(random, 6); hits > 0; --hits) {
         const std::size_t at = below(random, program.size());
