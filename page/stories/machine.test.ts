@@ -115,7 +115,7 @@ describe('inputs and outputs', () => {
   it('are live, and outputs are switched in the output test mode only', async () => {
     const { page, context, errors } = await visit(browser, daemon, 'pins');
     const flood = page.getByRole('region', { name: 'Manual outputs' }).getByRole('button', { name: /^Flood/ });
-    expect(await flood.getAttribute('title')).toContain('Only in output test mode');
+    expect(await flood.getAttribute('title')).toContain('Available only in output test mode');
     if ((await daemon.status()).owner.kind === 'client') {
       await click(page, 'Take control');
       await agree(page, 'Take control');

@@ -111,14 +111,14 @@ describe('a program on its way', () => {
     await daemon.until((status) => status.state === 'Run');
     await click(first.page, 'Hold');
     const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
-    await first.page.getByText('Held').waitFor();
+    await first.page.getByText('On hold', { exact: true }).waitFor();
     await click(first.page, 'Increase: Feed');
     await click(first.page, 'Increase: Feed');
     await daemon.until((status) => Math.abs(status.overrides.feed - 1.2) < 1e-6);
     // The page is closed: the machine goes on holding, and another page finds it so.
     await first.context.close();
     const second = await visit(browser, daemon, 'run');
-    expect(await second.page.getByTestId('state').innerText()).toBe('Held');
+    expect(await second.page.getByTestId('state').innerText()).toBe('On hold');
     for (const [axis, place] of Object.entries((await daemon.status()).place)) expect(place).toBeCloseTo(held.place[axis] ?? NaN, 1.5);
     await second.page.locator('.owner').waitFor();
     await takeOver(second.page);
@@ -203,7 +203,7 @@ describe('a dialog that is open while the machine moves', () => {
     await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
     await click(page, 'Resume');
     await daemon.until((status) => status.state === 'Run');
-    await click(page, 'View');
+    await click(page, 'Settings');
     expect(await violations(page)).toEqual([]);
     await page.getByRole('dialog').getByRole('button', { name: 'Stop' }).click();
     await daemon.until((status) => status.state === 'Idle' && status.job?.state === 'stopped');

@@ -29,7 +29,7 @@ export const pins = {
   'outputs.begin': 'Output test mode',
   'outputs.end': 'End output test mode',
   'outputs.now': 'Output test mode',
-  'outputs.only': 'Only in output test mode',
+  'outputs.only': 'Available only in output test mode',
   'outputs.ask': 'Start output test mode?',
   'outputs.facts': 'You can then switch outputs manually. No motor moves.',
   'outputs.ends': 'Stop and Done end output test mode and switch all outputs off.',
@@ -37,7 +37,7 @@ export const pins = {
   'outputs.spindle.facts': 'Keep clear of the machine, and make sure that the tool touches nothing.',
   'outputs.spindle.on': 'Start the spindle',
   // The last seconds
-  'strip.title': 'The last 20 seconds',
+  'strip.title': 'Last 20 seconds',
   'strip.stand': 'Freeze',
   'strip.what': 'Motors: steps per second, upwards in the positive direction. The server reports changes 30 times per second; single pulses are shown below.',
   // Single pulses
@@ -57,6 +57,6 @@ export const pins = {
   'pulses.none': 'No motor has moved yet.',
   'pulses.motor': '{axis} {count}, {interval} after the previous pulse: {rate} steps/s',
   'pulses.at': 'At {at} s; {wide} shown.',
-  'pulses.many': 'Only the first {shown} are shown because there are too many pulses. Zoom in.',
+  'pulses.many': 'There are too many pulses, so only the first {shown} are shown. Zoom in to see the others.',
   'pulses.what': 'Each pulse as it was sent to the board; during a move its time is exact to the board’s timer tick. The winding currents are calculated from the steps and the microsteps in the machine file. Click to place the cursor; drag to move; use the wheel with Ctrl or Shift to zoom.',
 } as const;
