@@ -75,7 +75,7 @@ describe('a job that was interrupted', () => {
     // Other pages lead to it.
     await page.goto(`${second.address}#/files`);
     await page.getByText('Job part.ngc was interrupted.').waitFor();
-    await click(page, 'Show');
+    await click(page, 'Show details');
     await click(page, 'Resume here');
     await page.getByRole('dialog').getByText('The spindle starts with the tool where it is now').waitFor();
     await agree(page, 'Resume here');

@@ -115,7 +115,7 @@ export const en = {
   time: 'Time',
   idealLine: 'Ideal ramp',
   intervalsLesson:
-    'These values are loaded into the timer of the microcontroller. The recursive method makes the intervals too short from the second one on (that one by 19.5 %), and the errors add up, so the whole ramp is shifted in time. With the table, the error of one interval does not affect the next.',
+    'These values are loaded into the timer of the microcontroller. The recursive method makes the intervals too short from the second one on (the second by 19.5 %), and the errors add up, so the whole ramp is shifted in time. With the table, the error of one interval does not affect the next.',
   timerValues: 'Timer values',
   step: 'Step',
   ticks: 'ticks',

@@ -24,7 +24,7 @@ export const faults = {
   'machine.nothing-runs.jog': 'no jog is active',
   'machine.nothing-runs.hold': 'no program is on hold',
   'machine.nothing-runs.program': 'no program is running',
-  'machine.nothing-runs.spindle': 'the spindle can be stopped only on hold, when the machine has stopped',
+  'machine.nothing-runs.spindle': 'the spindle can be stopped only when the machine is on hold and has stopped',
   'machine.not-waiting': 'the program is not waiting for the operator',
   'machine.no-switches': 'no axis has a homing switch (table [axis.X.home] in the machine file)',
   'machine.bad-value.jog': 'a jog needs a direction and a speed above 0',
@@ -42,7 +42,7 @@ export const faults = {
   // Requests that the server refuses
   'http.bad-request': 'the server cannot interpret this request',
   'http.token': 'a token is required',
-  'http.foreign-page': 'the server does not accept requests from a page with another address',
+  'http.foreign-page': 'the server does not accept requests from a web page with a different address',
   'http.not-found': 'the server has nothing at this address',
   'http.method': 'the server does not accept this request at this address',
   'http.too-large': 'the file is too large',

@@ -34,7 +34,7 @@ export const files = {
   'files.run': 'Run',
   'files.history': 'History',
   'files.history.none': 'No job has ended yet.',
-  'files.history.off': 'passo serve keeps no queue and no history. Start it with --data DIR.',
+  'files.history.off': 'To keep a queue and a history, start passo serve with --data DIR.',
   'files.job.queued': 'Waiting',
   'files.job.running': 'Running',
   'files.job.done': 'Done',
@@ -48,7 +48,7 @@ export const files = {
   'proposal.work-zero': 'With a different work zero, the program fits within the travel (machine coordinates, {unit}): {zeros}.',
   'proposal.axis-too-short': '{axis} is too short: the program needs {needed} {unit}, but the travel is {travel} {unit}.',
   'proposal.tools': 'With {tools} in the tool table, the program passes the check. Enter the length and diameter of the real tool: the check assumed 0.',
-  'proposal.spindle-speed': 'At S{rpm} or less the axes can follow the spindle.',
+  'proposal.spindle-speed': 'At S{rpm} or less, the axes can follow the spindle.',
   'proposal.spindle-speed.feed': 'The spindle reaches at most {rpm} rpm. With a feed override of {percent} %, the chip load is no higher than programmed.',
   'proposal.override': 'With a feed override of {feed} % and a rapid override of {rapid} %, the motors lose no steps.',
 } as const;

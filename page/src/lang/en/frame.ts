@@ -44,7 +44,7 @@ export const frame = {
   'owner.sender': 'A G-code sender',
   'owner.take': 'Take control',
   'owner.take.ask': 'Take control from {name}?',
-  'owner.take.what': 'The other client can then no longer move the machine. You can take control only while the machine is stopped.',
+  'owner.take.what': 'The other client can no longer move the machine. You can take control only while the machine is stopped.',
   'owner.give': 'Release control',
   'owner.mine': 'This page is in control.',
   'owner.device': '{browser} on {device}',
@@ -122,7 +122,7 @@ export const frame = {
   'wait.line': 'line {line}',
   'wait.tool': 'tool {tool}',
   'wait.free': 'In the meantime you can jog, probe, set zeros and home in the Setup tab.',
-  'wait.outputs': 'The spindle or the coolant is on, so you cannot jog here.',
+  'wait.outputs': 'The spindle or the coolant is on, so jogging is disabled.',
   // Keyboard shortcuts
   'keys.help': 'Show these shortcuts',
   'keys.hold': 'Hold',

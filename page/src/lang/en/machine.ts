@@ -11,7 +11,7 @@ export const machine = {
   'machine.steps': 'Steps',
   'machine.step': 'Step size',
   'machine.homes': 'Homing',
-  'machine.homes.yes': 'by a switch',
+  'machine.homes.yes': 'with a switch',
   'machine.homes.no': 'no switch',
   'machine.inputs': 'Inputs',
   'machine.input.probe': 'Probe',

@@ -32,18 +32,18 @@ export const pins = {
   'outputs.only': 'Available only in output test mode',
   'outputs.ask': 'Start output test mode?',
   'outputs.facts': 'You can then switch outputs manually. No motor moves.',
-  'outputs.ends': 'Stop and Done end output test mode and switch all outputs off.',
+  'outputs.ends': 'The buttons Stop and Done end output test mode and switch off all outputs.',
   'outputs.spindle.ask': 'Start the spindle at {speed} rpm?',
   'outputs.spindle.facts': 'Keep clear of the machine, and make sure that the tool touches nothing.',
   'outputs.spindle.on': 'Start the spindle',
   // The last seconds
   'strip.title': 'Last 20 seconds',
   'strip.stand': 'Freeze',
-  'strip.what': 'Motors: steps per second, upwards in the positive direction. The server reports changes 30 times per second; single pulses are shown below.',
+  'strip.what': 'Motors: steps per second; up is the positive direction. The server reports changes 30 times per second; single pulses are shown below.',
   // Single pulses
   'pulses.title': 'Single pulses',
   'pulses.follow': 'Live',
-  'pulses.newest': 'Newest',
+  'pulses.newest': 'Latest',
   'pulses.nearer': 'Zoom in',
   'pulses.wider': 'Zoom out',
   'pulses.earlier': 'Earlier',
@@ -58,5 +58,5 @@ export const pins = {
   'pulses.motor': '{axis} {count}, {interval} after the previous pulse: {rate} steps/s',
   'pulses.at': 'At {at} s; {wide} shown.',
   'pulses.many': 'There are too many pulses, so only the first {shown} are shown. Zoom in to see the others.',
-  'pulses.what': 'Each pulse as it was sent to the board; during a move its time is exact to the board’s timer tick. The winding currents are calculated from the steps and the microsteps in the machine file. Click to place the cursor; drag to move; use the wheel with Ctrl or Shift to zoom.',
+  'pulses.what': 'Each pulse is shown as it was sent to the board; during a move, its time is exact to the board’s timer tick. The winding currents are calculated from the steps and the microstep setting in the machine file. Click to place the cursor; drag to move; use the wheel with Ctrl or Shift to zoom.',
 } as const;

@@ -39,7 +39,7 @@ export const run = {
   // An interrupted job
   'broken.title': 'Interrupted',
   'broken.banner': 'Job {name} was interrupted.',
-  'broken.look': 'Show',
+  'broken.look': 'Show details',
   'broken.begun': 'Start time',
   'broken.noted': 'Time of interruption',
   'broken.where': 'Point of interruption',
@@ -51,7 +51,7 @@ export const run = {
   'broken.nothing': 'Nothing moves by itself. No other job can start until this one is resumed or discarded.',
   'broken.resume': 'Resume here',
   'broken.resume.ask': 'Resume {name}?',
-  'broken.resume.facts': 'The job resumes at line {line}, {place} (machine coordinates), exactly at the current position.',
+  'broken.resume.facts': 'The job resumes at line {line}, exactly at the current position: {place} (machine coordinates).',
   'broken.resume.spindle': 'The spindle starts with the tool where it is now, possibly in the material.',
   'broken.reenter': 'Return to the toolpath',
   'broken.reenter.ask': 'Return to the toolpath of {name}?',
@@ -77,7 +77,7 @@ export const run = {
   'way.after': 'Distance from the start of the line,',
   // The toolpath
   'scene.title': 'Toolpath',
-  'scene.help': 'Drag to rotate; drag with two fingers or Shift to pan; use the wheel or pinch to zoom. Click the toolpath to find its line.',
+  'scene.help': 'Drag to rotate; drag with two fingers, or with Shift, to pan; use the wheel or pinch to zoom. Click the toolpath to find its line.',
   'scene.fit': 'Show all',
   'scene.top': 'Top',
   'scene.iso': 'Isometric',
