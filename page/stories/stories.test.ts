@@ -218,8 +218,8 @@ describe('a program line by line', () => {
     await takeOver(page);
     await send(page, 'lines.ngc', 'G21 G91\nG1 F3000 X5\n/X50\nM1\nX5\nM0\nX-10\nM2\n');
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
-    await click(page, 'Block delete: skip lines with / (1)');
-    await page.getByRole('button', { name: 'Block delete: skip lines with / (1)', pressed: true }).waitFor();
+    await click(page, 'Block delete: skip lines that start with / (1)');
+    await page.getByRole('button', { name: 'Block delete: skip lines that start with / (1)', pressed: true }).waitFor();
     await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
     await page.goto(`${daemon.address}#/run`);
     await click(page, 'Single block');

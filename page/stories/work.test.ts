@@ -42,7 +42,7 @@ describe('the probe', () => {
     await page.goto(`${daemon.address}#/jog`);
     await choose(page, 'Corner');
     await choose(page, 'front left');
-    expect(await page.getByTestId('cycle-steps').innerText()).toContain('out by 25 mm');
+    expect(await page.getByTestId('cycle-steps').innerText()).toContain('out beyond the edge by 25 mm');
     expect(await violations(page)).toEqual([]);
     await page.getByRole('button', { name: 'Probe …' }).click();
     const question = page.getByRole('dialog');

@@ -73,7 +73,7 @@ export const run = {
   'way.looking': 'Calculating the path to that line …',
   'way.refused': 'Cannot start there',
   'way.where': 'Pass, and distance along the line',
-  'way.pass': 'Which pass, if the line runs more than once',
+  'way.pass': 'Pass number (if the line runs more than once)',
   'way.after': 'Distance from the start of the line,',
   // The toolpath
   'scene.title': 'Toolpath',
