@@ -57,7 +57,7 @@ export const run = {
   'broken.reenter.ask': 'Return to the toolpath of {name}?',
   'broken.drop': 'Discard the job',
   'broken.drop.ask': 'Discard the job {name}?',
-  'broken.drop.facts': 'It can then no longer be resumed.',
+  'broken.drop.facts': 'A discarded job can no longer be resumed.',
   'broken.stands': 'Current machine position',
   'broken.next.resume': '{name} was interrupted. Press “Resume here” in the Run tab, or discard the job.',
   'broken.next.home': '{name} was interrupted. Home the machine; then the job can continue.',
