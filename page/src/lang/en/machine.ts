@@ -51,7 +51,7 @@ export const machine = {
   'file.write': 'Save the file',
   'file.write.ask': 'Save {name}?',
   'file.write.facts': 'These values change:',
-  'file.write.when': 'They take effect when passo serve restarts. An interrupted job can then no longer resume exactly.',
+  'file.write.when': 'The changes take effect when passo serve restarts. After that, an interrupted job cannot resume exactly.',
   'file.undo': 'Undo',
   'file.undo.none': 'No changes',
   'file.load': 'Reload',

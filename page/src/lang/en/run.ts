@@ -72,7 +72,7 @@ export const run = {
   'way.clear': 'Check that the steps are correct and that nothing is in the way. Keep clear of the machine.',
   'way.looking': 'Calculating the path to that line …',
   'way.refused': 'Cannot start there',
-  'way.where': 'Pass, and distance along the line',
+  'way.where': 'Pass number and distance along the line',
   'way.pass': 'Pass number (if the line runs more than once)',
   'way.after': 'Distance from the start of the line,',
   // The toolpath
