@@ -28,7 +28,7 @@ const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialo
 async function send(page: Page, daemon: Daemon): Promise<void> {
   await page.goto(`${daemon.address}#/files`);
   await page.setInputFiles('input[type=file]', { name: 'part.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
-  await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+  await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
   await page.goto(`${daemon.address}#/run`);
 }
 async function home(page: Page, daemon: Daemon): Promise<void> {
@@ -75,7 +75,7 @@ describe('a job that was interrupted', () => {
     // Other pages lead to it.
     await page.goto(`${second.address}#/files`);
     await page.getByText('Job part.ngc was interrupted.').waitFor();
-    await click(page, 'Show');
+    await click(page, 'Show details');
     await click(page, 'Resume here');
     await page.getByRole('dialog').getByText('The spindle starts with the tool where it is now').waitFor();
     await agree(page, 'Resume here');
@@ -136,7 +136,7 @@ describe('a start amid a program', () => {
     await home(page, daemon);
     await page.goto(`${daemon.address}#/files`);
     await page.setInputFiles('input[type=file]', { name: 'lap.ngc', mimeType: 'text/plain', buffer: Buffer.from(lap) });
-    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
     await page.goto(`${daemon.address}#/run`);
     await page.locator('.text-line', { hasText: 'G1 X20' }).click();
     await page.locator('.picked-line:visible').getByRole('button', { name: /Start at line 4/ }).click();

@@ -215,7 +215,7 @@ describe('a jog', () => {
     const { page } = await visit(browser, daemon, 'jog');
     await daemon.until((status) => status.state === 'Idle');
     await page.getByRole('radio', { name: '1', exact: true }).click();
-    await page.getByText('Keys jog the machine').waitFor();
+    await page.getByText('Keyboard jogging is on').waitFor();
     await page.getByText('one step per press').waitFor();
     const before = (await daemon.status()).place.y ?? 0;
     await page.keyboard.press('ArrowUp');
@@ -223,7 +223,7 @@ describe('a jog', () => {
     expect(await page.getByRole('radio', { name: '1', exact: true }).isChecked()).toBe(true);
     // By Tab the choice has the keys, and the page says so.
     await page.getByRole('radio', { name: '1', exact: true }).focus();
-    await page.getByText('Keys go to the selected field').waitFor();
+    await page.getByText('Keystrokes go to the selected field').waitFor();
     await page.getByText('Click outside the field').waitFor();
     await leave(page);
   });

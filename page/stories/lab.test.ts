@@ -36,7 +36,7 @@ describe('the lab', () => {
     // A place that is shown in the address and in the fields is the place of the handle.
     const [x, y] = (query(page).get('to') ?? '').split(',');
     expect(await end.getAttribute('aria-valuetext')).toBe(`x ${x}, y ${y}`);
-    expect(await page.getByLabel('End X').inputValue()).toBe(x);
+    expect(await page.getByLabel('End point X').inputValue()).toBe(x);
     expect(errors).toEqual([]);
     await context.close();
   });

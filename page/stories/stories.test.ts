@@ -54,7 +54,7 @@ describe('first start to first cut', () => {
     await expect.poll(() => page.getByTestId('work-x').innerText()).toBe('0.000');
     await page.goto(`${daemon.address}#/files`);
     await send(page, 'part.ngc', part);
-    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
     await page.getByText('X 10.00 … 60.00 mm').waitFor();
     await click(page, 'Open');
     await startProgram(page);
@@ -73,7 +73,7 @@ describe('the question before a start', () => {
     await takeOver(page);
     const { key } = (await daemon.post('/owner', '{"name": "story"}')) as { key: string };
     await send(page, 'far.ngc', 'G21 G90 F600\nG0 X60 Y50\nG1 X0 Y0\nX5\nG53 G0 Z-1\nG91 G0 X7\nM2\n');
-    await expect.poll(() => page.getByRole('region', { name: 'far.ngc' }).getByTestId('verdict').innerText()).toContain('Good');
+    await expect.poll(() => page.getByRole('region', { name: 'far.ngc' }).getByTestId('verdict').innerText()).toContain('No errors');
     // The tool is moved after the check.
     await daemon.post('/jog', '{"direction": {"y": 1}, "speed": 3000, "distance": 3, "lease": 5}', key);
     const { place, work_offset: offset = {} } = await daemon.until((status) => status.state === 'Idle' && status.rests);
@@ -104,21 +104,21 @@ describe('a program on its way', () => {
     const first = await visit(browser, daemon, 'files');
     await send(first.page, 'slow.ngc', part.replace('F1200', 'F400'));
     // Another program may be open until this one is there.
-    await expect.poll(() => first.page.getByRole('region', { name: 'slow.ngc' }).getByTestId('verdict').innerText()).toContain('Good');
+    await expect.poll(() => first.page.getByRole('region', { name: 'slow.ngc' }).getByTestId('verdict').innerText()).toContain('No errors');
     await first.page.goto(`${daemon.address}#/run`);
     await takeOver(first.page);
     await startProgram(first.page);
     await daemon.until((status) => status.state === 'Run');
     await click(first.page, 'Hold');
     const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
-    await first.page.getByText('Held').waitFor();
+    await first.page.getByText('On hold', { exact: true }).waitFor();
     await click(first.page, 'Increase: Feed');
     await click(first.page, 'Increase: Feed');
     await daemon.until((status) => Math.abs(status.overrides.feed - 1.2) < 1e-6);
     // The page is closed: the machine goes on holding, and another page finds it so.
     await first.context.close();
     const second = await visit(browser, daemon, 'run');
-    expect(await second.page.getByTestId('state').innerText()).toBe('Held');
+    expect(await second.page.getByTestId('state').innerText()).toBe('On hold');
     for (const [axis, place] of Object.entries((await daemon.status()).place)) expect(place).toBeCloseTo(held.place[axis] ?? NaN, 1.5);
     await second.page.locator('.owner').waitFor();
     await takeOver(second.page);
@@ -193,7 +193,7 @@ describe('a dialog that is open while the machine moves', () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     await takeOver(page);
     await send(page, 'slow.ngc', 'G21 G91 G1 F100 X20\nX-20\nM2\n');
-    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
     await startProgram(page);
     await daemon.until((status) => status.state === 'Run');
     await page.keyboard.press('?');
@@ -203,7 +203,7 @@ describe('a dialog that is open while the machine moves', () => {
     await page.getByRole('dialog').getByRole('button', { name: 'Close' }).click();
     await click(page, 'Resume');
     await daemon.until((status) => status.state === 'Run');
-    await click(page, 'View');
+    await click(page, 'Settings');
     expect(await violations(page)).toEqual([]);
     await page.getByRole('dialog').getByRole('button', { name: 'Stop' }).click();
     await daemon.until((status) => status.state === 'Idle' && status.job?.state === 'stopped');
@@ -217,10 +217,10 @@ describe('a program line by line', () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     await takeOver(page);
     await send(page, 'lines.ngc', 'G21 G91\nG1 F3000 X5\n/X50\nM1\nX5\nM0\nX-10\nM2\n');
-    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
-    await click(page, 'Block delete: skip lines with / (1)');
-    await page.getByRole('button', { name: 'Block delete: skip lines with / (1)', pressed: true }).waitFor();
-    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
+    await click(page, 'Block delete: skip lines that start with / (1)');
+    await page.getByRole('button', { name: 'Block delete: skip lines that start with / (1)', pressed: true }).waitFor();
+    await expect.poll(() => page.getByTestId('verdict').innerText()).toContain('No errors');
     await page.goto(`${daemon.address}#/run`);
     await click(page, 'Single block');
     await click(page, 'Stop at M1');

@@ -38,11 +38,11 @@ describe('the probe', () => {
     const { page, context, errors } = await visit(browser, daemon, 'files');
     page.setDefaultTimeout(patience);
     await page.setInputFiles('input[type=file]', { name: 'part.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
-    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: patience }).toContain('Good');
+    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: patience }).toContain('No errors');
     await page.goto(`${daemon.address}#/jog`);
     await choose(page, 'Corner');
     await choose(page, 'front left');
-    expect(await page.getByTestId('cycle-steps').innerText()).toContain('out by 25 mm');
+    expect(await page.getByTestId('cycle-steps').innerText()).toContain('out beyond the edge by 25 mm');
     expect(await violations(page)).toEqual([]);
     await page.getByRole('button', { name: 'Probe …' }).click();
     const question = page.getByRole('dialog');

@@ -55,11 +55,11 @@ describe('a report', () => {
   it('is said in the language of the page, by its code and arguments', () => {
     expect(reportWords('whatever the server says', closed)).toBe('the limit switch of X was triggered: the motor positions are unreliable');
     language.value = 'fr';
-    expect(reportWords('whatever the server says', closed)).toBe('le fin de course de X s’est déclenché : la position des moteurs n’est plus fiable');
+    expect(reportWords('whatever the server says', closed)).toBe('le fin de course de X s’est déclenché\u00a0: la position des moteurs n’est plus fiable');
     expect(reportWords('', { code: 'machine.busy.not-idle', arguments: { state: 'Run' } })).toBe('');
-    expect(reportWords('x', { code: 'machine.busy.not-idle', arguments: { state: 'Run' } })).toBe('la machine n’est pas au repos : Usinage en cours');
+    expect(reportWords('x', { code: 'machine.busy.not-idle', arguments: { state: 'Run' } })).toBe('la machine n’est pas au repos\u00a0: Usinage en cours');
     expect(reportWords('x', { code: 'job.finding', arguments: { line: '9', finding: 'no feed rate is set', code: 'gcode.missing-feed' } })).toBe(
-      'ligne 9 : aucune avance n’est donnée [gcode.missing-feed]',
+      'ligne 9\u00a0: aucune avance n’est donnée [gcode.missing-feed]',
     );
   });
 

@@ -51,7 +51,7 @@ describe('a finding', () => {
     );
     language.value = 'fr';
     expect(findingIn('the program aborts: the bores are 69.1 mm apart; they should be 70.0000 mm apart')).toBe(
-      'le programme abandonne : les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
+      'le programme abandonne\u00a0: les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
     );
     expect(findingIn('no feed rate is set')).toBe('aucune avance n’est donnée');
     language.value = 'zh';

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { fill, language, languageOf, sayCount } from '../src/core/language';
+import { fill, language, languageOf, sayCount, typeset } from '../src/core/language';
 import { cam } from '../src/lang/en/cam';
 import { console as consoleWords } from '../src/lang/en/console';
 import { files } from '../src/lang/en/files';
@@ -33,6 +33,16 @@ describe('languages', () => {
 
   it('fills in values, and leaves what it does not know', () => {
     expect(fill('Line {line} of {lines}', { line: 3 })).toBe('Line 3 of {lines}');
+  });
+
+  it('keeps French punctuation on the line of its word, and leaves values and other languages alone', () => {
+    const hard = '\u00a0';
+    const set = 'État «_Prêt_»_: {name}_; 5_%_? Oui_!';
+    expect(typeset(set.replaceAll('_', ' '), 'fr')).toBe(set.replaceAll('_', hard));
+    expect(typeset('Wahr : 5 %', 'en')).toBe('Wahr : 5 %');
+    language.value = 'fr';
+    expect(fill('Nom : {name}', { name: 'a : b' })).toBe(`Nom${hard}: a : b`);
+    language.value = 'en';
   });
 
   it('counts one thing and several', () => {

@@ -48,6 +48,10 @@ export function sayCount(key: Counted, count: number, values: Record<string, str
   return say(isOne ? `${key}.one` : key, { ...values, count: count.toLocaleString(language.value) });
 }
 
+// French sets a space before : ; ! ? % » and after «, and no line may break there. The tables have plain spaces.
+export const typeset = (words: string, to: Language): string =>
+  to === 'fr' ? words.replace(/ (?=[:;!?%»])/g, '\u00a0').replace(/« /g, '«\u00a0') : words;
+
 export function fill(words: string, values: Record<string, string | number>): string {
-  return words.replace(/\{(\w+)\}/g, (all, name: string) => String(values[name] ?? all));
+  return typeset(words, language.value).replace(/\{(\w+)\}/g, (all, name: string) => String(values[name] ?? all));
 }

@@ -17,6 +17,8 @@ import { needOperations } from '../machine/cam';
 import { beOwner } from '../machine/owner';
 import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
+import { loadsOfShown } from '../machine/studies';
+import { lookOf, overallVerdict, type OverallLook } from '../machine/verdict';
 import { wordsOfWait } from '../machine/waits';
 import { isUnderWay } from '../machine/words';
 import { Button } from '../parts/button';
@@ -40,23 +42,21 @@ async function take(files: readonly File[]): Promise<void> {
   await takeDrawings(drawings);
 }
 
-const warned = (program: Program): boolean => program.state === 'good' && (program.findings?.length ?? 0) > 0;
-const iconOf = (program: Program): IconName => {
-  if (program.state === 'bad') return 'bad';
-  if (program.state === 'good') return warned(program) ? 'warn' : 'calm';
-  return 'reset';
-};
+const icons: Record<OverallLook, IconName> = { good: 'calm', warned: 'warn', bad: 'bad', pending: 'reset' };
+const overallOf = (program: Program) => overallVerdict(program, program.id === shownId.value ? loadsOfShown.value : null);
 
 function ProgramRow({ program }: { program: Program }) {
   const isShown = program.id === shownId.value;
+  const verdict = overallOf(program);
+  const look = lookOf(verdict);
   return (
     <li>
       <button type="button" class="file-row" aria-pressed={isShown} onClick={() => (chosen.value = program.id)}>
-        <span class={`verdict ${program.state}`}>
-          <Icon name={iconOf(program)} />
+        <span class={`verdict ${look}`}>
+          <Icon name={icons[look]} />
         </span>
         <span class="file-name">{program.name}</span>
-        <span class="dim">{say(`files.state.${program.state}`)}</span>
+        <span class="dim">{say(`files.state.${verdict}`)}</span>
         <span class="dim">{program.state === 'good' ? durationText(timeOf(program)) : ''}</span>
       </button>
     </li>
@@ -66,14 +66,16 @@ function ProgramRow({ program }: { program: Program }) {
 function ShownProgram() {
   const program = shown.value;
   if (program === null) return null;
+  const verdict = overallOf(program);
+  const look = lookOf(verdict);
   const work = pathIndex.value?.program === program.id ? pathBox.value : null;
   const runs = isUnderWay(status.value?.job ?? null) && status.value?.job?.program === program.id;
   const whyDelete = runs ? say('why.state', { state: say(`state.${status.value?.state ?? 'Run'}`) }) : isLive.value ? '' : say('why.lost');
   return (
     <section class="panel" aria-label={program.name}>
       <h2 class="title">{program.name}</h2>
-      <p class={`verdict big ${program.state}`} data-testid="verdict">
-        <Icon name={iconOf(program)} /> {say(warned(program) ? 'files.state.warned' : `files.state.${program.state}`)}
+      <p class={`verdict big ${look}`} data-testid="verdict">
+        <Icon name={icons[look]} /> {say(`files.state.${verdict}`)}
       </p>
       <dl class="figures">
         <div>

@@ -5,6 +5,8 @@ import { clockText, durationText } from '../core/time';
 import { goTo } from '../core/route';
 import { status } from '../machine/connection';
 import { shown, timeOf } from '../machine/programs';
+import { loadsOfShown } from '../machine/studies';
+import { lookOf, overallVerdict } from '../machine/verdict';
 import { isUnderWay } from '../machine/words';
 import { Button } from './button';
 
@@ -32,13 +34,14 @@ export function JobProgress() {
       </section>
     );
   }
+  const verdict = overallVerdict(program, loadsOfShown.value);
   const now = run.value;
   const percent = (now?.progress ?? 0) * 100;
   return (
     <section class="panel job">
       <div class="position-head">
         <h2 class="job-name">{program.name}</h2>
-        <span class={`verdict ${program.state}`}>{say(`files.state.${program.state}`)}</span>
+        <span class={`verdict ${lookOf(verdict)}`}>{say(`files.state.${verdict}`)}</span>
       </div>
       <div
         class="bar"

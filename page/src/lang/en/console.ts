@@ -5,8 +5,8 @@ export const console = {
   'console.send': 'Send',
   'console.search': 'Search the log',
   'console.log': 'Log',
-  'console.empty': 'Nothing yet.',
+  'console.empty': 'The log is empty.',
   'console.nothing': 'No log entry contains these words.',
   'console.modes': 'Active modes',
-  'console.help': 'Modes stay active from line to line until a program runs or the machine is reset. $G, $#, $$, $H and $X work as in Grbl; !\u00a0holds, ~\u00a0resumes. Arrow up recalls earlier lines.',
+  'console.help': 'Modal codes stay active from line to line until a program runs or the machine is reset. $G, $#, $$, $H and $X work as in Grbl; !\u00a0holds, ~\u00a0resumes. The up arrow key recalls earlier lines.',
 } as const;
