@@ -19,7 +19,7 @@
 namespace passo {
 namespace {
 
-constexpr std::size_t most_at_once = 4096;
+constexpr std::size_t most_read_at_once = 4096;
 // So long a port waits that had no room for a caller: too many files are open, or memory is short.
 constexpr std::chrono::milliseconds before_next_accept(50);
 constexpr std::string_view busy_words = "[MSG:Another sender is connected]\r\n";
@@ -206,7 +206,7 @@ void SenderLine::accept_client(News& news) {
 }
 
 void SenderLine::read_bytes(News& news) {
-  std::array<char, most_at_once> bytes;
+  std::array<char, most_read_at_once> bytes;
   const ssize_t got = read(sender_, bytes.data(), bytes.size());
   if (got > 0) {
     heard_ = Clock::now();

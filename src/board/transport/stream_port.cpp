@@ -19,13 +19,13 @@
 namespace passo {
 namespace {
 
-constexpr std::size_t most_at_once = 4096;
+constexpr std::size_t most_bytes_at_once = 4096;
 // The longest wait for a line that accepts nothing, before it counts as broken.
 constexpr Seconds longest_write{2};
 constexpr Seconds between_attempts{0.2};
 constexpr timeval longest_connect{.tv_sec = 5, .tv_usec = 0};
 
-std::string reason() {
+std::string reason_of_failure() {
   return std::strerror(errno);
 }
 
@@ -57,7 +57,7 @@ Result<int, std::string> connect_tcp(const BoardAddress& address) {
     }
   }
   freeaddrinfo(found);
-  if (descriptor < 0) return Failure{name + ": " + reason()};
+  if (descriptor < 0) return Failure{name + ": " + reason_of_failure()};
   // Frames are small and must not wait for more data.
   const int on = 1;
   setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -104,8 +104,8 @@ bool StreamPort::run(Seconds most) {
   if (broken_ && open_again_) open_again(most);
   if (broken_ || !wait_for(POLLIN, most)) return false;
   const std::size_t before = arrived_.size();
-  arrived_.resize(before + most_at_once);
-  const ssize_t got = read(descriptor_, arrived_.data() + before, most_at_once);
+  arrived_.resize(before + most_bytes_at_once);
+  const ssize_t got = read(descriptor_, arrived_.data() + before, most_bytes_at_once);
   arrived_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   // The line is readable but has no data: the other side has closed.
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) broken_ = hung_up_ = true;

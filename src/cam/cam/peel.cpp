@@ -13,14 +13,14 @@
 namespace passo {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double whole_turn = 2 * std::numbers::pi;
 
 // The greatest angle of its edge that a cutter has in the stock while its middle follows the rim of `next`, when all is
 // free that it has reached from within `before`. Behind it, it has just been.
 double engagement_on_rim(const PeelDisc& before, const PeelDisc& next, double cutter) {
   const double apart = std::hypot(next.x - before.x, next.y - before.y);
   const double free = before.radius + cutter;
-  double widest = turn / 2;  // the part of the rim outside of `before`, to each side
+  double widest = whole_turn / 2;  // the part of the rim outside of `before`, to each side
   if (apart > 0) {
     const double cosine = (before.radius * before.radius - apart * apart - next.radius * next.radius) /
                           (2 * apart * std::max(1.0, next.radius));
@@ -38,8 +38,8 @@ double engagement_on_rim(const PeelDisc& before, const PeelDisc& next, double cu
     // The stock begins at this angle from the direction away from `before`, to each side.
     const double half =
         std::acos(std::clamp((free * free - away * away - cutter * cutter) / (2 * away * cutter), -1.0, 1.0));
-    const double lean = std::remainder(std::atan2(y, x) - along, turn);
-    most = std::max(most, std::min(turn / 2, lean + half) - std::max(0.0, lean - half));
+    const double lean = std::remainder(std::atan2(y, x) - along, whole_turn);
+    most = std::max(most, std::min(whole_turn / 2, lean + half) - std::max(0.0, lean - half));
   }
   return most;
 }
@@ -50,7 +50,7 @@ class Peeler {
       : ground_(ground),
         options_(options),
         cutter_(static_cast<double>(options.cutter.count) / 2),
-        most_(options.most_degrees / 360 * turn),
+        most_(options.most_degrees / 360 * whole_turn),
         least_beyond_(cutter_ / 50) {}
 
   PeelWay find() {
@@ -132,7 +132,7 @@ class Peeler {
 // Adds an arc about x, y. Where climbing, discs are followed counterclockwise: the stock is on the right.
 void Peeler::arc(double x, double y, double radius, double from, double sweep) {
   length_ += radius * std::abs(sweep) + cutter_ / 100;
-  const double parts = std::ceil(std::abs(sweep) / (turn / 3) - 1e-9);
+  const double parts = std::ceil(std::abs(sweep) / (whole_turn / 3) - 1e-9);
   for (double i = 0; i < parts; ++i) {
     run_.back().bulge = std::tan(sweep / parts / 4);
     const double angle = from + sweep * (i + 1) / parts;
@@ -145,7 +145,7 @@ void Peeler::open(const PeelDisc& disc) {
   const double way = options_.climb ? 1 : -1;
   const double hole = std::min(disc.radius, 0.8 * cutter_);
   add(disc.x + hole, disc.y);
-  arc(disc.x, disc.y, hole, 0, way * turn);
+  arc(disc.x, disc.y, hole, 0, way * whole_turn);
   way_.entry = run_;
   run_ = {way_.entry.back()};
   widen(disc, hole);
@@ -154,12 +154,12 @@ void Peeler::open(const PeelDisc& disc) {
 
 // A spiral of half circles about two middles: each turn is wider than the one before by what the angle allows.
 void Peeler::widen(const PeelDisc& disc, double radius) {
-  const double half = (options_.climb ? 1 : -1) * turn / 2;
+  const double half = (options_.climb ? 1 : -1) * whole_turn / 2;
   while (radius < disc.radius - 1 && !is_too_long()) {
     double step = std::min(disc.radius - radius, cutter_);
     while (engagement_on_rim({disc.x, disc.y, radius}, {disc.x, disc.y, radius + step}, cutter_) > most_) step *= 0.97;
     arc(disc.x, disc.y, radius, 0, half);
-    arc(disc.x + step / 2, disc.y, radius + step / 2, turn / 2, half);
+    arc(disc.x + step / 2, disc.y, radius + step / 2, whole_turn / 2, half);
     radius += step;
   }
   arc(disc.x, disc.y, radius, 0, 2 * half);
@@ -259,19 +259,19 @@ void Peeler::walk_piece(const Branch& branch, std::vector<Branch>& branches) {
 std::vector<std::pair<double, double>> Peeler::rim_outside(const PeelDisc& disc, double from) const {
   std::vector<std::pair<double, double>> inside;
   const auto cover = [&](double begin, double end) {
-    begin -= turn * std::floor((begin - from) / turn);
-    end -= turn * std::floor((end - from) / turn);
+    begin -= whole_turn * std::floor((begin - from) / whole_turn);
+    end -= whole_turn * std::floor((end - from) / whole_turn);
     if (begin <= end) {
       inside.emplace_back(begin, end);
     } else {
       inside.emplace_back(from, end);
-      inside.emplace_back(begin, from + turn);
+      inside.emplace_back(begin, from + whole_turn);
     }
   };
   discs_.for_near(disc.x, disc.y, disc.radius, [&](const PeelDisc& other) {
     const double apart = std::hypot(other.x - disc.x, other.y - disc.y);
     if (apart + disc.radius <= other.radius) {
-      inside.emplace_back(from, from + turn);
+      inside.emplace_back(from, from + whole_turn);
     } else if (apart < disc.radius + other.radius && apart + other.radius > disc.radius) {
       const double half = std::acos(std::clamp(
           (apart * apart + disc.radius * disc.radius - other.radius * other.radius) / (2 * apart * disc.radius), -1.0,
@@ -287,7 +287,7 @@ std::vector<std::pair<double, double>> Peeler::rim_outside(const PeelDisc& disc,
     if (begin > reached) outside.emplace_back(reached, begin);
     reached = std::max(reached, end);
   }
-  if (reached < from + turn) outside.emplace_back(reached, from + turn);
+  if (reached < from + whole_turn) outside.emplace_back(reached, from + whole_turn);
   return outside;
 }
 

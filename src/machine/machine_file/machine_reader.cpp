@@ -27,7 +27,7 @@ constexpr NumberKey direction_hold_key{"direction_hold_us", 0, 15, "0.65"};
 constexpr NumberKey items_key{"held_items", 8, 240, "240"};
 
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
-constexpr NumberKey diameter_key{"diameter_mm", 0, 1000, "3"};
+constexpr NumberKey tool_diameter_key{"diameter_mm", 0, 1000, "3"};
 
 constexpr NumberKey counts_key{"encoder_counts_per_turn", 4, 1e6, "4096"};
 constexpr NumberKey run_up_key{"run_up_s", 0, 1000, "0.5"};
@@ -168,7 +168,7 @@ void MachineReader::read_tool(const TomlEntry& entry) {
   ToolDescription& tool = machine_.tool;
   if (const auto name = reader.text("name", "Spindle", Need::optional)) tool.name = *name;
   if (const auto rpm = reader.number(rpm_key, Need::optional)) tool.highest_rpm = *rpm;
-  if (const auto diameter = reader.number(diameter_key, Need::optional)) tool.diameter = Mm(*diameter);
+  if (const auto diameter = reader.number(tool_diameter_key, Need::optional)) tool.diameter = Mm(*diameter);
   finish(reader);
 }
 

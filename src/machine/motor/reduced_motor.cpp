@@ -9,10 +9,10 @@ namespace passo {
 namespace {
 
 constexpr double longest_block = 200e-6;
-constexpr double radians_of_ringing = 0.2;
-constexpr double averaging = 3e-3;  // seconds, as in RunningMotor
-constexpr double at_rest = 1e-9;    // of the energy that holds a rotor, about as in RunningMotor
-constexpr double care = 1.1;        // the speed may grow until the next look
+constexpr double radians_in_block = 0.2;
+constexpr double averaging_time = 3e-3;  // seconds, as in RunningMotor
+constexpr double share_at_rest = 1e-9;   // of the energy that holds a rotor, about as in RunningMotor
+constexpr double care = 1.1;             // the speed may grow until the next look
 constexpr double long_ago = 1e9;
 constexpr double least_delay = 12.5e-6;  // half a step of the full integration
 
@@ -58,8 +58,8 @@ ReducedMotor::ReducedMotor(const MotorSetup& setup)
     back_emf_ = winding.holding_torque.value / (std::numbers::sqrt2 * current);
   }
   ringing_squared_ = teeth_ * (amplitude_ + 4 * detent_) / inertia_;
-  most_square_at_rest_ = at_rest * amplitude_ / (teeth_ * inertia_);
-  block_ = block_of(std::min(longest_block, radians_of_ringing / std::sqrt(ringing_squared_)));
+  most_square_at_rest_ = share_at_rest * amplitude_ / (teeth_ * inertia_);
+  block_ = block_of(std::min(longest_block, radians_in_block / std::sqrt(ringing_squared_)));
 }
 
 // A drift, a kick and a drift ring a little too fast. With the kick (sin x/x)² as strong, x = ω·h/2, small swings have
@@ -73,7 +73,7 @@ ReducedMotor::Block ReducedMotor::block_of(double time) const {
           .turn = teeth_ * time / 2,
           .keep = (1 - fade) / (1 + fade),
           .gain = kick / (1 + fade),
-          .average = std::min(time / averaging, 1.0)};
+          .average = std::min(time / averaging_time, 1.0)};
 }
 
 void ReducedMotor::begin(std::int64_t commanded, double place, RadiansPerSecond speed, NewtonMetres mean_torque) {
@@ -171,7 +171,7 @@ void ReducedMotor::check_rest(double before) {
   const double pull = torque_ - weight_;
   const bool is_stuck = speed_ == 0 && before == 0 && std::abs(pull) <= dry_ + resisting_;
   if (!is_stuck) {
-    if (pull * pull > at_rest * amplitude_ * amplitude_) return;
+    if (pull * pull > share_at_rest * amplitude_ * amplitude_) return;
     speed_ = 0;
     drift_ = 0;
   }

@@ -11,7 +11,7 @@ namespace {
 constexpr double rounding = 1e-9;
 
 // A merged line may be shorter than its pieces by this share, so that its time is not less than theirs.
-constexpr double least_length = 0.99;
+constexpr double least_share_of_length = 0.99;
 
 bool is_line(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
@@ -73,7 +73,7 @@ bool LineMerger::absorbs(const Segment& merged, const Segment& line, const Chord
   const CountedGroup group = counted_group(own);
   if (group != counted_group(before) || group != counted_group(chord.travel)) return false;
   if (!cone_.has(chord.direction)) return false;
-  return !(length_in(chord.travel, group) < least_length * (programmed_ + line.curve.length().value()));
+  return !(length_in(chord.travel, group) < least_share_of_length * (programmed_ + line.curve.length().value()));
 }
 
 // The corner before this line is rounded within a wider tolerance than the line's own, and may use all of it on this

@@ -13,7 +13,7 @@ namespace {
 // After an error a move still needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
 
-constexpr double rounding = 1e-9;
+constexpr double rounding_of_feed = 1e-9;
 
 // What may be had, rounded down, so that it is accepted.
 double rounded_down(double value, int decimals) {
@@ -98,7 +98,7 @@ void PathBuilder::check_thread(const Curve& curve, MmPerSecond speed) {
   double times = 1;  // what is asked of the slowest axis, as a multiple of what it can do
   for (const Axis axis : all_axes) {
     const double limit = options_.velocity[axis].value();
-    if (!(limit > 0) || slopes[axis] * speed.value() <= limit * times * (1 + rounding)) continue;
+    if (!(limit > 0) || slopes[axis] * speed.value() <= limit * times * (1 + rounding_of_feed)) continue;
     times = slopes[axis] * speed.value() / limit;
     slowest = axis;
   }

@@ -13,15 +13,15 @@ constexpr double turning_back = -0.9998;
 
 // In exact path mode, turns up to exact_turn (radians) are smoothed within exact_tolerance (mm).
 constexpr double exact_turn = 0.01;
-constexpr double exact_tolerance = 0.001;
+constexpr double tolerance_of_exact_path = 0.001;
 
 // In exact path mode: what rounding may take. Less where the segment stands for a part of a curve, and leaves it.
 double exact_tolerance_of(const Segment& segment) {
   const double given = segment.tolerance.value();
-  return given > 0 ? std::min(given, exact_tolerance) : exact_tolerance;
+  return given > 0 ? std::min(given, tolerance_of_exact_path) : tolerance_of_exact_path;
 }
 
-Point unit(const Point& vector) {
+Point unit_vector(const Point& vector) {
   return vector * (1 / length_of(vector));
 }
 
@@ -89,8 +89,8 @@ void RunReader::read_piece() {
 
 double RunReader::tolerance_between(const Piece& before, const Segment& after) const {
   if (before.segment.mode == PathMode::exact_stop) return 0;
-  const Point in = unit(before.last_tangent);
-  const Point out = unit(after.curve.tangent(Mm(0)));
+  const Point in = unit_vector(before.last_tangent);
+  const Point out = unit_vector(after.curve.tangent(Mm(0)));
   if (dot(in, out) < turning_back) return 0;
   if (before.segment.mode != PathMode::exact_path) return before.segment.tolerance.value();
   return distance(in, out) <= exact_turn ? exact_tolerance_of(before.segment) : 0;

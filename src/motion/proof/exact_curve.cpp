@@ -11,7 +11,7 @@ namespace {
 using Complex = std::complex<double>;
 
 // A radius that grows by a smaller share of itself is constant.
-constexpr double rounding = 1e-12;
+constexpr double rounding_of_radii = 1e-12;
 
 double dot(const Point& a, const Point& b) {
   double sum = 0;
@@ -127,7 +127,7 @@ double ExactCurve::turning_of_all() const {
 bool ExactCurve::is_circle() const {
   if (curve_.shape() != Curve::Shape::arc) return false;
   const Curve::ArcData& arc = curve_.arc_data();
-  if (std::abs(arc.end_radius - arc.start_radius) > rounding * arc.start_radius) return false;
+  if (std::abs(arc.end_radius - arc.start_radius) > rounding_of_radii * arc.start_radius) return false;
   return std::ranges::none_of(all_axes,
                               [&](Axis axis) { return !in_plane(axis) && curve_.start()[axis] != curve_.end()[axis]; });
 }

@@ -16,7 +16,7 @@ std::string multiple_of(const Finding& finding) {
   return finding.limit > 0 ? fmt::format("{:.4f} of the limit", finding.multiple()) : "no limit";
 }
 
-std::string place_of(const Finding& finding) {
+std::string time_and_line(const Finding& finding) {
   std::string place = fmt::format("{:.6f} s", finding.time.value());
   if (finding.line > 0) place += fmt::format(", line {}", finding.line);
   return place;
@@ -24,16 +24,16 @@ std::string place_of(const Finding& finding) {
 
 std::string row(const std::string& what, const Finding& finding, const char* unit) {
   return fmt::format("  {:<26}{:>20} {:>14.6g} {:<6} at {}\n", what, multiple_of(finding), finding.value, unit,
-                     place_of(finding));
+                     time_and_line(finding));
 }
 
 std::string step_row(const std::string& what, const Finding& finding, double noise, const char* unit) {
   return fmt::format("  {:<26}{:>20} {:>14.6g} {:<6} at {}; rounding {:.4f}\n", what, multiple_of(finding),
-                     finding.value, unit, place_of(finding), finding.limit > 0 ? noise / finding.limit : 0);
+                     finding.value, unit, time_and_line(finding), finding.limit > 0 ? noise / finding.limit : 0);
 }
 
 std::string jump_row(const std::string& what, const Finding& finding, const char* unit) {
-  return fmt::format("  {:<26}{:>20} {:>14.6g} {:<6} at {}\n", what, "", finding.value, unit, place_of(finding));
+  return fmt::format("  {:<26}{:>20} {:>14.6g} {:<6} at {}\n", what, "", finding.value, unit, time_and_line(finding));
 }
 
 std::string text_of(const AxisProof& axis) {

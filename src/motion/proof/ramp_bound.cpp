@@ -8,7 +8,7 @@ namespace passo::proof {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int halvings = 100;
+constexpr int halvings_of_ramp = 100;
 constexpr double precise = 1e-13;
 
 }  // namespace
@@ -38,7 +38,7 @@ double RampBound::least_time(const End& start, const End& end, double way, doubl
   const auto room = [&](double peak) { return way - ramp(start, peak).way - ramp(end, peak).way; };
   if (!(way > 0) || !(high > 0) || !(room(low) > 0)) return 0;
   if (room(high) < 0) {
-    for (int i = 0; i < halvings && high - low > precise * high; ++i) {
+    for (int i = 0; i < halvings_of_ramp && high - low > precise * high; ++i) {
       const double middle = (low + high) / 2;
       (room(middle) > 0 ? low : high) = middle;
     }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double turn_of_a_cell = 0.02;  // radians
 constexpr double fewest_cells = 64;      // in a curve, and in a line under falling limits
-constexpr std::size_t window = 65536;    // cells
+constexpr std::size_t most_cells = 65536;
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
 // The path rests where a kink may be passed only below this share of the lowest velocity limit.
@@ -111,7 +111,7 @@ void TimeBound::add_curve(const Segment& segment) {
   entry.entry_scale = scale;
   entry.entry.cap = std::min({entry.entry.cap, kink, first > 0 ? cells_[first - 1].exit.cap * scale : fastest});
   joint_ = joint_at(from);
-  if (cells_.size() >= 2 * window) settle(window);
+  if (cells_.size() >= 2 * most_cells) settle(most_cells);
 }
 
 // Cuts where an axis turns back, and where its q' is steepest or flattest.

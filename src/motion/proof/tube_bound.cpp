@@ -6,7 +6,7 @@
 namespace passo::proof {
 namespace {
 
-constexpr std::size_t window = 4096;  // stations
+constexpr std::size_t most_stations = 4096;  // stations
 
 double size_of(const AxisNumbers& row) {
   double sum = 0;
@@ -46,7 +46,7 @@ void TubeBound::watch(const PathItem& item) {
   path_.add(segment);
   if (segment.mode == PathMode::exact_stop) {
     rest();
-  } else if (path_.stations().size() > window) {
+  } else if (path_.stations().size() > most_stations) {
     settle(false);
   }
 }

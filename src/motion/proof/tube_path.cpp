@@ -8,13 +8,13 @@
 namespace passo::proof {
 namespace {
 
-constexpr double exact = 1e-3;         // mm: the tube of an exact path, as in PathDeviation
-constexpr double turn_of_a_leg = 0.1;  // radians
-constexpr double most_pieces = 100'000;
+constexpr double exact_tolerance = 1e-3;  // mm: the tube of an exact path, as in PathDeviation
+constexpr double turn_of_a_leg = 0.1;     // radians
+constexpr double most_legs = 100'000;
 // A leg is this many tolerances long, or more. Near stations say little: the motion may pass each one early or late.
 constexpr double shortest_leg = 6;
-constexpr double least_part = 1e-6;
-constexpr int halvings = 50;
+constexpr double least_part_of_leg = 1e-6;
+constexpr int halvings_of_leg = 50;
 
 double distance_of(const AxisNumbers& a, const AxisNumbers& b) {
   double sum = 0;
@@ -28,7 +28,7 @@ void TubePath::add(const Segment& segment) {
   if (!segment.curve.has_length()) return;
   const ExactCurve curve(segment.curve);
   const double own = segment.tolerance.value();
-  slack_ = std::max({own, last_slack_, exact});
+  slack_ = std::max({own, last_slack_, exact_tolerance});
   last_slack_ = own;
   feed_ = std::min(segment.speed.value() * curve.feed_factor(), fastest);
   group_ = group_of(curve);
@@ -40,7 +40,7 @@ void TubePath::add(const Segment& segment) {
   } else if (curve.is_line() && curve.length() > shortest_leg * slack_) {
     end_leg();  // a corner of a long line counts
   }
-  const double turning = curve.is_line() ? 0 : std::min(curve.turning() / turn_of_a_leg, most_pieces);
+  const double turning = curve.is_line() ? 0 : std::min(curve.turning() / turn_of_a_leg, most_legs);
   const int count = 1 + static_cast<int>(turning);
   for (int i = 0; i < count; ++i) {
     add_piece(curve, curve.length() * i / count, curve.length() * (i + 1) / count);
@@ -50,7 +50,7 @@ void TubePath::add(const Segment& segment) {
 // Cuts where an axis turns back, so that each axis goes one way in a piece.
 void TubePath::add_piece(const ExactCurve& curve, double from, double to) {
   const double turn = turn_of(curve, from, to);
-  const double least = least_part * (to - from);
+  const double least = least_part_of_leg * (to - from);
   if (turn - from > least && to - turn > least) {
     add_piece(curve, from, turn);
     add_piece(curve, turn, to);
@@ -68,11 +68,11 @@ double TubePath::turn_of(const ExactCurve& curve, double from, double to) const 
     if (!(begin * curve.at(own.axis, to).first < 0)) continue;
     double low = from;
     double high = to;
-    for (int i = 0; i < halvings; ++i) {
+    for (int i = 0; i < halvings_of_leg; ++i) {
       const double middle = (low + high) / 2;
       (curve.at(own.axis, middle).first * begin > 0 ? low : high) = middle;
     }
-    if (high - from > least_part * (to - from) && to - high > least_part * (to - from)) return high;
+    if (high - from > least_part_of_leg * (to - from) && to - high > least_part_of_leg * (to - from)) return high;
   }
   return to;
 }

@@ -12,7 +12,7 @@ constexpr std::array<std::size_t, 3> spans = {1, 4, 16};  // of the legs whose n
 constexpr double parallel = 1e-6;
 constexpr double as_good = 0.98;
 
-double square(double value) {
+double squared(double value) {
   return value * value;
 }
 
@@ -119,7 +119,7 @@ double TubeSpeeds::axis_time(const std::vector<Station>& path, std::size_t from,
   if (!ramps_[axis].limits()) return way / tops_[axis];
   const double start = rests.first ? 0 : leaving_[from][direction].most;
   const double end = rests.last ? 0 : arriving_[to][direction].most;
-  return ramps_[axis].least_time({.start = square(start), .end = square(end), .top = square(tops_[axis])}, way);
+  return ramps_[axis].least_time({.start = squared(start), .end = squared(end), .top = squared(tops_[axis])}, way);
 }
 
 // Between two stations of a walk. `feed` is the greatest on the legs between them.

@@ -8,7 +8,7 @@ namespace {
 
 using std::numbers::pi;
 // Radians. So far after a turning point, s is certainly past the turn, and the place has hardly changed.
-constexpr double behind_turn = 1e-7;
+constexpr double behind_reversal = 1e-7;
 
 // A crossing is near if the arc turns by less than this on the way (radians), and the motor's slope changes by less
 // than a quarter. Then the slope keeps its sign, and each round of the search comes much closer.
@@ -16,9 +16,9 @@ constexpr double near_turn = 0.125;
 constexpr double near_bend = 0.125;  // half of that change
 // A last round by this many radians leaves an error of half its square: 5e-13 of the radius.
 constexpr double last_turn = 1e-6;
-constexpr int most_rounds = 4;
+constexpr int most_search_rounds = 4;
 // A target at most so many places behind the motor counts as just reached.
-constexpr double place_rounding = 1;
+constexpr double position_rounding = 1;
 
 bool goes_straight(const Curve::CubicData& cubic, const AxisRow& row) {
   return row.of(cubic.second) == 0 && row.of(cubic.third) == 0;
@@ -194,7 +194,7 @@ void MotorPath::look_ahead_round(unsigned motor, double target, double step, dou
   Lanes outward;
   Lanes around;
   Lanes left;
-  for (int round = 0; round < most_rounds && ahead.count == 0; ++round) {
+  for (int round = 0; round < most_search_rounds && ahead.count == 0; ++round) {
     for (std::size_t i = 0; i < lane_count; ++i) {
       const double sine = near_sine(turn_ * way[i]);
       const double cosine = near_cosine(turn_ * way[i]);
@@ -294,7 +294,7 @@ double MotorPath::crossing_with_drift(unsigned motor, double target, double from
   const Term& term = terms_[motor];
   const double here = place(motor, at(from));
   const double left = slope(motor, at(from)) > 0 ? target - here : here - target;
-  if (left <= 0 && left > -place_rounding) return from;
+  if (left <= 0 && left > -position_rounding) return from;
   const double turn = turning_point(motor, from);
   const double swing = 2 * std::fabs(term.scale) * std::max(radius_, radius_at(end_));
   const double way = (std::fabs(left) + swing) / std::fabs(term.drift);
@@ -321,7 +321,7 @@ double MotorPath::turning_point_round(const Term& term, double from) const {
   const double lag = std::atan(growth_ / (radius_at(from) * turn_));
   const double quarter = (angle_at(term, from) - lag - pi / 2) / pi;
   const double next = turn_ > 0 ? std::floor(quarter + 1e-9) + 1 : std::ceil(quarter - 1e-9) - 1;
-  return (next * pi + pi / 2 + lag - term.angle) / turn_ + behind_turn / std::fabs(turn_);
+  return (next * pi + pi / 2 + lag - term.angle) / turn_ + behind_reversal / std::fabs(turn_);
 }
 
 // The motor turns back where its part of the circle goes just as fast against its drift. The slope of that part is
@@ -344,7 +344,7 @@ double MotorPath::turning_point_with_drift(const Term& term, double from) const 
     }
     radius = radius_at(turn);
   }
-  return turn + behind_turn / std::fabs(turn_);
+  return turn + behind_reversal / std::fabs(turn_);
 }
 
 double MotorPath::travel_round(unsigned motor, double distance, double from) const {

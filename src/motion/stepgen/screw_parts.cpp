@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 // In steps. So near to a border of the errors, a place counts as on it. Crossings are found far better than this, and
 // the errors of both sides agree there to a millionth of a step.
 constexpr double border_steps = 1e-4;
@@ -23,10 +23,10 @@ double leaves(const MotorPath& path, unsigned motor, const Range& range, double 
   for (;;) {
     const double border = path.rises(motor, spot) ? range.high : range.low;
     const double target = (border + 0.5) * place_per_step;
-    const double s = std::isfinite(target) ? path.crossing(motor, target, spot).s : infinity;
-    if (s < infinity) return s;
+    const double s = std::isfinite(target) ? path.crossing(motor, target, spot).s : unbounded;
+    if (s < unbounded) return s;
     const double turn = path.turning_point(motor, spot.s);
-    if (!(turn < path.end())) return infinity;
+    if (!(turn < path.end())) return unbounded;
     spot = path.at(turn);
   }
 }

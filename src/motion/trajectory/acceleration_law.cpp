@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "arithmetic.hpp"
 #include "cell.hpp"
 #include "cell_queue.hpp"
 #include "rest.hpp"
@@ -15,8 +16,6 @@
 namespace passo {
 namespace {
 
-// A relative difference of squares of speeds. Smaller ones are rounding: a thousand cells add up to about 1e-13.
-constexpr double rounding = 1e-9;
 // A cell in which the square of the speed can change by less than this share of itself is short enough: in two halves
 // it would gain a quarter of the share at most.
 constexpr double least_change = 0.04;
@@ -26,10 +25,6 @@ constexpr double rounding_of_rest = 1e-3;
 // In cells. Any size from 32 to 256 costs the same instructions within 0.1 % on chords; it doubles where that is too
 // short for braking. A smaller window lets the first move come sooner.
 constexpr std::size_t first_window = 64;
-
-double squared(double value) {
-  return value * value;
-}
 
 class AccelerationLaw final : public SpeedLaw {
  public:

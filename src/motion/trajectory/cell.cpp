@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "arithmetic.hpp"
 
 #include "passo/geometry/curve_derivatives.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The greatest turn of the path in one cell, in radians. The slack taken off the limits grows with its square: on an
 // arc it is about (3/4) turn², on a cubic about twice that, because the bend changes too.
@@ -57,17 +56,13 @@ constexpr double most_graded_of_short = 24;
 // the speed further.
 constexpr double room_for_override = 2;
 
-double squared(double value) {
-  return value * value;
-}
-
 // Lowers `top`, a value along the path, to what an axis with that limit can follow where it moves by `part` of the way.
 // Where the product is below the limit, the quotient would not be below `top`; the product is cheaper.
 void lower(double& top, double limit, double part) {
   if (!(top * part < limit)) top = std::min(top, limit / part);
 }
 
-double smallest_rest(double top) {
+double smallest_rest_of(double top) {
   return std::min(smallest_cell, shortest_cell * top);
 }
 
@@ -299,7 +294,7 @@ void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double f
   const auto part = [&](const LimitedAxis& axis) { return std::abs(axis.row.of(slope)); };
   const double top = std::min(top_speed(axes, part), flat_top(axes, part));
   cell.top_squared = squared(top);
-  cell.smallest_rest = smallest_rest(top);
+  cell.smallest_rest = smallest_rest_of(top);
   cell.acceleration = top_acceleration(axes, part);
   cell.straight = true;
 }
@@ -358,7 +353,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const PerLi
     lower(slope_strength, axes[k].acceleration, std::min(slope_in, slope_out));
   }
   cell.top_squared = top * top;
-  cell.smallest_rest = smallest_rest(top);
+  cell.smallest_rest = smallest_rest_of(top);
   // Between the ends, v² lies between its values at the ends.
   double top_squared = std::min(top * top, std::max(in.turning, out.turning));
   const double fastest_squared = std::min(top_squared, squared(room_for_override * segment.speed.value()));

@@ -8,7 +8,7 @@ namespace {
 
 // Usually 7 to 12 are enough. With many corners in a window a limit of one corner shortens the step of all of them, and
 // 40 were too few: the window was not lifted, and the motion came to rest at its end.
-constexpr int most_steps = 80;
+constexpr int most_steps_of_lift = 80;
 constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
 constexpr double last_target = 1e-4;
 constexpr int steps_with_rows = 6;       // then they are made again
@@ -314,7 +314,7 @@ bool JerkLift::raise(const Stretch& stretch, std::size_t first, std::size_t last
   const double unit = begin_prices();
   if (!(unit > 0)) return false;
   double target = first_target * unit;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_steps_of_lift; ++step) {
     assemble(target);
     solve();
     const Reach reach = reach_along(target);

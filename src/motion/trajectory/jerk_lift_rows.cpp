@@ -1,15 +1,13 @@
 // JerkLift: makes the rows of the limits. Rows of bends have factors that hold for speeds near the present ones.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "arithmetic.hpp"
 #include "jerk_lift.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double outer_part = 0.65;  // weight of x at the node in the mean speed of half a cell; the rest: the middle
 constexpr double reached = 0.999;    // a limit counts as reached from this share on

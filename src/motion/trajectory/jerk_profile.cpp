@@ -1,12 +1,11 @@
 #include "jerk_profile.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "arithmetic.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Shares of the limits. Demands are larger between the places that JerkLift looks at. Of 400 random programs those with
 // limits of jerk take up to 0.8 % less time than with 0.985 in bends, for 5 % more instructions.
@@ -23,12 +22,12 @@ constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
-constexpr std::size_t wider = 32;  // nodes on each side, where a part between steady nodes cannot be lifted
-constexpr double worth = 0.98;     // of the time: a further lift is worth it
+constexpr std::size_t wider = 32;       // nodes on each side, where a part between steady nodes cannot be lifted
+constexpr double worth_of_lift = 0.98;  // of the time: a further lift is worth it
 
 // Where a cell exceeds a limit, the share is lowered to what would have been right, in these bounds.
-constexpr double least_lowering = 0.995;
-constexpr double most_lowering = 0.7;
+constexpr double least_lowering_of_share = 0.995;
+constexpr double most_lowering_of_share = 0.7;
 constexpr double safely = 0.998;
 constexpr double lower_cap = 0.9995;
 // Of the square of a speed. A deeper notch in an even cap makes the acceleration go to and fro beside it, and then the
@@ -245,7 +244,8 @@ void JerkProfile::find_exceeded(const Stretch& lifted) {
     const double most = worst.most();
     if (most <= 1 || trim(i, worst, lifted)) continue;
     exceeded_.push_back(i);
-    if (std::max(worst.force, worst.jolt) > 1) share_[i] *= std::clamp(safely / most, most_lowering, least_lowering);
+    if (std::max(worst.force, worst.jolt) > 1)
+      share_[i] *= std::clamp(safely / most, most_lowering_of_share, least_lowering_of_share);
     if (worst.force > 1) {  // the speed may be the reason
       cell_cap_[i] *= lower_cap;
       node_cap_[i] *= lower_cap;
@@ -394,7 +394,7 @@ bool JerkProfile::find_motion_from_slow() {
   kept_ = states_;
   slow_by(room_to_lift);
   double before = infinity;
-  for (int i = 0; i < most_lifts && lift({.first = 0, .last = cells_.size()}) && time() < worth * before; ++i) {
+  for (int i = 0; i < most_lifts && lift({.first = 0, .last = cells_.size()}) && time() < worth_of_lift * before; ++i) {
     before = time();
   }
   if (!mend() && !slow_down()) states_ = kept_;

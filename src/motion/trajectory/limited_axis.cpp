@@ -1,12 +1,11 @@
 #include "limited_axis.hpp"
 
 #include <cassert>
-#include <limits>
+
+#include "arithmetic.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double limit_or_infinity(double limit) {
   return limit > 0 ? limit : infinity;

@@ -7,14 +7,14 @@ namespace {
 
 // A share of the longest time. No phase is cut nearer to one of its ends, so that no part of it is dust: a part takes a
 // fiftieth of a move at least, and a move is shorter than allowed by twice that at most.
-constexpr double smallest_part = 0.02;
+constexpr double smallest_part_of_phase = 0.02;
 
 }  // namespace
 
 std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest, Mm least_way) {
   if (std::isinf(longest.value())) return std::nullopt;
-  const Seconds small = longest * smallest_part;
-  Seconds left = longest * (1 - smallest_part);
+  const Seconds small = longest * smallest_part_of_phase;
+  Seconds left = longest * (1 - smallest_part_of_phase);
   std::size_t whole = 0;  // phases that stay whole
   for (; whole < move.phase_count && move.phases[whole].duration <= left + small; ++whole) {
     left -= move.phases[whole].duration;

@@ -10,14 +10,14 @@ namespace {
 // The first way is that of braking on a straight line. Each further one is so much longer.
 constexpr double longer = 1.25;
 constexpr int most_ways = 12;
-constexpr double worth = 0.98;  // of the time: a stop after a longer way is worth it
+constexpr double worth_of_longer = 0.98;  // of the time: a stop after a longer way is worth it
 // A stop passes some 20 to 200 cells.
-constexpr std::size_t most_cells = 2000;
+constexpr std::size_t most_cells_of_stop = 2000;
 constexpr PlanEffort little{.rounds = 3, .attempts = 2};
 
 std::optional<SpeedChange> fastest_to_rest_after(double way, PathAhead& path, const PathState& from,
                                                  const SpeedChange::Request& request) {
-  JerkWindow window(request.axes, path, request.feeds, most_cells, little);
+  JerkWindow window(request.axes, path, request.feeds, most_cells_of_stop, little);
   window.begin_at(from);
   if (!window.can_rest_after(way)) return std::nullopt;
   std::vector<SpeedChange::Piece> pieces;
@@ -42,7 +42,7 @@ std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, 
   for (int i = 0; i < most_ways; ++i, way *= longer) {
     std::optional<SpeedChange> stop =
         fastest_to_rest_after(way, path, from, {.axes = axes, .feeds = feeds, .exit = 0, .planned = true});
-    if (soonest && !(stop && stop->duration_from(0) < soonest->duration_from(0) * worth)) break;
+    if (soonest && !(stop && stop->duration_from(0) < soonest->duration_from(0) * worth_of_longer)) break;
     soonest = std::move(stop);
   }
   return soonest;

@@ -32,7 +32,8 @@ constexpr double hopeless = 1.05;
 // left when the acceleration has gone is rounding. From there a plan would creep for ages; from rest it starts at once.
 constexpr double least_left = 1e-3;
 
-constexpr double rounding = 1e-6;  // share of a limit: far above that of doubles, far below what a motor feels
+constexpr double rounding_of_limits =
+    1e-6;  // share of a limit: far above that of doubles, far below what a motor feels
 // On curves a parabola through each three looks tells what lies between them. Over this turn, in radians, its error is
 // about turn³, a thousandth of the share of the limits that is left for it.
 constexpr double turn_a_look = 0.02;
@@ -279,7 +280,8 @@ void SpeedChange::check_piece(const Piece& piece, double part, const Segment& se
   if (turns) worst.raise(look_at(piece, segment, request, turn));
   const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
                                         turns ? phase.velocity_at(Seconds(turn)).value() : 0});
-  worst.most.speed = std::max(worst.most.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
+  worst.most.speed =
+      std::max(worst.most.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding_of_limits));
 }
 
 void SpeedChange::Excess::raise(const Look& look) {
@@ -322,8 +324,8 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
     const double q2 = axis.row.of(second);
     const double q3 = axis.row.of(third);
     const double seen = axis.falling != nullptr && !request.planned ? looked_at_of_falling : looked_at;
-    const double share = is_line ? 1 + rounding : seen;
-    look.axes[k] = {.speed = q1 * v / axis.velocity * (1 - rounding),
+    const double share = is_line ? 1 + rounding_of_limits : seen;
+    look.axes[k] = {.speed = q1 * v / axis.velocity * (1 - rounding_of_limits),
                     .force = (q1 * a + q2 * v * v) / (axis.acceleration_at(q1 * q1 * v * v) * share),
                     .jolt = (q1 * j + 3 * q2 * v * a + q3 * v * v * v) / (axis.jerk * share)};
   }

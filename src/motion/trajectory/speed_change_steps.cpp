@@ -2,18 +2,17 @@
 // stays the same is possible. But a moment later the path has turned, or a little speed is gone, and there is room.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "arithmetic.hpp"
 #include "speed_change.hpp"
 
 namespace passo {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int steps_a_rise = 16;  // in the time in which the acceleration rises from 0 to its strongest
 // Where little or nothing limits the jerk: in the time that braking takes. All steps together take three times as long.
 constexpr int steps_a_braking = 128;
-constexpr int most_steps = 400;
+constexpr int most_steps_of_speed = 400;
 constexpr int looks_ahead = 4;    // in the time of a rise
 constexpr int looks_on_way = 16;  // on the way to rest
 // Shares of a limit. The change uses the first at most, as the profile does (planned_share): on curves all of the limit
@@ -116,7 +115,7 @@ bool SpeedChange::shape_in_steps(PathAhead& path, const PathState& state, const 
       std::min(strength.jerk, share.jerk * jerk_on(path, walk, braking * state.speed / 2, request.axes));
   const double step = std::max(strength.acceleration / strength.jerk / steps_a_rise, braking / steps_a_braking);
   const double rise = std::max(strength.acceleration / jerk, step);
-  for (int count = 0; count < most_steps; ++count) {
+  for (int count = 0; count < most_steps_of_speed; ++count) {
     const double v = chain_.speed;
     const double a = chain_.acceleration;
     if (a < 0 && v + a * step - a * a / (2 * jerk) <= end_.speed) {

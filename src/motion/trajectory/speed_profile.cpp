@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "arithmetic.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Adds motion of constant acceleration from one speed to another over `distance`. The time follows from way and speeds,
 // not from speed and acceleration. A difference of two nearly equal speeds has few good digits, while their sum has

@@ -7,16 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "arithmetic.hpp"
+
 namespace passo {
 namespace {
 
-// A relative difference of squares of speeds, or of limits. Smaller ones are rounding.
-constexpr double rounding = 1e-9;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Has no initial values: most corners that there is room for are never used.
-struct Corner {
+struct SpeedCorner {
   double x;
   double y;
 };
@@ -35,14 +32,14 @@ class SpeedRegion {
   // Keeps p x + q y <= limit. Most cuts take nothing away.
   void cut(double p, double q, double limit) {
     const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto is_beyond = [&](const Corner& corner) { return p * corner.x + q * corner.y - limit > 0; };
+    const auto is_beyond = [&](const SpeedCorner& corner) { return p * corner.x + q * corner.y - limit > 0; };
     if (std::none_of(corners_.begin(), end, is_beyond)) return;
-    std::array<Corner, most_corners> kept;
+    std::array<SpeedCorner, most_corners> kept;
     std::size_t count = 0;
-    Corner from = corners_[count_ - 1];
+    SpeedCorner from = corners_[count_ - 1];
     double excess_from = p * from.x + q * from.y - limit;
     for (std::size_t i = 0; i < count_; ++i) {
-      const Corner to = corners_[i];
+      const SpeedCorner to = corners_[i];
       const double excess = p * to.x + q * to.y - limit;
       if ((excess > 0) != (excess_from > 0)) {
         const double share = excess_from / (excess_from - excess);
@@ -64,7 +61,7 @@ class SpeedRegion {
   }
 
  private:
-  std::array<Corner, most_corners> corners_;
+  std::array<SpeedCorner, most_corners> corners_;
   std::size_t count_ = 4;
 };
 
