@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "passo/diagnostics/finding_words.hpp"
+
 namespace passo {
 
 // A place in a file. Line and column count from 1; columns and length are in bytes. Line 0 means the file as a whole.
@@ -36,8 +38,8 @@ struct Diagnostic {
   std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
   std::string file;  // as the user named it
   SourcePlace place;
-  std::string message;    // one sentence without a full stop: what is wrong, with the value found
-  std::string expected;   // what would have been right, or how to correct it; may be empty
+  FindingWords message;   // one sentence without a full stop: what is wrong, with the value found
+  FindingWords expected;  // what would have been right, or how to correct it; may be empty
   std::string text;       // the source line, for the caret; may be empty
   std::string rule = {};  // the document that makes this wrong, or another program's number for it; may be empty
   std::vector<CallPlace> calls = {};  // the subs that were running, the innermost first

@@ -19,7 +19,7 @@
 
 #include "passo/activity/open_program.hpp"
 #include "passo/api/program_store.hpp"
-#include "passo/base/sentence.hpp"
+#include "passo/diagnostics/finding_words.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -34,10 +34,9 @@ class MdiLines {
 
   struct Answer {
     std::string code;  // empty: the line was taken
-    std::string message;
-    std::string expected;            // what would have been right; may be empty
+    FindingWords message;
+    FindingWords expected;           // what would have been right; may be empty
     std::vector<std::string> words;  // what a line with $ asks for
-    Sentence sentence = {};          // the message with its code; without a code: a finding in the line
   };
   Answer execute(std::string_view line);
 
@@ -53,7 +52,7 @@ class MdiLines {
   bool streams() const { return ticket_.has_value(); }
   ModesInForce modes() const;
   // Why the last line did not come to its end: a probe that touched nothing. Empty: it did.
-  const std::string& trouble() const { return trouble_; }
+  const FindingWords& trouble() const { return trouble_; }
   // Grows with each change of what is told here.
   std::uint64_t version() const { return version_; }
   SavedParameters parameters() const { return program_->parameters(); }
@@ -75,7 +74,7 @@ class MdiLines {
   bool ended_ = false;                     // by M2 or M30
   bool changed_ = false;                   // a line was taken, and nobody has asked what it has changed
   std::optional<ProbeOutcome> probe_;
-  std::string trouble_;
+  FindingWords trouble_;
   std::uint64_t version_ = 0;
 };
 
