@@ -58,7 +58,8 @@ describe('a report', () => {
     expect(reportWords('whatever the server says', closed)).toBe('le fin de course de X s’est déclenché\u00a0: la position des moteurs n’est plus fiable');
     expect(reportWords('', { code: 'machine.busy.not-idle', arguments: { state: 'Run' } })).toBe('');
     expect(reportWords('x', { code: 'machine.busy.not-idle', arguments: { state: 'Run' } })).toBe('la machine n’est pas au repos\u00a0: Usinage en cours');
-    expect(reportWords('x', { code: 'job.finding', arguments: { line: '9', finding: 'no feed rate is set', code: 'gcode.missing-feed' } })).toBe(
+    const held = { finding: 'no feed rate is set', 'finding.code': 'gcode.missing-feed' };
+    expect(reportWords('x', { code: 'job.finding', arguments: { line: '9', code: 'gcode.missing-feed', ...held } })).toBe(
       'ligne 9\u00a0: aucune avance n’est donnée [gcode.missing-feed]',
     );
   });
@@ -72,6 +73,6 @@ describe('a report', () => {
     language.value = 'it';
     expect(reportIn({ words: 'something new', sentence: { code: 'machine.new', arguments: {} } })).toBeNull();
     expect(reportWords('something new', { code: 'machine.new', arguments: {} })).toBe('something new');
-    expect(reportWords('X.microsteps is 0', null)).toBe('X.microsteps vale 0');
+    expect(reportWords('X.microsteps is 0', null)).toBe('X.microsteps is 0');
   });
 });

@@ -1,61 +1,76 @@
-// What is found in programs is translated by its sentence: they are those of the sources, and each language keeps their values.
+// What is found in programs and machine files is translated by codes: each row of the sources has its words here, and no other has.
 import { afterEach, describe, expect, it } from 'vitest';
-import { findingIn, findings, type FindingKey } from '../src/core/findings';
+import { faults, findings, reportIn, reportWords, type Sentence } from '../src/core/faults';
 import { language } from '../src/core/language';
-import { sources, textsOf } from './sources';
+import { units } from '../src/core/units';
+import { source, sources } from './sources';
 
-const valuesOf = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
+const valuesOf = (words: string): string[] => [...new Set(words.match(/\{\w+\}/g) ?? [])].sort();
+const said = (code: string, values: Record<string, string> = {}): string => reportWords('as the server says it', { code, arguments: values });
 
-afterEach(() => (language.value = 'en'));
+// The rows of the sources, by code: SentenceRow name{"code", "English"}. A row without a code is in English only.
+const row = /SentenceRow \w+\{\s*"([^"]+)",\s*((?:"(?:[^"\\\n]|\\.)*"\s*)+)\}/g;
+const rows = new Map(sources().flatMap((text) => [...text.matchAll(row)].map(([, code = '', words = '']) => [code, words.trim().replace(/"\s*"/g, '').slice(1, -1)] as const)));
+const abort = 'probing.bores-apart'; // a program's own text
+
+afterEach(() => {
+  language.value = 'en';
+  units.value = 'mm';
+});
 
 describe('a finding', () => {
-  it('is one of the sources, piece by piece', () => {
-    const texts = textsOf(sources()).join('\n');
-    const strange = Object.values(findings.en).flatMap((one) =>
-      one
-        .split(/\{\w+\}|\|/)
-        .map((piece) => piece.replaceAll('’', "'").trim())
-        .filter((piece) => piece.length > 3 && !texts.includes(piece)),
-    );
-    expect(strange).toEqual([]);
+  it('has its English words from the sources, code by code', () => {
+    expect(rows.size).toBeGreaterThan(150);
+    const { [abort]: _, ...here } = findings.en;
+    expect(here).toEqual(Object.fromEntries([...rows].map(([code, words]) => [code, words.replaceAll("'", '’')])));
   }, 30_000); // it reads all sources
 
   it('has its values in each language', () => {
-    for (const table of [findings.fr, findings.it, findings.zh]) {
-      const wrong = (Object.keys(findings.en) as FindingKey[]).filter((key) => valuesOf(table[key]).some((value) => !valuesOf(findings.en[key]).includes(value)));
-      expect(wrong).toEqual([]);
-    }
+    const codes = Object.keys(findings.en) as (keyof typeof findings.en)[];
+    const wrong = [findings.fr, findings.it, findings.zh].map((table) => codes.filter((one) => valuesOf(table[one]).join() !== valuesOf(findings.en[one]).join()));
+    expect(wrong).toEqual([[], [], []]);
   });
 
-  it('has all that the check finds of other controls and of frequent mistakes', () => {
-    language.value = 'fr';
-    const all = [
-      'X20 5 is read as X205', '#101 was never set, and is 0', 'this move comes after the end of the program, and is never made',
-      'G28 uses the axis words of the block; G0 only stays in force', 'G28 in a block without G0', "the spindle is still on where '%' ends the program",
-      'a rapid goes down to Z-5 before the program has given X or Y', 'no feed goes below Z0: the lowest is Z2',
-      'this arc is nearly a full circle, and ends 0.01 mm before its start', "WHILE is a word of Fanuc's macros", "GOTO is a word of Fanuc's macros",
-      'o1 while [...] on one line, and o1 endwhile where END stands', "':' where a word should start",
-      "O for ':', as in O0491; on some controls ':' begins the number of a program", 'there is no G68', 'G10 L2 with R, which rotates a work system',
-      'this is a program for a 3D printer, not G-code', "the arc's start and end are not equally far from its centre, which is a distance from the start (G91.1) here",
-      "I and J, or the plane's code before; grbl ignores the word: --dialect grbl",
-    ];
-    expect(all.filter((words) => findingIn(words) === null)).toEqual([]);
-    expect(findingIn('this is a program for a 3D printer, not G-code')).toBe('ceci est un programme pour une imprimante 3D, pas du G-code');
+  it('has no code of a fault', () => {
+    expect(Object.keys(findings.en).filter((code) => code in faults.en)).toEqual([]);
   });
 
   it('is said in the language of the page, with its values', () => {
     language.value = 'it';
-    expect(findingIn('X would reach 9.000 (work 9.000), 1.000 mm beyond its travel\'s end at 8.000')).toBe('X arriverebbe a 9.000 (pezzo 9.000), 1.000 mm oltre la fine della corsa a 8.000');
-    expect(findingIn('Z would reach -12.000 (work -2.000), 2.000 mm below its travel\'s end at -10.000')).toBe(
-      'Z arriverebbe a -12.000 (pezzo -2.000), 2.000 mm sotto la fine della corsa a -10.000',
-    );
+    const far = { axis: 'X', reached: '9.000', work: '9.000', far: '1.000 mm', end: '8.000' };
+    expect(said('travel.exceeded.high', far)).toBe('X arriverebbe a 9.000 (pezzo 9.000), 1.000 mm oltre la fine della corsa a 8.000');
     language.value = 'fr';
-    expect(findingIn('the program aborts: the bores are 69.1 mm apart; they should be 70.0000 mm apart')).toBe(
+    expect(said('gcode.missing-feed')).toBe('aucune avance n’est donnée');
+    expect(said('file.not-gcode.printer')).toBe('ceci est un programme pour une imprimante 3D, pas du G-code');
+    language.value = 'zh';
+    expect(said('machine.bad-value', { key: 'X.microsteps', value: '0' })).toBe('X.microsteps 为 0');
+    expect(reportIn({ words: 'nobody knows this sentence', sentence: { code: '', arguments: {} } })).toBeNull();
+  });
+
+  it('is shown in the units of the page', () => {
+    units.value = 'inch';
+    expect(said('path.low-rapid', { z: '25.4', cut: '-25.4' })).toBe('a sideways rapid at Z1.0000, and the program has cut at Z-1.0000');
+  });
+
+  it('is said within the sentence that holds it', () => {
+    language.value = 'fr';
+    const held: Sentence = {
+      code: 'machine-file.unsound',
+      arguments: { finding: 'X.microsteps is 0', 'finding.code': 'machine.bad-value', 'finding.arguments.key': 'X.microsteps', 'finding.arguments.value': '0' },
+    };
+    expect(reportWords('', held)).toBe('');
+    expect(reportWords('invalid machine file: X.microsteps is 0', held)).toContain('X.microsteps vaut 0');
+    expect(said('machine-file.unsound', { finding: 'words without a code' })).toContain('words without a code');
+  });
+});
+
+describe('a program that aborts', () => {
+  it('says its own words; those of a probing cycle are known', () => {
+    expect(source('cam/probing/cycle_text.cpp')).toContain('the bores are #<apart> mm apart; they should be {:.4f} mm apart');
+    language.value = 'fr';
+    expect(said('gcode.abort', { words: ' the bores are 69.1 mm apart; they should be 70.0000 mm apart' })).toBe(
       'le programme abandonne\u00a0: les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
     );
-    expect(findingIn('no feed rate is set')).toBe('aucune avance n’est donnée');
-    language.value = 'zh';
-    expect(findingIn('X.microsteps is 0')).toBe('X.microsteps 为 0');
-    expect(findingIn('nobody knows this sentence')).toBeNull();
+    expect(said('gcode.abort', { words: ' no stock' })).toBe('le programme abandonne\u00a0: no stock');
   });
 });

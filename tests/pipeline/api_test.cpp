@@ -153,6 +153,10 @@ TEST(Api, a_program_with_errors_moves_nothing_and_says_why) {
   EXPECT_EQ(program["state"], "bad");
   EXPECT_EQ(program["findings"][0]["line"], 2);
   EXPECT_EQ(program["findings"][0]["code"], "gcode.missing-feed");
+  EXPECT_EQ(program["findings"][0]["message_sentence"],
+            Json({{"code", "gcode.missing-feed"}, {"arguments", Json::object()}}));
+  EXPECT_EQ(program["findings"][0]["expected_sentence"]["code"], "expected.feed-first");
+  EXPECT_EQ(run.get("/status")["job"]["why_sentence"]["arguments"]["finding.code"], "gcode.missing-feed");
   EXPECT_EQ(run.run.board().counts().events, 0U);
 }
 

@@ -1,7 +1,6 @@
 // What the page tells in passing: refusals, and what was done. Screen readers hear it.
 import { signal } from '@preact/signals';
 import { reportWords, type Sentence } from './faults';
-import { findingWords } from './findings';
 
 export interface Notice {
   id: number;
@@ -24,10 +23,11 @@ export function dismiss(id: number): void {
   notices.value = notices.peek().filter((one) => one.id !== id);
 }
 
-const sentenceOf = (error: Error): Sentence | null => ('sentence' in error ? (error.sentence as Sentence | null) : null);
-export const wordsOfError = (error: unknown): string => (error instanceof Error ? reportWords(error.message, sentenceOf(error)) : String(error));
+type Sentences = { sentence?: Sentence | null; expectedSentence?: Sentence | null };
+const sentencesOf = (error: Error): Sentences => error as object;
+export const wordsOfError = (error: unknown): string => (error instanceof Error ? reportWords(error.message, sentencesOf(error).sentence ?? null) : String(error));
 const hintOfError = (error: unknown): string =>
-  error instanceof Error && 'expected' in error && typeof error.expected === 'string' ? findingWords(error.expected) : '';
+  error instanceof Error && 'expected' in error && typeof error.expected === 'string' ? reportWords(error.expected, sentencesOf(error).expectedSentence ?? null) : '';
 
 // Does what a button asks, and tells why it was refused.
 export async function attempt(what: () => Promise<unknown>): Promise<boolean> {

@@ -62,7 +62,7 @@ export interface Status {
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.
-  mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string };
+  mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string; trouble_sentence: Sentence };
 }
 
 export interface MachineAxis {
@@ -98,7 +98,9 @@ export interface Finding {
   line: number;
   column: number;
   message: string;
+  message_sentence: Sentence;
   expected: string;
+  expected_sentence: Sentence;
   more_lines: number[];
 }
 export interface Program {
@@ -144,6 +146,7 @@ export class Refused extends Error {
     message: string,
     readonly expected = '', // what would have been right
     readonly sentence: Sentence | null = null,
+    readonly expectedSentence: Sentence | null = null,
   ) {
     super(message);
   }
@@ -160,8 +163,9 @@ export function headers(): Record<string, string> {
 
 async function refusalOf(answer: Response): Promise<Refused> {
   try {
-    const { error } = (await answer.json()) as { error: { code: string; message: string; expected?: string; sentence?: Sentence } };
-    return new Refused(answer.status, error.code, error.message, error.expected, error.sentence);
+    type Said = { code: string; message: string; expected?: string; sentence?: Sentence; expected_sentence?: Sentence };
+    const { error } = (await answer.json()) as { error: Said };
+    return new Refused(answer.status, error.code, error.message, error.expected, error.sentence, error.expected_sentence);
   } catch {
     return new Refused(answer.status, 'http.error', answer.statusText);
   }

@@ -1,7 +1,7 @@
 // Lines that a person types, whose modes last from line to line; and short programs of the page's own.
 import { kept } from '../core/kept';
 import { attempt } from '../core/notices';
-import { findingWords } from '../core/findings';
+import { reportWords } from '../core/faults';
 import type { Program } from './api';
 import { get, post, Refused, remove, upload } from './api';
 import { hold, resume } from './actions';
@@ -54,10 +54,12 @@ async function tellFindings(id: number): Promise<void> {
       const found = (program.findings ?? []).filter((one) => !ofPrograms.includes(one.code));
       const first = found.find((one) => one.severity === 'error');
       for (const one of found) {
-        if (one !== first) note(one.severity === 'error' ? 'refused' : 'warning', findingWords(one.message), findingWords(one.expected));
+        if (one === first) continue;
+        const hint = reportWords(one.expected, one.expected_sentence);
+        note(one.severity === 'error' ? 'refused' : 'warning', reportWords(one.message, one.message_sentence), hint);
       }
       // Whoever has asked tells the first error.
-      if (first !== undefined) throw new Refused(409, first.code, first.message, first.expected);
+      if (first !== undefined) throw new Refused(409, first.code, first.message, first.expected, first.message_sentence, first.expected_sentence);
       return;
     }
     await new Promise((resolve) => setTimeout(resolve, lookEvery));

@@ -1,7 +1,6 @@
 // What has happened since this page was opened: for the console.
 import { effect, signal } from '@preact/signals';
 import { reportWords } from '../core/faults';
-import { findingWords } from '../core/findings';
 import { say } from '../core/language';
 import { notices } from '../core/notices';
 import { connection, status } from './connection';
@@ -57,7 +56,7 @@ export function followLog(): void {
     const isTold = now.job?.state === 'failed' && now.job.name === consoleName;
     if (words !== job && words !== '' && !isTold) note(now.job?.state === 'failed' ? 'refused' : 'done', words);
     job = words;
-    if (now.mdi.trouble !== trouble && now.mdi.trouble !== '') note('refused', findingWords(now.mdi.trouble));
+    if (now.mdi.trouble !== trouble && now.mdi.trouble !== '') note('refused', reportWords(now.mdi.trouble, now.mdi.trouble_sentence));
     trouble = now.mdi.trouble;
   });
   effect(() => {

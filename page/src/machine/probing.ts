@@ -5,7 +5,7 @@ import { kept } from '../core/kept';
 import { confirm } from '../core/question';
 import { language, say, type Key } from '../core/language';
 import { lengthText, lengthUnit, speedText, speedUnit } from '../core/units';
-import { findingWords } from '../core/findings';
+import { reportWords } from '../core/faults';
 import { get, post, type Program } from './api';
 import { beOwner } from './owner';
 import { placeWords, workPlace } from './place';
@@ -153,7 +153,7 @@ export async function lookForMap(program: number | null): Promise<void> {
 export async function level(program: Program): Promise<void> {
   await attempt(async () => {
     const made = await post<Program>(`/programs/${program.id}/level`);
-    for (const one of made.findings ?? []) notify('refused', `${say('run.line', { line: one.line })}: ${findingWords(one.message)}`);
+    for (const one of made.findings ?? []) notify('refused', `${say('run.line', { line: one.line })}: ${reportWords(one.message, one.message_sentence)}`);
     chosen.value = made.id;
     await post(`/programs/${made.id}/check`);
     await refreshPrograms();

@@ -4,7 +4,6 @@ import { language, say, sayCount } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
 import { reportWords } from '../core/faults';
-import { findingWords } from '../core/findings';
 import { goTo } from '../core/route';
 import { clockText, durationText, momentText } from '../core/time';
 import { lengthText, lengthUnit } from '../core/units';
@@ -150,8 +149,8 @@ function Findings({ program }: { program: Program }) {
             >
               <Icon name={one.severity === 'error' ? 'bad' : 'warn'} />
               <span>
-                <b>{say('run.line', { line: one.line })}</b> {findingWords(one.message)}.{' '}
-                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: findingWords(one.expected) })}</span>}{' '}
+                <b>{say('run.line', { line: one.line })}</b> {reportWords(one.message, one.message_sentence)}.{' '}
+                {one.expected !== '' && <span class="dim">{say('files.expected', { expected: reportWords(one.expected, one.expected_sentence) })}</span>}{' '}
                 {one.more_lines.length > 0 && (
                   <span class="dim">
                     {sayCount('files.more.lines', one.more_lines.length, {

@@ -3,7 +3,7 @@
 import { Fragment } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { language, say, type Key } from '../core/language';
-import { findingWords } from '../core/findings';
+import { reportWords } from '../core/faults';
 import { confirm } from '../core/question';
 import { fromMm, isRotary, lengthUnit, perLength, smallUnit, toMm, units } from '../core/units';
 import { whyNot } from '../machine/actions';
@@ -254,7 +254,7 @@ function Findings() {
         <ul>
           {now.findings.map((one) => (
             <li key={`${one.line} ${one.message}`}>
-              {findingWords(one.message)}. {findingWords(one.expected)} <code class="dim">{one.code}</code>
+              {reportWords(one.message, one.message_sentence)}. {reportWords(one.expected, one.expected_sentence)} <code class="dim">{one.code}</code>
               {one.line > 0 && <code class="finding-line">{`${one.line}: ${lines[one.line - 1] ?? ''}`}</code>}
             </li>
           ))}

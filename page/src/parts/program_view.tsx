@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { say } from '../core/language';
-import { findingWords } from '../core/findings';
+import { reportWords } from '../core/faults';
 import { status } from '../machine/connection';
 import { firstLineAt, ProgramText, spacerOf, topForLine } from '../machine/program_text';
 import { shown } from '../machine/programs';
@@ -66,7 +66,7 @@ export function ProgramView() {
         class={`text-line ${marks} ${finding?.severity ?? ''}`}
         style={{ transform: `translateY(${(i - first) * size.lineHeight}px)` }}
         aria-current={number === executed ? 'step' : undefined}
-        title={finding === undefined ? undefined : findingWords(finding.message)}
+        title={finding === undefined ? undefined : reportWords(finding.message, finding.message_sentence)}
         onClick={() => (picked.value = picked.value === number ? null : number)}
       >
         <span class="text-number">{number}</span>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace passo {
 
@@ -19,6 +20,11 @@ std::string filled(std::string_view sentence, const SentenceArguments& arguments
     at = close + 1;
   }
   return words;
+}
+
+Sentence SentenceRow::with(SentenceArguments arguments) const {
+  std::string words = filled(text, arguments);
+  return {.code = std::string(code), .arguments = std::move(arguments), .text = std::move(words)};
 }
 
 }  // namespace passo

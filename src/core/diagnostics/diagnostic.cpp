@@ -109,7 +109,7 @@ std::string more_lines_in_words(const Diagnostic& diagnostic) {
 void Diagnostics::add(Diagnostic diagnostic) {
   if (!doubt_.empty() && diagnostic.severity == Severity::error) {
     diagnostic.severity = Severity::warning;
-    diagnostic.message += ", " + doubt_;
+    diagnostic.message = diagnostic.message + ", " + doubt_;  // other words, which no code stands for
   }
   add_certain(std::move(diagnostic));
 }

@@ -180,7 +180,8 @@ Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point
           {"tool", std::max(modes.tool, 0)},
           {"place", as_json(machine, modes.frame.work_from_machine(at))},
           {"streams", mdi.streams()},
-          {"trouble", mdi.trouble()}};
+          {"trouble", mdi.trouble()},
+          {"trouble_sentence", as_json(mdi.trouble().sentence())}};
 }
 
 Json as_json(const HistoryJob& job) {
@@ -277,8 +278,10 @@ Json as_json(const MachineDescription& machine, const InterruptedJob& job, const
 
 Json as_json(const Diagnostics& findings) {
   Json list = findings_json(findings.all());
-  for (Json& one : list) {
-    for (const char* const left_out : {"file", "length", "rule", "calls"}) one.erase(left_out);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const char* const left_out : {"file", "length", "rule", "calls"}) list[i].erase(left_out);
+    list[i]["message_sentence"] = as_json(findings.all()[i].message.sentence());
+    list[i]["expected_sentence"] = as_json(findings.all()[i].expected.sentence());
   }
   return list;
 }

@@ -22,10 +22,12 @@ Sentence first_error(const Diagnostics& findings, Sentence otherwise) {
   const auto& all = findings.all();
   const auto first = std::ranges::find(all, Severity::error, &Diagnostic::severity);
   if (first == all.end()) return otherwise;
-  return {
-      .code = "job.finding",
-      .arguments = {{"line", std::to_string(first->place.line)}, {"finding", first->message}, {"code", first->code}},
-      .text = fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code)};
+  SentenceArguments arguments = held_as("finding", first->message);
+  arguments.emplace_back("line", std::to_string(first->place.line));
+  arguments.emplace_back("code", first->code);
+  return {.code = "job.finding",
+          .arguments = std::move(arguments),
+          .text = fmt::format("line {}: {} [{}]", first->place.line, first->message, first->code)};
 }
 
 Sentence sentence_of_end() {

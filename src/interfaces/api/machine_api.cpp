@@ -170,8 +170,9 @@ WebAnswer MachineApi::run_line(const ApiCall& call) {
   if (!answer.code.empty()) {
     const Json error = {{"code", answer.code},
                         {"message", answer.message},
-                        {"sentence", as_json(answer.sentence)},
-                        {"expected", answer.expected}};
+                        {"sentence", as_json(answer.message.sentence())},
+                        {"expected", answer.expected},
+                        {"expected_sentence", as_json(answer.expected.sentence())}};
     return json_answer(409, {{"error", error}});
   }
   return json_answer(200, {{"words", std::move(answer.words)}, {"change", shared_.session.status().version}});

@@ -73,7 +73,9 @@ Json unset_json(std::string text, std::string message) {
                                      {"line", 0},
                                      {"column", 0},
                                      {"message", std::move(message)},
-                                     {"expected", ""}}})}};
+                                     {"expected", ""},
+                                     {"message_sentence", as_json(Sentence{.code = "machine-file.cannot-set"})},
+                                     {"expected_sentence", as_json(Sentence())}}})}};
 }
 
 }  // namespace
@@ -150,10 +152,10 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
   const std::string text = said["text"].get<std::string>();
   Diagnostics findings;
   if (!parse_machine(text, file.name, findings)) {
-    const std::string why = findings.all().empty() ? "it has errors" : findings.all().front().message;
+    const FindingWords why = findings.all().empty() ? "it has errors" : findings.all().front().message;
     return error_answer(409, "machine-file.unsound",
                         Sentence{.code = "machine-file.unsound",
-                                 .arguments = {{"finding", why}},
+                                 .arguments = held_as("finding", why),
                                  .text = fmt::format("invalid machine file: {}", why)});
   }
   if (const std::string why = file.write(*before, text); !why.empty()) {

@@ -35,11 +35,7 @@ std::vector<std::string> lines_of(std::string_view text) {
 }
 
 MdiLines::Answer refused(std::string_view code, Sentence sentence) {
-  return {.code = std::string(code),
-          .message = sentence.text,
-          .expected = {},
-          .words = {},
-          .sentence = std::move(sentence)};
+  return {.code = std::string(code), .message = std::move(sentence), .expected = {}, .words = {}};
 }
 
 MdiLines::Answer refused(const Refusal& refusal) {
@@ -118,7 +114,7 @@ MdiLines::Answer MdiLines::execute_code(std::string_view line) {
             .expected = std::move(wrong->expected),
             .words = {}};
   }
-  trouble_.clear();
+  trouble_ = {};
   changed_ = true;
   ++version_;
   ended_ = program_->take_ended() || ended_;

@@ -3,36 +3,37 @@
 #include <algorithm>
 #include <cctype>
 
+#include "gcode_sentences.hpp"
+
 namespace passo {
 namespace {
 
-constexpr std::string_view of_dwg = "G-code; save the drawing as DXF, which passo cam profile, pocket and drill read";
-constexpr std::string_view of_holes = "G-code; passo cam drill generates it from the holes";
-constexpr std::string_view of_lines = "G-code; passo cam profile or passo cam pocket generates it from the drawing";
-constexpr std::string_view of_drawn_holes =
-    "G-code; passo cam profile or pocket generates it from the drawing, passo cam drill from its holes";
-constexpr std::string_view of_plot =
-    "G-code; passo cam engrave --on-line or passo cam profile generates it from the plot";
-constexpr std::string_view of_picture =
-    "G-code; save the picture as PNG or TIFF, from which passo cam relief generates it";
-constexpr std::string_view of_png = "G-code; passo cam relief generates it from the picture";
-constexpr std::string_view of_font = "G-code; passo cam engrave --text --font generates it with the font";
-constexpr std::string_view of_airfoil = "G-code; passo cam wire --chord generates it from the airfoil";
-constexpr std::string_view of_heights = "G-code; a height map is for passo level --map or passo cam relief";
-constexpr std::string_view of_description =
-    "G-code; this file is for passo check PROGRAM --machine, or passo simulate --tool-table";
-constexpr std::string_view of_paper =
-    "G-code; save the drawing as SVG or DXF, which passo cam profile, pocket and engrave read";
-constexpr std::string_view of_body = "G-code; save the model as STL, from which passo cam relief generates it";
-constexpr std::string_view of_stl = "G-code; passo cam relief or a CAM program generates it from the model";
-constexpr std::string_view of_model = "G-code; a CAM program generates it from the model";
-constexpr std::string_view of_circuit = "G-code; passo cam isolate or passo cam outline generates it from the layer";
-constexpr std::string_view of_board = "G-code; passo cam board generates it from the board";
-constexpr std::string_view of_archive = "the unpacked program";
-constexpr std::string_view of_printer =
-    "G-code for a machine that cuts, from a CAM program; nothing here heats or extrudes";
-constexpr std::string_view of_settings = "G-code; a sender transfers settings to a Grbl machine";
-constexpr std::string_view of_program = "G-code, which is plain text";
+// Without codes: they are in English only.
+constexpr SentenceRow of_dwg{{}, "G-code; save the drawing as DXF, which passo cam profile, pocket and drill read"};
+constexpr SentenceRow of_holes{{}, "G-code; passo cam drill generates it from the holes"};
+constexpr SentenceRow of_lines{{}, "G-code; passo cam profile or passo cam pocket generates it from the drawing"};
+constexpr SentenceRow of_drawn_holes{
+    {}, "G-code; passo cam profile or pocket generates it from the drawing, passo cam drill from its holes"};
+constexpr SentenceRow of_plot{{},
+                              "G-code; passo cam engrave --on-line or passo cam profile generates it from the plot"};
+constexpr SentenceRow of_picture{{},
+                                 "G-code; save the picture as PNG or TIFF, from which passo cam relief generates it"};
+constexpr SentenceRow of_png{{}, "G-code; passo cam relief generates it from the picture"};
+constexpr SentenceRow of_font{{}, "G-code; passo cam engrave --text --font generates it with the font"};
+constexpr SentenceRow of_airfoil{{}, "G-code; passo cam wire --chord generates it from the airfoil"};
+constexpr SentenceRow of_heights{{}, "G-code; a height map is for passo level --map or passo cam relief"};
+constexpr SentenceRow of_description{
+    {}, "G-code; this file is for passo check PROGRAM --machine, or passo simulate --tool-table"};
+constexpr SentenceRow of_paper{
+    {}, "G-code; save the drawing as SVG or DXF, which passo cam profile, pocket and engrave read"};
+constexpr SentenceRow of_body{{}, "G-code; save the model as STL, from which passo cam relief generates it"};
+constexpr SentenceRow of_stl{{}, "G-code; passo cam relief or a CAM program generates it from the model"};
+constexpr SentenceRow of_model{{}, "G-code; a CAM program generates it from the model"};
+constexpr SentenceRow of_circuit{{}, "G-code; passo cam isolate or passo cam outline generates it from the layer"};
+constexpr SentenceRow of_board{{}, "G-code; passo cam board generates it from the board"};
+constexpr SentenceRow of_archive{{}, "the unpacked program"};
+constexpr SentenceRow of_settings{{}, "G-code; a sender transfers settings to a Grbl machine"};
+constexpr SentenceRow of_program{{}, "G-code, which is plain text"};
 
 constexpr ForeignFile png{"a PNG picture", of_png};
 constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
@@ -60,7 +61,7 @@ constexpr ForeignFile step{"a STEP model", of_model};
 constexpr ForeignFile gzip{"a gzip archive", of_archive};
 constexpr ForeignFile zip{"a ZIP archive", of_archive};
 constexpr ForeignFile elf{"a program for a computer or a board (ELF)", of_program};
-constexpr ForeignFile printer{"a program for a 3D printer", of_printer};
+constexpr ForeignFile printer{"a program for a 3D printer", gcode_says::from_cam};
 constexpr ForeignFile settings{"a list of Grbl settings", of_settings};
 constexpr ForeignFile xml{"an XML file", of_program};
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "gcode_sentences.hpp"
+
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/grbl_command.hpp"
 
@@ -162,7 +164,8 @@ bool LineParser::parse_line_number() {
   const char* const n = at_;
   const bool as_word = line_numbers_anywhere_;
   if (as_word && block_.line_number) {
-    return fail("gcode.repeated-word", n, 1, "a second N in one block", "each letter once");
+    return fail("gcode.repeated-word", n, 1, gcode_says::second_line_number.with({{"letter", "N"}}),
+                "each letter once");
   }
   consume();
   const bool is_negative = as_word && peek() == '-';
@@ -216,11 +219,10 @@ bool LineParser::parse_comment() {
   const char* close = open + 1;
   while (close != end_ && *close != ')' && *close != '(') ++close;
   if (close == end_) {
-    return fail("gcode.unclosed-comment", open, 1, "the comment that starts here is not closed",
-                "')' on the same line");
+    return fail("gcode.unclosed-comment", open, 1, gcode_says::comment_open, gcode_says::close_on_line);
   }
   if (*close == '(') {
-    return fail("gcode.nested-comment", close, 1, "a comment inside a comment",
+    return fail("gcode.nested-comment", close, 1, gcode_says::comment_in_comment,
                 "no '(' before the ')' that closes the comment");
   }
   BlockComment& comment = block_.comments.emplace_back();

@@ -19,6 +19,7 @@
 
 #include "characters.hpp"
 
+#include "passo/diagnostics/finding_words.hpp"
 #include "passo/gcode/block.hpp"
 
 namespace passo {
@@ -28,8 +29,8 @@ struct LineFault {
   const char* code = "";
   std::size_t offset = 0;
   std::size_t length = 1;
-  std::string message;
-  std::string expected;
+  FindingWords message;
+  FindingWords expected;
 };
 
 class LineParser {
@@ -78,7 +79,7 @@ class LineParser {
   bool emit(ExpressionOp op, const char* start, double number = 0, Symbol symbol = {});
 
   // line_parser_faults.cpp: the messages. All return false.
-  bool fail(const char* code, const char* from, std::size_t length, std::string message, std::string expected);
+  bool fail(const char* code, const char* from, std::size_t length, FindingWords message, FindingWords expected);
   bool fail_missing_value(const char* owner);
   bool is_digit_alike() const;
   bool fail_unexpected();                     // at_ is where no item can start

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "gcode_sentences.hpp"
 #include "line_parser.hpp"
 #include <fmt/format.h>
 
@@ -35,8 +36,8 @@ std::string_view guess(std::string_view word, const std::vector<std::string_view
 
 }  // namespace
 
-bool LineParser::fail(const char* code, const char* from, std::size_t length, std::string message,
-                      std::string expected) {
+bool LineParser::fail(const char* code, const char* from, std::size_t length, FindingWords message,
+                      FindingWords expected) {
   fault_ = {code, static_cast<std::size_t>(from - begin_), length, std::move(message), std::move(expected)};
   return false;
 }
@@ -55,14 +56,14 @@ bool LineParser::fail_missing_value(const char* owner) {
   const char c = peek();
   const bool is_operator = owner == last_operator_.data();
   const std::string_view name = is_operator ? last_operator_ : std::string_view(owner, 1);
-  const std::string whose = *owner == '[' ? "the bracket is empty"
-                            : is_operator ? fmt::format("'{}' has no value after it", name)
-                                          : fmt::format("'{}' has no value", name);
+  const FindingWords whose = *owner == '[' ? FindingWords("the bracket is empty")
+                             : is_operator ? FindingWords(fmt::format("'{}' has no value after it", name))
+                                           : gcode_says::no_value.with({{"what", fmt::format("'{}'", name)}});
   if (at_end() || is_letter(c) || c == '(' || c == ';' || c == ']' || c == '#' || c == '[') {
     if (c == 'O') return fail_letter_o(at_);
     if (is_digit_alike()) {
-      return fail("gcode.missing-value", at_, 1, fmt::format("the letter '{}' where a value should be", *at_),
-                  "the digit 1");
+      return fail("gcode.missing-value", at_, 1,
+                  gcode_says::not_a_value.with({{"what", fmt::format("the letter '{}'", *at_)}}), "the digit 1");
     }
     const char* expected = a_value;
     if (c == '(') expected = "square brackets: '(' starts a comment";
@@ -70,12 +71,12 @@ bool LineParser::fail_missing_value(const char* owner) {
     return fail("gcode.missing-value", owner, name.size(), whose, expected);
   }
   const NamedCharacter found = name_character(rest(at_));
-  std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;
-  if (c == ',') cure = "a decimal point";
+  FindingWords cure = found.cure.empty() ? std::string(a_value) : found.cure;
+  if (c == ',') cure = gcode_says::decimal_point;
   if (c == '=') cure = "the value right after the letter, e.g. X5";
   const bool is_known = std::string_view("=+-*/.%)").find(c) != std::string_view::npos;  // has a meaning elsewhere
   return fail(is_known ? "gcode.missing-value" : "gcode.bad-character", at_, found.length,
-              fmt::format("{} where a value should be", found.name), cure);
+              gcode_says::not_a_value.with({{"what", found.name}}), std::move(cure));
 }
 
 bool LineParser::fail_unexpected() {
@@ -97,16 +98,16 @@ bool LineParser::fail_unexpected() {
       return fail("gcode.unexpected-text", at_, 1, "a line number that is not at the start of its line",
                   "N as the first word, after '/' if there is one");
     case ':':
-      return fail("gcode.unexpected-text", at_, 1, "':' where a word should start",
-                  "O for ':', as in O0491; on some controls ':' begins the number of a program");
+      return fail("gcode.unexpected-text", at_, 1, gcode_says::not_a_word.with({{"what", "':'"}}),
+                  gcode_says::letter_o);
     case ')':
       return fail("gcode.unexpected-text", at_, 1, "')' without a comment before it", "'(' where the comment starts");
     case ',':
-      if (after_number) return fail("gcode.bad-character", at_, 1, "',' in a number", "a decimal point");
+      if (after_number) return fail("gcode.bad-character", at_, 1, gcode_says::comma, gcode_says::decimal_point);
       break;
     case '.':
       if (after_number) {
-        return fail("gcode.unexpected-text", at_, 1, "a second decimal point in a number", "one decimal point");
+        return fail("gcode.unexpected-text", at_, 1, gcode_says::second_point, gcode_says::one_point);
       }
       break;
     case '+':
@@ -125,22 +126,21 @@ bool LineParser::fail_unexpected() {
     case ']':
     case '=':
     case '%':
-      return fail("gcode.unexpected-text", at_, 1, fmt::format("{} where a word should start", found.name),
+      return fail("gcode.unexpected-text", at_, 1, gcode_says::not_a_word.with({{"what", found.name}}),
                   "a letter with a value, #parameter=value or a comment");
     default: break;
   }
   if (is_digit(c)) {
-    return fail("gcode.unexpected-text", at_, 1, "a number without a letter before it",
-                "a letter with a value, as in X12.5");
+    return fail("gcode.unexpected-text", at_, 1, gcode_says::lone_number, gcode_says::letter_and_value);
   }
-  return fail("gcode.bad-character", at_, found.length, fmt::format("{} has no meaning in G-code", found.name),
+  return fail("gcode.bad-character", at_, found.length, gcode_says::no_meaning.with({{"what", found.name}}),
               found.cure);
 }
 
 bool LineParser::fail_in_brackets(const char* open) {
   const char c = peek();
   if (at_end()) {
-    return fail("gcode.unclosed-bracket", open, 1, "the bracket that opens here is not closed", "']'");
+    return fail("gcode.unclosed-bracket", open, 1, gcode_says::bracket_open, "']'");
   }
   const NamedCharacter found = name_character(rest(at_));
   if (c == '(' || c == ')') {
@@ -148,7 +148,8 @@ bool LineParser::fail_in_brackets(const char* open) {
                 "square brackets in expressions: '(' starts a comment");
   }
   const bool after_number = is_digit(token_end_[-1]) || token_end_[-1] == '.';
-  if (c == ',' && after_number) return fail("gcode.bad-character", at_, 1, "',' in a number", "a decimal point");
+  if (c == ',' && after_number)
+    return fail("gcode.bad-character", at_, 1, gcode_says::comma, gcode_says::decimal_point);
   std::string expected = "an operator (+ - * / ** MOD EQ NE GT GE LT LE AND OR XOR) or ']'";
   if (!is_letter(c) && !found.cure.empty()) expected = found.cure;
   const bool is_plain = static_cast<unsigned char>(c) > 0x20 && static_cast<unsigned char>(c) < 0x7F;
@@ -160,14 +161,14 @@ bool LineParser::fail_in_brackets(const char* open) {
 bool LineParser::fail_foreign_word(const char* start) {
   struct Macro {
     std::string_view name;
-    const char* expected;
+    SentenceRow expected;
     bool has_condition = false;
   };
-  constexpr Macro macros[] = {{"WHILE", "o1 while [...] on one line, and o1 endwhile where END stands", true},
-                              {"GOTO", "o1 if [...] and o1 endif around what is passed over; there are no jumps"},
-                              {"THEN", "o1 if [...], the assignment on the next line, and o1 endif"},
-                              {"END", "o1 endwhile, with the label of its o1 while"},
-                              {"IF", "o1 if [...] on one line, and o1 endif after the last line that it guards", true}};
+  constexpr Macro macros[] = {{"WHILE", gcode_says::for_while, true},
+                              {"GOTO", gcode_says::for_goto},
+                              {"THEN", gcode_says::for_then},
+                              {"END", gcode_says::for_end},
+                              {"IF", gcode_says::for_if, true}};
   // `I F100` is an I that lacks its value.
   std::string name;
   const char* at = start;
@@ -178,7 +179,7 @@ bool LineParser::fail_foreign_word(const char* start) {
       macros, [&](const Macro& macro) { return name == macro.name && (has_condition || !macro.has_condition); });
   if (found == std::end(macros)) return false;
   return fail("gcode.fanuc-macro", start, found->name.size(),
-              fmt::format("{} is a word of Fanuc's macros", found->name), found->expected);
+              gcode_says::fanuc_word.with({{"name", std::string(found->name)}}), found->expected);
 }
 
 bool LineParser::fail_function(const char* name_start, std::string_view name) {
@@ -187,7 +188,7 @@ bool LineParser::fail_function(const char* name_start, std::string_view name) {
   const std::string_view meant = guess(upper, {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP",
                                                "LN", "ROUND", "SIN", "SQRT", "TAN"});
   return fail("gcode.unknown-function", name_start, name.size(),
-              fmt::format("there is no function {}", shortened(upper)),
+              gcode_says::no_function.with({{"name", shortened(upper)}}),
               meant.empty() ? "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT or TAN"
                             : fmt::format("{}, perhaps", meant));
 }

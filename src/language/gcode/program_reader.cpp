@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "gcode_sentences.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -44,13 +45,18 @@ class File {
   int descriptor_ = -1;
 };
 
-Diagnostic whole_file(std::string code, const std::string& name, std::string message, std::string expected) {
+Diagnostic whole_file(std::string code, const std::string& name, FindingWords message, FindingWords expected) {
   Diagnostic diagnostic;
   diagnostic.code = std::move(code);
   diagnostic.file = name;
   diagnostic.message = std::move(message);
   diagnostic.expected = std::move(expected);
   return diagnostic;
+}
+
+FindingWords kind_in_words(const ForeignFile& foreign) {
+  if (foreign.expected.code == gcode_says::from_cam.code) return gcode_says::for_a_printer;
+  return gcode_says::not_gcode.with({{"what", std::string(foreign.kind)}});
 }
 
 Diagnostic unreadable(const std::string& name, int error) {
@@ -162,8 +168,8 @@ struct ProgramReader::State {
   Find find_line(std::size_t& end, std::size_t& next, Diagnostics& diagnostics);
   void skip_long_line(Diagnostics& diagnostics);
   std::size_t find_line_feed();
-  void report(Diagnostics& diagnostics, std::string code, std::size_t column, std::string message, std::string expected,
-              std::string_view text) const;
+  void report(Diagnostics& diagnostics, std::string code, std::size_t column, FindingWords message,
+              FindingWords expected, std::string_view text) const;
 };
 
 // Moves the unread bytes to the front and reads more after them. Returns false after an error.
@@ -260,8 +266,8 @@ void ProgramReader::State::skip_long_line(Diagnostics& diagnostics) {
   ++line;
 }
 
-void ProgramReader::State::report(Diagnostics& diagnostics, std::string code, std::size_t column, std::string message,
-                                  std::string expected, std::string_view text) const {
+void ProgramReader::State::report(Diagnostics& diagnostics, std::string code, std::size_t column, FindingWords message,
+                                  FindingWords expected, std::string_view text) const {
   Diagnostic diagnostic = whole_file(std::move(code), name, std::move(message), std::move(expected));
   diagnostic.place = {line, static_cast<std::uint32_t>(column), 1};
   diagnostic.text = text;
@@ -291,18 +297,17 @@ Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
   if (!state->fill(diagnostics)) return Failure{diagnostics.all().front()};
   const std::string_view first(state->buffer.data(), std::min(state->filled, inspected_bytes));
   if (first.empty() || (first == utf8_mark && state->at_file_end)) {
-    return Failure{whole_file("file.empty", name, "the file is empty", "G-code")};
+    return Failure{whole_file("file.empty", name, gcode_says::empty_file, gcode_says::gcode_file)};
   }
   if (const ForeignFile foreign = foreign_file(name, first); !foreign.kind.empty()) {
     return Failure{whole_file(inspect(first) == Content::text ? "file.not-gcode" : "file.binary", name,
-                              fmt::format("this is {}, not G-code", foreign.kind), std::string(foreign.expected))};
+                              kind_in_words(foreign), foreign.expected)};
   }
   switch (inspect(first)) {
     case Content::text: break;
     case Content::wide_text:
       return Failure{whole_file("file.binary", name, "the file is UTF-16 text", "the file saved as UTF-8 or ASCII")};
-    case Content::binary:
-      return Failure{whole_file("file.binary", name, "the file is not text", "a G-code program, which is plain text")};
+    case Content::binary: return Failure{whole_file("file.binary", name, gcode_says::not_text, gcode_says::plain_text)};
   }
   if (first.starts_with(utf8_mark)) state->start = state->cursor = utf8_mark.size();
   return ProgramReader(std::move(state));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "comment_text.hpp"
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -45,7 +46,7 @@ bool ActiveComments::obey(const BlockComment& comment) {
     case Kind::log_close: emit_ahead(Log{Log::Kind::close, {}}); return true;
     case Kind::abort:
       block_.ended = block_.gave_up = true;
-      return fail("gcode.abort", comment.span, fmt::format("the program aborts:{}", filled()));
+      return fail("gcode.abort", comment.span, interpreter_says::aborts.with({{"words", std::string(filled())}}));
     case Kind::probe_open:
     case Kind::probe_close:  // as rs274 shows them: whole
       emit(operation::Comment{reporter_.block().text.substr(comment.span.column, comment.span.length - 2)});

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include "whole_number.hpp"
 #include <fmt/format.h>
 
@@ -138,9 +139,9 @@ void BlockExecutor::execute(const Block& block) {
   if (!readable) return;
   words_.find_axes(block_.axis_words);
   if (words_.has_code(non_modal, code(4)) && !words_.has('P')) {
-    fail("gcode.missing-word", words_.span(non_modal), "G4 without P",
-         words_.has('X') || words_.has('U') ? "P, the time to wait in seconds; other controls use X or U"
-                                            : "P, the seconds to wait");
+    fail("gcode.missing-word", words_.span(non_modal), interpreter_says::dwell_without_p,
+         words_.has('X') || words_.has('U') ? FindingWords("P, the time to wait in seconds; other controls use X or U")
+                                            : interpreter_says::seconds_to_wait);
     return;
   }
   if (!resolve_motion() || (!speaks_grbl() && !check_words_used()) || !check_words_shared() || !cutter_codes_.check()) {
@@ -332,13 +333,13 @@ bool BlockExecutor::resolve_motion() {
     if (homes && block_.motion->number == code(0) && !speaks_grbl()) return go_home_beside_g0(*taker);
     return fail(
         "gcode.axis-conflict", words_.span(taker_group),
-        fmt::format("{} and {} both use the axis words of the block", spelling(*taker), spelling(*block_.motion)),
-        "two blocks");
+        interpreter_says::both_use_axes.with({{"first", spelling(*taker)}, {"second", spelling(*block_.motion)}}),
+        interpreter_says::two_blocks);
   }
   const CodeEntry* const user = taker != nullptr ? taker : block_.motion;
   if (user != nullptr && user->axes == AxisUse::must && !any_axis) {
-    return fail("gcode.missing-axis", words_.span(user->group), fmt::format("{} without axis words", spelling(*user)),
-                "one of X Y Z A B C U V W at least");
+    return fail("gcode.missing-axis", words_.span(user->group),
+                interpreter_says::without_axes.with({{"code", spelling(*user)}}), interpreter_says::an_axis);
   }
   if (block_.motion != nullptr || taker != nullptr) return true;
 
@@ -347,8 +348,8 @@ bool BlockExecutor::resolve_motion() {
   const bool arc_words = !speaks_grbl() && (words_.present() & LetterSet("IJK")).any();
   if (any_axis || (arc_words && (active == code(2) || active == code(3)))) {
     if (active == code(80)) {
-      return fail("gcode.missing-motion", motion_span(), "axis words, and no code that moves is active",
-                  "G0, G1, G2, G3 or another motion code before, or in this block");
+      return fail("gcode.missing-motion", motion_span(), interpreter_says::nothing_moves,
+                  interpreter_says::motion_code);
     }
     block_.motion = find_code('G', active);
   }
@@ -358,8 +359,8 @@ bool BlockExecutor::resolve_motion() {
 // `G0 G91 G28 Z0`, as Fanuc's programs have it: the axis words are G28's, and G0 stays in force.
 bool BlockExecutor::go_home_beside_g0(const CodeEntry& taker) {
   reporter_.warning("gcode.g0-with-home", words_.span(motion),
-                    fmt::format("{} uses the axis words of the block; G0 only stays in force", spelling(taker)),
-                    fmt::format("{} in a block without G0", spelling(taker)));
+                    interpreter_says::home_beside_g0.with({{"code", spelling(taker)}}),
+                    interpreter_says::home_alone.with({{"code", spelling(taker)}}));
   state_.modal.set(motion, code(0));
   block_.motion = nullptr;
   return true;
@@ -391,8 +392,8 @@ bool BlockExecutor::check_words_used() {
     if (word.letter == 'E' && follows_digit(reporter_.block().text, word.span)) {
       expected += "; numbers cannot have an exponent, so 1E3 is written 1000";
     }
-    reporter_.error("gcode.unused-word", word.span, fmt::format("no code of this block uses the word {}", word.letter),
-                    std::move(expected));
+    reporter_.error("gcode.unused-word", word.span,
+                    interpreter_says::unused_word.with({{"letter", std::string(1, word.letter)}}), std::move(expected));
   }
   return false;
 }
@@ -412,7 +413,7 @@ bool BlockExecutor::check_words_shared() {
         return fail("gcode.ambiguous-word", word.span,
                     fmt::format("{} belongs to {} or to {}, which both use it", word.letter, spelling(*taken),
                                 spelling(*entry)),
-                    "two blocks");
+                    interpreter_says::two_blocks);
       }
       taken = entry;
     }

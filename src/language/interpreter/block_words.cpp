@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -75,9 +76,9 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
     const std::string written = word.letter + plain_number(value);
     const bool readable = value >= 0 && value < code_limit;
     reporter.error(
-        "gcode.unknown-code", word.span, fmt::format("there is no {}", written),
+        "gcode.unknown-code", word.span, interpreter_says::no_code.with({{"code", written}}),
         has_blank_between_digits(reporter.quote(word.span))
-            ? "a letter before the second number; a space does not end a number"
+            ? FindingWords("a letter before the second number; a space does not end a number")
             : cure_for_unknown_code(word.letter, readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1}));
     return false;
   }
@@ -89,9 +90,10 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
   }
   if (codes_[group] != nullptr) {
     reporter.error("gcode.modal-conflict", word.span,
-                   fmt::format("{} and {} are of the same group ({}) and cannot be in one block",
-                               spelling(*codes_[group]), spelling(*entry), row_of(entry->group).name),
-                   "one of them, or two blocks");
+                   interpreter_says::same_group.with({{"first", spelling(*codes_[group])},
+                                                      {"second", spelling(*entry)},
+                                                      {"group", std::string(row_of(entry->group).name)}}),
+                   interpreter_says::one_or_two_blocks);
     return false;
   }
   calls_macro_ = calls_macro_ || (entry->group == ModalGroup::macro && entry->number != passo::code(67));
@@ -103,8 +105,9 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
 
 bool BlockWords::read_number(const Word& word, double value, Reporter& reporter) {
   if (present_.has(word.letter)) {
-    reporter.error("gcode.repeated-word", word.span, fmt::format("a second {} in one block", word.letter),
-                   "each letter but G and M at most once");
+    reporter.error("gcode.repeated-word", word.span,
+                   interpreter_says::second_letter.with({{"letter", std::string(1, word.letter)}}),
+                   interpreter_says::letter_once);
     return false;
   }
   present_.add(word.letter);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter_sentences.hpp"
 #include "whole_number.hpp"
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ constexpr int every_spindle = -1;
 
 }  // namespace
 
-bool CodeFamily::fail(std::string_view code, Span span, std::string message, std::string expected) {
+bool CodeFamily::fail(std::string_view code, Span span, FindingWords message, FindingWords expected) {
   reporter_.error(code, span, std::move(message), std::move(expected));
   return false;
 }
@@ -129,8 +130,7 @@ bool CodeFamily::check_feed() {
   }
   if (state_.feed <= 0) {
     if (std::exchange(block_.missing_feed_told, true)) return false;  // reported once, not at every move
-    return fail("gcode.missing-feed", motion_span(), "no feed rate is set",
-                "F before the first feed move, or in its block");
+    return fail("gcode.missing-feed", motion_span(), interpreter_says::no_feed, interpreter_says::feed_first);
   }
   if (state_.modal.per_revolution() && state_.spindles[0].speed == 0) {
     return fail("gcode.missing-speed", motion_span(), "feed per revolution (G95) without a spindle speed",
@@ -191,20 +191,19 @@ bool CodeFamily::report_arc(const ArcCenter& arc) {
   switch (arc.fault) {
     case ArcFault::none: return true;
     case ArcFault::zero_radius:
-      return fail("gcode.zero-arc", motion_span(), "the arc's centre is its start or its end", "a radius above zero");
+      return fail("gcode.zero-arc", motion_span(), interpreter_says::zero_arc, interpreter_says::some_radius);
     case ArcFault::radii_differ:
       return fail("gcode.arc-radii-differ", motion_span(),
-                  fmt::format("the arc starts at a radius of {:.4f} and ends at {:.4f}", arc.start_radius / unit,
-                              arc.end_radius / unit),
-                  "a centre as far from the start as from the end");
+                  interpreter_says::radii_differ.with({{"start", fmt::format("{:.4f}", arc.start_radius / unit)},
+                                                       {"end", fmt::format("{:.4f}", arc.end_radius / unit)}}),
+                  interpreter_says::equal_radii);
     case ArcFault::radius_too_small:
-      return fail(
-          "gcode.impossible-arc", words_.span('R'),
-          fmt::format("no arc with a radius of {} reaches from the start to the end", plain_number(words_['R'])),
-          "half the distance at least");
+      return fail("gcode.impossible-arc", words_.span('R'),
+                  interpreter_says::small_radius.with({{"radius", plain_number(words_['R'])}}),
+                  interpreter_says::half_the_distance);
     case ArcFault::ends_at_start:
       return fail(speaks_grbl() ? "gcode.zero-arc" : "gcode.impossible-arc", words_.span('R'),
-                  "an arc with R that ends where it starts", "a full circle is written with I J K");
+                  interpreter_says::ends_at_start, interpreter_says::full_circle);
   }
   return true;
 }

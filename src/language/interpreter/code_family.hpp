@@ -26,7 +26,7 @@ class CodeFamily {
   ~CodeFamily() = default;
 
   // Errors. fail() returns false.
-  bool fail(std::string_view code, Span span, std::string message, std::string expected = {});
+  bool fail(std::string_view code, Span span, FindingWords message, FindingWords expected = {});
   bool speaks_grbl() const { return block_.options.dialect == Dialect::grbl; }
   // Returns whether the word is negative by more than a rounding error, as in P[0.3-0.1-0.2].
   bool is_negative(char letter) const { return words_[letter] <= -equality_tolerance; }

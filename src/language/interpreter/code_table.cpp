@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -348,25 +349,17 @@ const CodeEntry* find_user_code(CodeNumber number) {
 struct ForeignCode {
   char letter;
   CodeNumber number;
-  std::string_view cure;
+  SentenceRow cure;
 };
 constexpr ForeignCode foreign_codes[] = {
-    {'G', code(12), "G2 or G3 with I and J, a full circle"},
-    {'G', code(13), "G2 or G3 with I and J, a full circle"},
-    {'G', code(15), "X and Y, or @ and ^ for polar coordinates"},
-    {'G', code(16), "@ and ^ for polar coordinates"},
-    {'G', code(31), "G38.2 to G38.5, which probe"},
-    {'G', code(36), "G38.2 and G10 L10, which measure a tool"},
-    {'G', code(37), "G38.2 and G10 L10, which measure a tool"},
-    {'G', code(44), "G43 with the offset's other sign"},
-    {'G', code(68), "G10 L2 with R, which rotates a work system"},
-    {'G', code(69), "G10 L2 with R0, which ends the rotation of a work system"},
-    {'M', code(13), "M3 and M8: on other controls this is both at once"},
-    {'M', code(14), "M4 and M8: on other controls this is both at once"},
-    {'M', code(29), "G33.1: on other controls this announces rigid tapping"},
-    {'M', code(42), "M62 to M65, which switch a digital output"},
-    {'M', code(97), "o… call or M98, which call a subroutine of the program"},
-    {'M', code(47), "M99 in the main program, which restarts it"},
+    {'G', code(12), interpreter_says::instead_of_g12}, {'G', code(13), interpreter_says::instead_of_g12},
+    {'G', code(15), interpreter_says::instead_of_g15}, {'G', code(16), interpreter_says::instead_of_g16},
+    {'G', code(31), interpreter_says::instead_of_g31}, {'G', code(36), interpreter_says::instead_of_g37},
+    {'G', code(37), interpreter_says::instead_of_g37}, {'G', code(44), interpreter_says::instead_of_g44},
+    {'G', code(68), interpreter_says::instead_of_g68}, {'G', code(69), interpreter_says::instead_of_g69},
+    {'M', code(13), interpreter_says::instead_of_m13}, {'M', code(14), interpreter_says::instead_of_m14},
+    {'M', code(29), interpreter_says::instead_of_m29}, {'M', code(42), interpreter_says::instead_of_m42},
+    {'M', code(97), interpreter_says::instead_of_m97}, {'M', code(47), interpreter_says::instead_of_m47},
 };
 
 // "G1, G2 or G3".
@@ -403,9 +396,9 @@ std::string spelling(char letter, CodeNumber number) {
   return tenth == 0 ? fmt::format("{}{}", letter, whole) : fmt::format("{}{}.{}", letter, whole, tenth);
 }
 
-std::string cure_for_unknown_code(char letter, CodeNumber number) {
+FindingWords cure_for_unknown_code(char letter, CodeNumber number) {
   for (const ForeignCode& foreign : foreign_codes) {
-    if (foreign.letter == letter && foreign.number == number) return std::string(foreign.cure);
+    if (foreign.letter == letter && foreign.number == number) return foreign.cure;
   }
   std::vector<std::string> relatives;  // of the same whole number
   for (const CodeEntry& entry : table) {

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 
+#include "passo/diagnostics/finding_words.hpp"
 #include "passo/interpreter/operation.hpp"
 
 namespace passo {
@@ -146,7 +147,7 @@ inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);
 }
 // Returns a suggestion in place of a code that is not in the table.
-std::string cure_for_unknown_code(char letter, CodeNumber number);
+FindingWords cure_for_unknown_code(char letter, CodeNumber number);
 // Returns the codes that use this word, e.g. "G2, G3 or G10". Empty if there are none.
 std::string codes_using(char letter);
 

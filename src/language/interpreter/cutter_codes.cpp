@@ -3,6 +3,7 @@
 #include <cmath>
 #include <variant>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -125,7 +126,7 @@ bool CutterCodes::from_table(CutterSetup& setup) {
   if (number != 0) tool = state_.tools.find(number);
   if (tool == nullptr) {
     return fail(
-        "gcode.unknown-tool", span, fmt::format("tool {} is not in the tool table", number),
+        "gcode.unknown-tool", span, interpreter_says::tool_not_in_table.with({{"tool", std::to_string(number)}}),
         state_.tools.name.empty()
             ? "a tool table (--tools FILE), or G41.1 or G42.1 with the diameter"
             : "the number of a tool in the table, another table (--tools FILE), or G41.1 or G42.1 with the diameter");

@@ -41,8 +41,8 @@ Field FieldReader::rest() const {
   return {text, static_cast<std::uint32_t>(first + 1)};
 }
 
-void FieldReader::report(Severity severity, std::string_view code, const Field& field, std::string message,
-                         std::string expected) {
+void FieldReader::report(Severity severity, std::string_view code, const Field& field, FindingWords message,
+                         FindingWords expected) {
   const auto length = static_cast<std::uint32_t>(std::max<std::size_t>(field.text.size(), 1));
   Diagnostic diagnostic{.severity = severity,
                         .code = std::string(code),
@@ -55,7 +55,7 @@ void FieldReader::report(Severity severity, std::string_view code, const Field& 
   diagnostics_.add(std::move(diagnostic));
 }
 
-void FieldReader::error(std::string_view code, std::string message, std::string expected) {
+void FieldReader::error(std::string_view code, FindingWords message, FindingWords expected) {
   at_ = 0;
   error(code, rest(), std::move(message), std::move(expected));
 }

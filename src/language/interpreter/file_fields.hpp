@@ -33,12 +33,13 @@ class FieldReader {
   Field rest() const;
 
   const std::string& file() const { return file_; }
-  void error(std::string_view code, const Field& field, std::string message, std::string expected) {
+  void error(std::string_view code, const Field& field, FindingWords message, FindingWords expected) {
     report(Severity::error, code, field, std::move(message), std::move(expected));
   }
-  void report(Severity severity, std::string_view code, const Field& field, std::string message, std::string expected);
+  void report(Severity severity, std::string_view code, const Field& field, FindingWords message,
+              FindingWords expected);
   // Reports an error about the whole line.
-  void error(std::string_view code, std::string message, std::string expected);
+  void error(std::string_view code, FindingWords message, FindingWords expected);
 
  private:
   ProgramReader reader_;

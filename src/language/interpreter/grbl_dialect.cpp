@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/gcode/expression.hpp"
@@ -118,7 +119,7 @@ class GrblCheck {
   LetterSet idle_letters() const { return idle_letters_; }
 
  private:
-  bool fail(int number, Span span, std::string message, std::string expected) {
+  bool fail(int number, Span span, FindingWords message, FindingWords expected) {
     reporter_.error(error_of(number).code, span, std::move(message), std::move(expected));
     return false;
   }
@@ -188,7 +189,7 @@ class GrblCheck {
     if (claims && axis_user_ != nullptr) {
       return fail(24, word.span,
                   fmt::format("{} and G{} both use the axis words", spelling(*axis_user_), plain_number(value)),
-                  "two blocks");
+                  interpreter_says::two_blocks);
     }
     const bool readable = hundredths >= 0 && hundredths < 100 && std::fmod(hundredths, 10) == 0;
     const CodeNumber number = readable ? code(whole, static_cast<int>(hundredths / 10)) : CodeNumber{-1};
@@ -210,7 +211,7 @@ class GrblCheck {
       return fail(21, word.span,
                   fmt::format("{} and {} are of the same group ({})", spelling(*codes_[group]), spelling(*entry),
                               row_of(entry->group).name),
-                  "one of them, or two blocks");
+                  interpreter_says::one_or_two_blocks);
     }
     codes_[group] = entry;
     return true;
@@ -233,7 +234,8 @@ class GrblCheck {
                   "T255 at most");
     }
     if (has(word.letter)) {
-      return fail(25, word.span, fmt::format("a second {} in one block", word.letter), "each letter once");
+      return fail(25, word.span, interpreter_says::second_letter.with({{"letter", std::string(1, word.letter)}}),
+                  "each letter once");
     }
     if (never_negative.has(word.letter) && value < 0) {
       return fail(4, word.span, fmt::format("{} is {}", word.letter, plain_number(value)), "0 or more");
@@ -266,7 +268,7 @@ class GrblCheck {
     if (is_inverse_time() && moves() && needs_feed(motion) && !has('F')) return fail_feed();
     const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
     if (non_modal != nullptr && non_modal->number == code(4) && !has('P')) {
-      return fail(28, word_span('G', code(4)), "G4 without P", "P, the seconds to wait");
+      return fail(28, word_span('G', code(4)), interpreter_says::dwell_without_p, interpreter_says::seconds_to_wait);
     }
     const CodeEntry* const tool_length = code_of(ModalGroup::tool_length);
     if (tool_length != nullptr && tool_length->number == code(43, 1) &&
@@ -275,7 +277,7 @@ class GrblCheck {
     }
     if (non_modal != nullptr && non_modal->number == code(10) && !g10_suffices()) return false;
     if (non_modal != nullptr && non_modal->number == code(92) && !any_axis()) {
-      return fail(26, code_span_, "G92 without axis words", "X, Y or Z");
+      return fail(26, code_span_, interpreter_says::without_axes.with({{"code", "G92"}}), "X, Y or Z");
     }
     if (non_modal != nullptr && non_modal->number == code(53) && motion != code(0) && motion != code(1)) {
       return fail(30, word_span('G', code(53)), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
@@ -309,7 +311,7 @@ class GrblCheck {
   }
   bool fail_feed() {
     const Span at = code_of(ModalGroup::motion) != nullptr ? code_span_ : first_axis_span();
-    return fail(22, at, "no feed rate is set",
+    return fail(22, at, interpreter_says::no_feed,
                 is_inverse_time() ? "F in each block that feeds (G93)" : "F before, or in this block");
   }
   Span word_span(char letter, CodeNumber number) const {
@@ -320,7 +322,7 @@ class GrblCheck {
   }
 
   bool g10_suffices() {
-    if (!any_axis()) return fail(26, code_span_, "G10 without axis words", "X, Y or Z");
+    if (!any_axis()) return fail(26, code_span_, interpreter_says::without_axes.with({{"code", "G10"}}), "X, Y or Z");
     if (!has('P') && !has('L')) return fail(28, code_span_, "G10 needs L", "L2 or L20, and P0 to P6");
     const double kind = std::trunc(value('L'));
     if (value('P') >= work_systems + 1) return fail(29, span('P'), "Grbl has six work offsets", "P0 to P6");

@@ -5,6 +5,7 @@
 
 #include "block_executor.hpp"
 #include "grbl_dialect.hpp"
+#include "interpreter_sentences.hpp"
 #include "program_flow.hpp"
 #include "rules.hpp"
 
@@ -167,8 +168,8 @@ class Interpreter::Implementation {
     if (!executor_.ended() && flow_.end() == ProgramFlow::End::file && !reporter_.full()) {
       const bool is_for_grbl = block_.options.dialect == Dialect::grbl;
       reporter_.warning("gcode.no-end", {1, 1},
-                        is_for_grbl ? "the program ends without M2 or M30" : "the program ends without M2, M30 or '%'",
-                        "M2 in its last line");
+                        is_for_grbl ? FindingWords("the program ends without M2 or M30") : interpreter_says::no_end,
+                        interpreter_says::end_in_last_line);
     }
     if (executor_.ended()) {
       if (!executor_.gave_up()) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -156,7 +157,7 @@ bool LatheCodes::contour_arc(LatheSegment& segment) {
   const bool by_center = words_.has('I') || words_.has('K');
   ArcCenter found;
   if (by_center && words_.has('R')) {
-    return fail("gcode.mixed-arc", words_.span('R'), "an arc with a radius and a centre", "R, or I K");
+    return fail("gcode.mixed-arc", words_.span('R'), interpreter_says::radius_and_centre, "R, or I K");
   }
   if (words_.has('R')) {
     found = center_from_radius(in_plane(segment.start), in_plane(segment.end), words_['R'] * unit,
@@ -167,7 +168,7 @@ bool LatheCodes::contour_arc(LatheSegment& segment) {
     center += LathePoint(words_.has('K') ? words_['K'] : 0, words_.has('I') ? words_['I'] : 0);
     found = check_center(in_plane(segment.start), in_plane(segment.end), in_plane(center), tolerance);
   } else {
-    return fail("gcode.missing-center", motion_span(), "an arc without a centre or a radius",
+    return fail("gcode.missing-center", motion_span(), interpreter_says::no_centre,
                 "I and K (or one of them) for the centre, or R");
   }
   segment.center = LathePoint(found.center.first, found.center.second) / unit;
@@ -287,7 +288,7 @@ bool LatheCodes::report_contour(LatheFault fault) {
   }
 }
 
-bool LatheCodes::fail_contour(std::string message, std::string expected) {
+bool LatheCodes::fail_contour(FindingWords message, FindingWords expected) {
   return fail("gcode.bad-contour", contour_->span, std::move(message), std::move(expected));
 }
 

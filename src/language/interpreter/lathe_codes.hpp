@@ -70,7 +70,7 @@ class LatheCodes final : public CycleCodes {
   LatheFault plan_finishing();
   void begin(std::variant<LatheRoughing, LatheFinishing> cuts);
   bool report_contour(LatheFault fault);
-  bool fail_contour(std::string message, std::string expected);
+  bool fail_contour(FindingWords message, FindingWords expected);
 
   CutterCodes& cutter_codes_;
   SymbolTable& symbols_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -34,8 +35,9 @@ bool ModeCodes::set_feed_mode(const CodeEntry& entry) {
 
 bool ModeCodes::set_feed_rate() {
   if (is_negative('F')) {
-    return fail("gcode.negative-word", words_.span('F'), fmt::format("the feed rate is {}", plain_number(words_['F'])),
-                "F of 0 or more");
+    return fail("gcode.negative-word", words_.span('F'),
+                interpreter_says::feed_is.with({{"value", plain_number(words_['F'])}}),
+                interpreter_says::feed_from_zero);
   }
   const double units = never_negative('F');
   if (state_.modal.inverse_time()) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/interpreter/plane_axes.hpp"
@@ -131,7 +132,8 @@ bool MotionCodes::find_arc_center(bool clockwise, const Point& end, ArcCenter& f
   const bool by_center = (words_.present() & LetterSet("IJK")).any() && !(speaks_grbl() && words_.has('R'));
 
   if (by_center && words_.has('R')) {
-    return fail("gcode.mixed-arc", words_.span('R'), "an arc with a radius and a centre", "R, or I J K");
+    return fail("gcode.mixed-arc", words_.span('R'), interpreter_says::radius_and_centre,
+                interpreter_says::radius_or_centre);
   }
   if (words_.has('R')) {
     const double scale = std::abs(state_.scaling.factor(plane_axes.first));
@@ -146,9 +148,9 @@ bool MotionCodes::find_arc_center(bool clockwise, const Point& end, ArcCenter& f
   } else {
     const std::string letters =
         fmt::format("{} and {}", center_letter(plane_axes.first), center_letter(plane_axes.second));
-    return fail("gcode.missing-center", motion_span(), "an arc without a centre or a radius",
-                fmt::format("{} (or one of them) for the centre in the plane {}, or R", letters,
-                            name_of(state_.modal.plane())));
+    return fail("gcode.missing-center", motion_span(), interpreter_says::no_centre,
+                interpreter_says::centre_words.with(
+                    {{"letters", letters}, {"plane", std::string(name_of(state_.modal.plane()))}}));
   }
   return report_arc(found);
 }
@@ -157,11 +159,13 @@ bool MotionCodes::find_arc_center(bool clockwise, const Point& end, ArcCenter& f
 bool MotionCodes::center_words(PlanePoint start, PlanePoint& center) {
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
   if (const char wrong = center_letter(plane_axes.normal); words_.has(wrong)) {
+    const SentenceRow& expected =
+        words_[wrong] == 0 ? interpreter_says::words_in_plane_or_grbl : interpreter_says::words_in_plane;
     return fail("gcode.wrong-center", words_.span(wrong),
-                fmt::format("{} is not in the plane {}", wrong, name_of(state_.modal.plane())),
-                fmt::format("{} and {}, or the plane's code before{}", center_letter(plane_axes.first),
-                            center_letter(plane_axes.second),
-                            words_[wrong] == 0 ? "; grbl ignores the word: --dialect grbl" : ""));
+                interpreter_says::not_in_plane.with(
+                    {{"letter", std::string(1, wrong)}, {"plane", std::string(name_of(state_.modal.plane()))}}),
+                expected.with({{"first", std::string(1, center_letter(plane_axes.first))},
+                               {"second", std::string(1, center_letter(plane_axes.second))}}));
   }
   const bool absolute = state_.modal[arc_distance] == code(90, 1);
   for (const char letter : {center_letter(plane_axes.first), center_letter(plane_axes.second)}) {
@@ -191,10 +195,8 @@ bool MotionCodes::fits_other_distance(PlanePoint from, PlanePoint to, const ArcT
   const bool absolute = state_.modal[arc_distance] == code(90, 1);
   if (check_center(from, to, center_by_words(from, !absolute), tolerance).fault != ArcFault::none) return false;
   fail("gcode.arc-radii-differ", motion_span(),
-       fmt::format("the arc's start and end are not equally far from its centre, which is {} here",
-                   absolute ? "a position (G90.1)" : "a distance from the start (G91.1)"),
-       absolute ? "G91.1 before the arc: the words fit if they are distances from the start"
-                : "G90.1 before the arc: the words fit if they are the position of the centre");
+       absolute ? interpreter_says::not_absolute : interpreter_says::not_incremental,
+       absolute ? interpreter_says::incremental_before : interpreter_says::absolute_before);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -60,14 +61,15 @@ void ProbeCodes::apply_outcome() {
   keep_result(state_.frame.work_from_machine(outcome.contact), outcome.touched);
   if (outcome.refused) {
     block_.ended = true;
-    fail("gcode.probe-before", motion_span(),
-         fmt::format("{} begins with the probe already {}", name, is_toward(number) ? "triggered" : "open"),
-         is_toward(number) ? "a move first, away from the surface that it touches"
-                           : "the probe triggered before the move");
+    fail(
+        "gcode.probe-before", motion_span(),
+        (is_toward(number) ? interpreter_says::triggered_before : interpreter_says::open_before).with({{"name", name}}),
+        is_toward(number) ? "a move first, away from the surface that it touches"
+                          : "the probe triggered before the move");
   } else if (!outcome.touched && must_touch(number)) {
     block_.ended = true;
     fail("gcode.probe-untouched", motion_span(),
-         fmt::format("{} finished, and the probe is still {}", name, is_toward(number) ? "open" : "triggered"),
+         (is_toward(number) ? interpreter_says::still_open : interpreter_says::still_triggered).with({{"name", name}}),
          "a longer move, or G38.3 or G38.5, which continue, and a test of #5070");
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include "whole_number.hpp"
 #include <fmt/format.h>
 
@@ -32,6 +33,11 @@ std::string_view name_of_end(ControlKind kind) {
     case do_: return "while";
     default: return "endrepeat";
   }
+}
+
+Sentence loop_without_motion(std::uint64_t passes) {
+  if (passes == 1) return interpreter_says::loop_ran_once.with();
+  return interpreter_says::loop_without_motion.with({{"times", grouped(passes)}});
 }
 
 }  // namespace
@@ -334,11 +340,11 @@ bool ProgramFlow::may_go_round(const Open& loop) {
   const bool idles = reached == ProgramBounds::Reached::idle;
   lines_.seek(loop.at);
   (void)lines_.read();
-  reporter_.error(
-      "gcode.endless-loop", lines_.block().control ? lines_.block().control->span : Span{1, 1},
-      idles ? fmt::format("the loop ran {} without any motion", counted(bounds_.limits().idle_passes, "time"))
-            : fmt::format("the loop reached {} passes, calls and operations", bounds_.limits().repeated_steps),
-      idles ? "a loop that ends, or that moves" : "a loop that ends, or a higher --step-limit");
+  reporter_.error("gcode.endless-loop", lines_.block().control ? lines_.block().control->span : Span{1, 1},
+                  idles ? FindingWords(loop_without_motion(bounds_.limits().idle_passes))
+                        : FindingWords(fmt::format("the loop reached {} passes, calls and operations",
+                                                   bounds_.limits().repeated_steps)),
+                  idles ? "a loop that ends, or that moves" : "a loop that ends, or a higher --step-limit");
   finish(End::error);
   return false;
 }
@@ -457,7 +463,7 @@ bool ProgramFlow::is_closed_further_on(const Open& open) {
   return false;
 }
 
-bool ProgramFlow::stray(Symbol label, const Control& control, std::string message, std::string expected) {
+bool ProgramFlow::stray(Symbol label, const Control& control, FindingWords message, FindingWords expected) {
   if (lines_.doubtful_labels().has(label)) return false;
   reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
   return false;

@@ -193,7 +193,7 @@ class ProgramFlow final : public CallStack {
   bool is_closed_further_on(const Open& open);
   bool argument(const Control& control, double& value);
   void report_unclosed(const Open& open);
-  bool stray(Symbol label, const Control& control, std::string message, std::string expected);
+  bool stray(Symbol label, const Control& control, FindingWords message, FindingWords expected);
   std::string label_text(Symbol label) const { return passo::label_text(symbols_, label); }
 
   bool numbered_programs_;

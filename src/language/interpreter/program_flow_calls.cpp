@@ -1,4 +1,5 @@
 // ProgramFlow: calling subs, and leaving them.
+#include "interpreter_sentences.hpp"
 #include "program_flow.hpp"
 #include <fmt/format.h>
 
@@ -58,7 +59,8 @@ void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
     reporter_.meet_again();
   } else {
     reporter_.error("gcode.unknown-sub", span,
-                    fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
+                    (numbered ? interpreter_says::no_program : interpreter_says::no_sub)
+                        .with({{"name", std::string(label_text(label))}}),
                     fmt::format("{} in this file, or in a file {} {}", sub, file, lines_.places_looked_at(file)));
   }
   // The run goes on to find more errors, but not for ever with a loop of calls that lead nowhere.

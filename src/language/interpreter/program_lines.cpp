@@ -5,6 +5,7 @@
 
 #include "block_words.hpp"
 #include "grbl_dialect.hpp"
+#include "interpreter_sentences.hpp"
 #include "whole_number.hpp"
 #include <fmt/format.h>
 
@@ -189,9 +190,8 @@ void ProgramLines::report_moves_after_end() {
     const auto axis_word =
         std::ranges::find_if(block.words, [](const Word& word) { return axis_letters.has(word.letter); });
     if (axis_word == block.words.end()) continue;
-    reporter_.warning_at("gcode.move-after-end", line, text, axis_word->span,
-                         "this move comes after the end of the program, and is never made",
-                         "M2 or M30 in the last line");
+    reporter_.warning_at("gcode.move-after-end", line, text, axis_word->span, interpreter_says::move_after_end,
+                         interpreter_says::end_after_moves);
   }
   file_->reader.seek(here);
 }

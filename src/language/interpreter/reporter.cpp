@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
@@ -31,24 +32,24 @@ SourcePlace place_of(std::uint32_t line, Span span) {
 
 }  // namespace
 
-void Reporter::error(std::string_view code, Span span, std::string message, std::string expected) {
+void Reporter::error(std::string_view code, Span span, FindingWords message, FindingWords expected) {
   const bool is_consequence = doubts_.explain(code);
   doubt();
   if (is_consequence) return meet_again();
   add(Severity::error, code, block_->line, block_->text, span, std::move(message), std::move(expected));
 }
 
-void Reporter::warning(std::string_view code, Span span, std::string message, std::string expected) {
+void Reporter::warning(std::string_view code, Span span, FindingWords message, FindingWords expected) {
   add(Severity::warning, code, block_->line, block_->text, span, std::move(message), std::move(expected));
 }
 
 void Reporter::error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span,
-                        std::string message, std::string expected) {
+                        FindingWords message, FindingWords expected) {
   add(Severity::error, code, line, text, span, std::move(message), std::move(expected));
 }
 
 void Reporter::warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span,
-                          std::string message, std::string expected) {
+                          FindingWords message, FindingWords expected) {
   add(Severity::warning, code, line, text, span, std::move(message), std::move(expected));
 }
 
@@ -66,13 +67,13 @@ void Reporter::error(const EvaluationError& error) {
         return this->error("gcode.no-hal", error.span, fmt::format("{} is a HAL pin, and Passo has no HAL", what),
                            "a parameter of the program; EXISTS[] of a HAL pin is 0");
       }
-      return this->error("gcode.unknown-parameter", error.span, fmt::format("{} has no value", what),
+      return this->error("gcode.unknown-parameter", error.span, interpreter_says::no_value.with({{"what", what}}),
                          "a parameter that was set before: #1 to #5601, #<name>, or a predefined #<_name>");
     case Kind::bad_parameter_number:
       return this->error("gcode.bad-parameter-number", error.span, fmt::format("{} is not a parameter number", operand),
                          "a whole number, 1 to 5601");
     case Kind::division_by_zero:
-      return this->error("gcode.division-by-zero", error.span, fmt::format("{} divides by zero", what),
+      return this->error("gcode.division-by-zero", error.span, interpreter_says::divides_by_zero.with({{"what", what}}),
                          "a divisor that is not zero");
     case Kind::domain:
       return this->error("gcode.bad-operand", error.span, fmt::format("{} is not defined for {}", what, operand),
@@ -87,8 +88,9 @@ void Reporter::error(const EvaluationError& error) {
 
 void Reporter::warn_of(const UnsetParameter& unset) {
   if (is_kept("gcode.unset-parameter", block_->line, unset.span)) return;
-  warning("gcode.unset-parameter", unset.span, fmt::format("#{} was never set, and is 0", unset.number),
-          fmt::format("#{} = ... before this line", unset.number));
+  const std::string number = std::to_string(unset.number);
+  warning("gcode.unset-parameter", unset.span, interpreter_says::never_set.with({{"number", number}}),
+          interpreter_says::set_before.with({{"number", number}}));
 }
 
 // RS274/NGC allows blanks in a number. It is nearly always the letter of a word that is missing.
@@ -97,8 +99,8 @@ void Reporter::warn_of_blank(Span number) {
   const std::string written = quote(number);
   std::string read = written;
   std::erase_if(read, [](char c) { return c == ' ' || c == '\t'; });
-  warning("gcode.blank-in-number", number, fmt::format("{} is read as {}", written, read),
-          fmt::format("{} without a blank, or a letter before each number", read));
+  warning("gcode.blank-in-number", number, interpreter_says::read_as.with({{"written", written}, {"read", read}}),
+          interpreter_says::no_blank.with({{"read", read}}));
 }
 
 std::string Reporter::quote(Span span) const {
@@ -117,7 +119,7 @@ bool Reporter::is_kept(std::string_view code, std::uint32_t line, Span span) con
 }
 
 void Reporter::add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
-                   std::string message, std::string expected) {
+                   FindingWords message, FindingWords expected) {
   if (severity == Severity::error) ++errors_;
   if (is_kept(code, line, span)) return;
   diagnostics_.add({.severity = severity,

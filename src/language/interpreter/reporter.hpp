@@ -38,13 +38,13 @@ class Reporter {
   // Sets the stack from which diagnostics get their chain of calls. It must stay valid.
   void set_call_stack(const CallStack& stack) { stack_ = &stack; }
 
-  void error(std::string_view code, Span span, std::string message, std::string expected = {});
-  void warning(std::string_view code, Span span, std::string message, std::string expected = {});
+  void error(std::string_view code, Span span, FindingWords message, FindingWords expected = {});
+  void warning(std::string_view code, Span span, FindingWords message, FindingWords expected = {});
   // Reports an error in a line other than the block's own.
-  void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
-                std::string expected);
-  void warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
-                  std::string expected);
+  void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, FindingWords message,
+                FindingWords expected);
+  void warning_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, FindingWords message,
+                  FindingWords expected);
   // Reports an expression that has no value.
   void error(const EvaluationError& error);
   void warn_of(const UnsetParameter& unset);
@@ -75,7 +75,7 @@ class Reporter {
 
  private:
   void add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
-           std::string message, std::string expected);
+           FindingWords message, FindingWords expected);
   bool is_kept(std::string_view code, std::uint32_t line, Span span) const;
   std::vector<CallPlace> calls() const;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -40,7 +41,7 @@ bool SpindleCodes::set_speed() {
   if (!spindle_word(SpindleChoice::one_or_all, range)) return false;
   if (is_negative('S')) {
     return fail("gcode.negative-word", words_.span('S'),
-                fmt::format("the spindle speed is {}", plain_number(words_['S'])),
+                interpreter_says::speed_is.with({{"value", plain_number(words_['S'])}}),
                 "S of 0 or more; M4 reverses the direction");
   }
   for (std::uint8_t i = range.first; i < range.end; ++i) {

@@ -62,7 +62,7 @@ bool SplineCodes::check_axes() {
 }
 
 // Reports that one or both of two words that go together are missing.
-bool SplineCodes::fail_pair(std::string_view name, char first, char second, std::string expected) {
+bool SplineCodes::fail_pair(std::string_view name, char first, char second, FindingWords expected) {
   const char present = words_.has(first) ? first : second;
   const char missing = words_.has(first) ? second : first;
   if (!words_.has(present)) {

@@ -33,7 +33,7 @@ class SplineCodes : private CodeFamily {
  private:
   bool check();
   bool check_axes();
-  bool fail_pair(std::string_view name, char first, char second, std::string expected);
+  bool fail_pair(std::string_view name, char first, char second, FindingWords expected);
   bool check_nurbs();
   bool check_nurbs_feed();
   bool add_nurbs_point(bool first);

@@ -1,5 +1,6 @@
 #include "stop_codes.hpp"
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -52,7 +53,8 @@ bool StopCodes::dwell() {
   block_.word = {words_.span(non_modal).column, words_.span(non_modal).length};
   if (block_.motion != nullptr && letters_of(*block_.motion).has('P')) {
     return fail("gcode.ambiguous-word", words_.span('P'),
-                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)), "two blocks");
+                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)),
+                interpreter_says::two_blocks);
   }
   if (is_negative('P')) {
     return fail("gcode.negative-word", words_.span('P'), "a dwell of " + number_and_noun(words_['P'], "second"),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -43,8 +44,8 @@ bool ToolCodes::change(CodeNumber number) {
     return true;
   }
   if (state_.selected_tool < 0) {
-    return fail("gcode.missing-tool", words_.span(tool_change), "M6 and no tool was selected",
-                "T before, or in this block");
+    return fail("gcode.missing-tool", words_.span(tool_change), interpreter_says::no_tool_selected,
+                interpreter_says::tool_before);
   }
   load_tool(state_.selected_tool);
   emit(operation::StartToolChange{});
@@ -98,10 +99,12 @@ bool ToolCodes::tool_offset(Point& offset) {
   }
   if (tool != nullptr) offset = tool->offset;
   if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_table_told_, true)) {
-    reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
-                      fmt::format("the offset of tool {} is {}: no tool table was given", number,
-                                  state_.tools.find(number) == nullptr ? "taken as zero" : "that of an example"),
-                      "--tools FILE, or G43.1 with the offset itself");
+    reporter_.warning(
+        "gcode.no-tool-table", words_.span(tool_length),
+        state_.tools.find(number) == nullptr
+            ? interpreter_says::offset_taken_as_zero.with({{"tool", std::to_string(number)}})
+            : FindingWords(fmt::format("the offset of tool {} is that of an example: no tool table was given", number)),
+        "--tools FILE, or G43.1 with the offset itself");
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "mistake_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/interpreter/is_any_of.hpp"
@@ -13,6 +14,10 @@ namespace passo {
 namespace {
 
 constexpr double nothing = 1e-3;  // mm: less is rounding in programs
+
+std::string height(double z) {
+  return fmt::format("{:.6g}", z);
+}
 
 }  // namespace
 
@@ -68,9 +73,8 @@ void LowRapids::know_place(const Operation& operation) {
   knows_xy_ = has(Axis::x) || has(Axis::y);
   const double z = std::get<operation::StraightTraverse>(operation.what).end[Axis::z];
   if (knows_xy_ || !has(Axis::z) || z >= -nothing || is_noted(operation, "path.blind-plunge")) return;
-  diagnostics_.add_certain(warning(operation, "path.blind-plunge",
-                                   fmt::format("a rapid goes down to Z{:.6g} before the program has given X or Y", z),
-                                   "X and Y first, at a Z above the work"));
+  diagnostics_.add_certain(warning(operation, "path.blind-plunge", mistakes_say::blind_plunge.with({{"z", height(z)}}),
+                                   mistakes_say::place_first));
 }
 
 void LowRapids::feed(const Operation& operation, const ToolTrack& track, bool knew_z) {
@@ -78,7 +82,7 @@ void LowRapids::feed(const Operation& operation, const ToolTrack& track, bool kn
   if (knew_z && z < track.from()[Axis::z] - nothing) {
     descends_ = true;
     if (has_spindle_ && !no_depth_ && lowest_ > nothing) {
-      no_depth_ = warning(operation, "path.no-depth", {}, "a minus sign, if the zero of the work is at its top");
+      no_depth_ = warning(operation, "path.no-depth", {}, mistakes_say::minus_sign);
     }
   } else {
     end_descent(track.from());
@@ -98,23 +102,22 @@ void LowRapids::rapid(const Operation& operation, const ToolTrack& track, bool k
   const double z = track.to()[Axis::z];
   const bool sideways = std::hypot(track.to()[Axis::x] - from[Axis::x], track.to()[Axis::y] - from[Axis::y]) > nothing;
   if (sideways && top_ && z <= *top_ + nothing && !is_noted(operation, "path.low-rapid")) {
-    diagnostics_.add_certain(
-        warning(operation, "path.low-rapid",
-                fmt::format("a sideways rapid at Z{:.6g}, although the program has cut at Z{:.6g}", z, *top_),
-                "Z above the work before a sideways rapid, or a feed (G1)"));
+    diagnostics_.add_certain(warning(operation, "path.low-rapid",
+                                     mistakes_say::low_rapid.with({{"z", height(z)}, {"cut", height(*top_)}}),
+                                     mistakes_say::above_work));
   }
   const bool down = knew_z && z < from[Axis::z] - nothing;
   if (!sideways && down && deepest_ && z < *deepest_ - nothing && !is_noted(operation, "path.rapid-plunge")) {
     diagnostics_.add_certain(
         warning(operation, "path.rapid-plunge",
-                fmt::format("a rapid goes down to Z{:.6g}, deeper than all feeds before it (Z{:.6g})", z, *deepest_),
-                "a feed (G1) where there may be material"));
+                mistakes_say::rapid_plunge.with({{"z", height(z)}, {"deepest", height(*deepest_)}}),
+                mistakes_say::feed_in_material));
   }
 }
 
 void LowRapids::finish() {
   if (!no_depth_ || lowest_ <= nothing) return;
-  no_depth_->message = fmt::format("no feed goes below Z0: the lowest is Z{:.6g}", lowest_);
+  no_depth_->message = mistakes_say::no_depth.with({{"z", height(lowest_)}});
   diagnostics_.add_certain(*std::exchange(no_depth_, std::nullopt));
 }
 

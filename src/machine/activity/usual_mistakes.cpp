@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "mistake_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/interpreter/is_any_of.hpp"
@@ -73,8 +74,7 @@ void UsualMistakes::watch(const Operation& operation, const ToolTrack& track) {
 
 // A speed has no effect on a spindle that is switched on and off.
 void UsualMistakes::idle_speed(const Operation& operation) {
-  warn(operation, "path.idle-speed", "S has no effect here: the machine only switches its spindle on and off",
-       "tool.max_rpm in the machine file, if the machine sets the spindle's speed");
+  warn(operation, "path.idle-speed", mistakes_say::idle_speed, mistakes_say::speed_in_machine_file);
 }
 
 void UsualMistakes::change_tool() {
@@ -87,9 +87,8 @@ void UsualMistakes::change_tool() {
 void UsualMistakes::select(const Operation& operation, std::int32_t tool) {
   if (changes_tools_ || tool == 0) return;
   if (idle_tool_) return idle_tool_->add_line(operation.source.line);
-  idle_tool_ =
-      warning(operation, "path.idle-tool", fmt::format("T{} has no effect: the program never changes its tool", tool),
-              "M6 after the T word");
+  idle_tool_ = warning(operation, "path.idle-tool", mistakes_say::idle_tool.with({{"tool", std::to_string(tool)}}),
+                       mistakes_say::tool_change);
 }
 
 void UsualMistakes::finish() {
@@ -98,10 +97,10 @@ void UsualMistakes::finish() {
 
 void UsualMistakes::dwell(const Operation& operation, Seconds time) {
   if (!is_in_milliseconds(time) || is_noted(operation, "path.long-dwell")) return;
-  diagnostics_.add_certain(
-      warning(operation, "path.long-dwell",
-              fmt::format("this dwell takes {0:g} seconds; were {0:g} milliseconds meant?", time.value()),
-              fmt::format("P in seconds: P{:g} for {:g} milliseconds", time.value() / 1000, time.value())));
+  const std::string written = fmt::format("{:g}", time.value());
+  diagnostics_.add_certain(warning(
+      operation, "path.long-dwell", mistakes_say::long_dwell.with({{"time", written}}),
+      mistakes_say::dwell_in_seconds.with({{"short", fmt::format("{:g}", time.value() / 1000)}, {"time", written}})));
 }
 
 void UsualMistakes::turn_spindle(const Operation& operation, SpindleDirection direction) {
@@ -109,18 +108,16 @@ void UsualMistakes::turn_spindle(const Operation& operation, SpindleDirection di
   turned_at_zero_.reset();
   left_on_.reset();
   if (direction == SpindleDirection::off) return;
-  left_on_ = warning(operation, "path.spindle-left-on", "the spindle is still on where '%' ends the program",
-                     "M5, and M2 or M30, before '%'");
+  left_on_ =
+      warning(operation, "path.spindle-left-on", mistakes_say::spindle_left_on, mistakes_say::spindle_off_before);
   if (speed_ > 0) return;
-  turned_at_zero_ = warning(operation, "path.spindle-at-zero", "the spindle is switched on at S0, so it does not turn",
-                            "S above 0 before the next feed move");
+  turned_at_zero_ =
+      warning(operation, "path.spindle-at-zero", mistakes_say::spindle_at_zero, mistakes_say::speed_first);
 }
 
 void UsualMistakes::move(const Operation& operation) {
   if (std::exchange(knows_units_, true)) return;
-  diagnostics_.add_certain(warning(operation, "path.no-units",
-                                   "the program moves before it sets its units; millimetres are assumed",
-                                   "G21 (millimetres) or G20 (inches) before the first move, or --inches"));
+  diagnostics_.add_certain(warning(operation, "path.no-units", mistakes_say::no_units, mistakes_say::units_first));
 }
 
 void UsualMistakes::feed(const Operation& operation) {
@@ -129,8 +126,7 @@ void UsualMistakes::feed(const Operation& operation) {
   if (turned_at_zero_) {
     diagnostics_.add_certain(*std::exchange(turned_at_zero_, std::nullopt));
   } else if (spindle_ == SpindleDirection::off && !probes_) {
-    warn(operation, "path.spindle-off-in-feed", "a feed move while the spindle is stopped",
-         "S and M3 before the move; a machine file without tool.max_rpm has no spindle");
+    warn(operation, "path.spindle-off-in-feed", mistakes_say::feed_without_spindle, mistakes_say::spindle_first);
   }
 }
 
@@ -138,10 +134,9 @@ void UsualMistakes::arc(const Operation& operation, const operation::ArcFeed& ar
   if (!is_nearly_circle(arc, from) || is_noted(operation, "path.nearly-circle")) return;
   const PlaneAxes axes = axes_of(arc.plane);
   const double gap = std::hypot(arc.end[axes.first] - from[axes.first], arc.end[axes.second] - from[axes.second]);
-  diagnostics_.add_certain(
-      warning(operation, "path.nearly-circle",
-              fmt::format("this arc is nearly a full circle, and ends {:.2g} mm before its start", gap),
-              "the start as the end for a full circle; the other direction (G2, G3) or G1 for a short way"));
+  diagnostics_.add_certain(warning(operation, "path.nearly-circle",
+                                   mistakes_say::nearly_circle.with({{"gap", fmt::format("{:.2g}", gap)}}),
+                                   mistakes_say::whole_circle));
 }
 
 }  // namespace passo

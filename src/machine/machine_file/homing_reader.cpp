@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "machine_file_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -57,7 +58,9 @@ const char* const homing_code = "machine.homing";
 void check_speed(const TableReader& reader, const NumberKey& key, MmPerSecond speed, MmPerSecond most,
                  std::string_view than) {
   if (speed <= most || most == MmPerSecond(0)) return;
-  reader.error(homing_code, key.name, fmt::format("{} is {:g}", reader.full_name(key.name), speed.value()),
+  reader.error(homing_code, key.name,
+               machine_file_says::key_is.with(
+                   {{"key", reader.full_name(key.name)}, {"value", fmt::format("{:g}", speed.value())}}),
                fmt::format("{:g} or less, {}", most.value(), than));
 }
 
@@ -65,10 +68,12 @@ void check_rest(const TableReader& reader, const HomeKeys& keys, const HomeDescr
                 const AxisDescription& axis) {
   if (home.rest() >= axis.travel_low && home.rest() <= axis.travel_high) return;
   reader.error(homing_code, keys.switch_at.name,
-               fmt::format("{} is {:g}, and {:g} {} off it the machine has left its travel of {:g} to {:g}",
-                           reader.full_name(keys.switch_at.name), home.switch_at, home.pull_off, keys.unit,
-                           axis.travel_low, axis.travel_high),
-               fmt::format("a switch, less {}, within the travel", keys.pull_off.name));
+               machine_file_says::has_left_travel.with({{"key", reader.full_name(keys.switch_at.name)},
+                                                        {"value", fmt::format("{:g}", home.switch_at)},
+                                                        {"off", fmt::format("{:g} {}", home.pull_off, keys.unit)},
+                                                        {"low", fmt::format("{:g}", axis.travel_low)},
+                                                        {"high", fmt::format("{:g}", axis.travel_high)}}),
+               machine_file_says::switch_within_travel.with({{"key", std::string(keys.pull_off.name)}}));
 }
 
 bool is_homed(const AxisDescription& axis) {
@@ -178,7 +183,8 @@ std::optional<SecondMotor> read_second_motor(TableReader& reader, const AxisDesc
   second.skew = reader.number(keys.skew, Need::optional).value_or(0);
   if (std::abs(second.square) <= second.most_skew) return second;
   reader.error(homing_code, keys.square.name,
-               fmt::format("{} is {:g}", reader.full_name(keys.square.name), second.square),
+               machine_file_says::key_is.with(
+                   {{"key", reader.full_name(keys.square.name)}, {"value", fmt::format("{:g}", second.square)}}),
                fmt::format("at most {:g} in either direction, {}", second.most_skew, keys.most_skew.name));
   return std::nullopt;
 }
@@ -192,7 +198,8 @@ HomingOrder read_homing_order(TableReader* homing, const std::vector<AxisDescrip
   if (!text || !complete) return usual;
   HomingOrder order = order_of(*text);
   if (!std::ranges::is_permutation(order.axes, usual.axes)) {
-    homing->error(homing_code, "order", fmt::format("homing.order is \"{}\"", *text),
+    homing->error(homing_code, "order",
+                  machine_file_says::key_is.with({{"key", "homing.order"}, {"value", fmt::format("\"{}\"", *text)}}),
                   letters.empty() ? "a table [axis.X.home] for each of them"
                                   : fmt::format("each axis with a table [axis.X.home] once: the letters {}", letters));
     return usual;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fit_for_parser.hpp"
+#include "machine_file_sentences.hpp"
 #include "machine_reader.hpp"
 #include <fmt/format.h>
 
@@ -20,8 +21,8 @@ struct FileCloser {
   void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 
-void file_error(Diagnostics& diagnostics, const char* code, const std::string& file, std::string message,
-                std::string expected) {
+void file_error(Diagnostics& diagnostics, const char* code, const std::string& file, FindingWords message,
+                FindingWords expected) {
   diagnostics.add({.severity = Severity::error,
                    .code = code,
                    .file = file,
@@ -56,7 +57,8 @@ std::optional<MachineDescription> parse_machine(std::string_view text, const std
                                                 Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    file_error(diagnostics, "machine.empty", file, "the file is empty", "a machine file: name, [board], [axis.X]...");
+    file_error(diagnostics, "machine.empty", file, machine_file_says::empty_file,
+               "a machine file: name, [board], [axis.X]...");
     return std::nullopt;
   }
   if (text.size() > largest_file) {

@@ -8,6 +8,7 @@
 #include "axis_keys.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
+#include "machine_file_sentences.hpp"
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
 #include "table_reader.hpp"
@@ -107,7 +108,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
-  const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
+  const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
   if (tool != nullptr) read_tool(*tool);
@@ -234,19 +235,19 @@ void MachineReader::read_axes(const TomlEntry& entry) {
   for (const TomlEntry& table : tables) {
     const auto axis = table.key.size() == 1 ? axis_of(table.key[0]) : std::nullopt;
     if (!axis || letter_of(*axis) != table.key[0]) {
-      reporter_.error("machine.unknown-axis", table.place, fmt::format("there is no axis {}", table.key),
+      reporter_.error("machine.unknown-axis", table.place, machine_file_says::unknown_axis.with({{"name", table.key}}),
                       axis ? fmt::format("[axis.{}], with a capital letter", letter_of(*axis))
                            : "an axis X, Y, Z, A, B, C, U, V or W");
     } else if (!std::holds_alternative<TomlTable>(table.value.content)) {
       reporter_.error("machine.wrong-type", table.value.place,
-                      fmt::format("axis.{} is {}", table.key, kind_of(table.value)),
+                      machine_file_says::key_is.with({{"key", "axis." + table.key}, {"value", kind_of(table.value)}}),
                       fmt::format("a table [axis.{}]", table.key));
     } else {
       read_axis(table, *axis);
     }
   }
   if (tables.empty() && document_.complete) {
-    reporter_.error("machine.no-axis", entry.place, "the machine has no axis", "a table for each axis, as in [axis.X]");
+    reporter_.error("machine.no-axis", entry.place, machine_file_says::no_axis, machine_file_says::axis_table);
   }
   if (tables.size() > most_motors) {
     reporter_.error("machine.too-many-axes", tables[most_motors].place,
@@ -305,8 +306,10 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
     axis.travel_high = travel->high;
     if (travel->low >= travel->high) {
       reader.error("machine.travel", keys.travel.name,
-                   fmt::format("{} goes from {} to {}", reader.full_name(keys.travel.name), travel->low, travel->high),
-                   "the low end first, then the high end");
+                   machine_file_says::goes_from_to.with({{"key", reader.full_name(keys.travel.name)},
+                                                         {"low", fmt::format("{}", travel->low)},
+                                                         {"high", fmt::format("{}", travel->high)}}),
+                   machine_file_says::low_end_first);
     }
   }
   if (const auto velocity = reader.number(keys.velocity, Need::required)) axis.velocity = MmPerSecond(*velocity);
@@ -319,11 +322,13 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
 void MachineReader::read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {
   axis.start_stop = MmPerSecond(reader.number(keys.start_stop, Need::optional).value_or(0));
   if (axis.velocity == MmPerSecond(0) || axis.start_stop <= axis.velocity) return;
-  reader.error("machine.start-stop", keys.start_stop.name,
-               fmt::format("axis {} would start at {:g} {}/s, and is never faster than {:g} {}/s", letter_of(axis.axis),
-                           axis.start_stop.value(), keys.unit, axis.velocity.value(), keys.unit),
-               fmt::format("{} = {:g} or less, the limit set by {}", keys.start_stop.name, axis.velocity.value(),
-                           keys.velocity.name));
+  reader.error(
+      "machine.start-stop", keys.start_stop.name,
+      machine_file_says::starts_too_fast.with({{"axis", std::string(1, letter_of(axis.axis))},
+                                               {"speed", fmt::format("{:g} {}", axis.start_stop.value(), keys.unit)},
+                                               {"most", fmt::format("{:g} {}", axis.velocity.value(), keys.unit)}}),
+      fmt::format("{} = {:g} or less, the limit set by {}", keys.start_stop.name, axis.velocity.value(),
+                  keys.velocity.name));
 }
 
 // The limit is a constant, or the motor's, or the lower one of both.
@@ -355,9 +360,10 @@ void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys,
   if (axis.acceleration_at(axis.velocity) >= least) return;
   const double fastest = axis.motor->fastest_with(least).value();
   reader.error("machine.too-weak", keys.velocity.name,
-               fmt::format("at {:g} {}/s the motor of axis {} has nothing left to accelerate with",
-                           axis.velocity.value(), keys.unit, letter_of(axis.axis)),
-               fmt::format("{} below {:.4g}, or a stronger motor", keys.velocity.name, fastest));
+               machine_file_says::too_weak.with({{"speed", fmt::format("{:g} {}", axis.velocity.value(), keys.unit)},
+                                                 {"axis", std::string(1, letter_of(axis.axis))}}),
+               machine_file_says::stronger_motor.with(
+                   {{"key", std::string(keys.velocity.name)}, {"most", fmt::format("{:.4g}", fastest)}}));
 }
 
 // Millimetres or degrees of the axis for one turn of the motor, if the file tells them.
@@ -381,7 +387,8 @@ double MachineReader::read_scale(TableReader& reader, const AxisKeys& keys, Axis
 
   if (has_gear && has_scale) {
     reader.error("machine.two-scales", (*by_gear)->name,
-                 fmt::format("{} and {} are both given", reader.full_name((*by_gear)->name), keys.scale.name),
+                 machine_file_says::both_given.with(
+                     {{"first", reader.full_name((*by_gear)->name)}, {"second", std::string(keys.scale.name)}}),
                  fmt::format("either {}, or {}, {} and {}", keys.scale.name, turn_key.name, microsteps_key.name,
                              keys.gear.name));
     return 0;
@@ -405,8 +412,10 @@ void MachineReader::check_velocity(const TableReader& reader, const AxisKeys& ke
   const double steps = axis.highest_step_rate().value();
   if (steps <= event_rate_->value() * (1 + 1e-9)) return;
   reader.error("machine.too-fast", keys.velocity.name,
-               fmt::format("axis {} needs {:.0f} steps/s for {:g} {}/s, and the board makes {:g} events",
-                           letter_of(axis.axis), steps, axis.velocity.value(), keys.unit, event_rate_->value()),
+               machine_file_says::too_fast.with({{"axis", std::string(1, letter_of(axis.axis))},
+                                                 {"steps", fmt::format("{:.0f}", steps)},
+                                                 {"speed", fmt::format("{:g} {}", axis.velocity.value(), keys.unit)},
+                                                 {"most", fmt::format("{:g}", event_rate_->value())}}),
                fmt::format("{} = {:g} or less, fewer microsteps, or a faster board", keys.velocity.name,
                            event_rate_->value() / axis.steps_per_unit));
 }
@@ -435,10 +444,10 @@ void MachineReader::number_second_motors() {
     if (!axis.second) continue;
     if (axis.second->input < 0) axis.second->input = machine_.second_motor_of(i);
     if (!axis.home || axis.second->input != axis.home->input) continue;
-    reporter_.error(
-        "machine.homing", axes_[i].place,
-        fmt::format("the two motors of axis {} share limit switch {}", letter_of(axis.axis), axis.home->input),
-        "a separate switch for each motor: input in [axis.X.home] and in [axis.X.second_motor]");
+    reporter_.error("machine.homing", axes_[i].place,
+                    machine_file_says::shared_switch.with(
+                        {{"axis", std::string(1, letter_of(axis.axis))}, {"input", std::to_string(axis.home->input)}}),
+                    "a separate switch for each motor: input in [axis.X.home] and in [axis.X.second_motor]");
   }
 }
 
@@ -448,19 +457,23 @@ void MachineReader::number_motors() {
   for (const AxisEntry& entry : axes_) {
     const char letter = letter_of(entry.description.axis);
     if (!entry.motor) {
-      reporter_.error("machine.motor", entry.place, fmt::format("[axis.{}] lacks its motor", letter),
-                      "a motor for every axis, or for none: then they are in the order X Y Z A B C U V W");
+      reporter_.error("machine.motor", entry.place,
+                      machine_file_says::motor_missing.with({{"axis", std::string(1, letter)}}),
+                      machine_file_says::motors_for_all);
       good = false;
     } else if (*entry.motor >= axes_.size()) {
       reporter_.error(
-          "machine.motor", entry.motor_place, fmt::format("axis {} has motor {}", letter, *entry.motor),
+          "machine.motor", entry.motor_place,
+          machine_file_says::no_such_motor.with(
+              {{"axis", std::string(1, letter)}, {"motor", std::to_string(*entry.motor)}}),
           fmt::format("0 to {}: the motors of {} axes, numbered without a gap", axes_.size() - 1, axes_.size()));
       good = false;
     } else if (taken[*entry.motor] != nullptr) {
-      reporter_.error(
-          "machine.motor", entry.motor_place,
-          fmt::format("motor {} turns axis {} already", *entry.motor, letter_of(taken[*entry.motor]->description.axis)),
-          "a motor of its own for each axis");
+      reporter_.error("machine.motor", entry.motor_place,
+                      machine_file_says::motor_taken.with(
+                          {{"motor", std::to_string(*entry.motor)},
+                           {"axis", std::string(1, letter_of(taken[*entry.motor]->description.axis))}}),
+                      machine_file_says::own_motor);
       good = false;
     } else {
       taken[*entry.motor] = &entry;

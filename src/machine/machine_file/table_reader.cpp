@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "machine_file_sentences.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,6 +13,10 @@ namespace {
 
 bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
   return std::ranges::find(keys, key) != keys.end();
+}
+
+Sentence range_in_words(const SentenceRow& row, const NumberKey& key) {
+  return row.with({{"low", fmt::format("{}", key.least)}, {"high", fmt::format("{}", key.most)}});
 }
 
 }  // namespace
@@ -29,8 +34,9 @@ SourcePlace TableReader::place_of(std::string_view key) const {
   return entry != nullptr ? entry->value.place : place_;
 }
 
-void TableReader::error(std::string_view code, std::string_view key, std::string message, std::string expected) const {
-  reporter_.error(code, place_of(key), std::move(message), std::move(expected));
+void TableReader::error(std::string_view code, std::string_view key, const FindingWords& message,
+                        const FindingWords& expected) const {
+  reporter_.error(code, place_of(key), message, expected);
 }
 
 void TableReader::missing(std::string_view key, std::string example) {
@@ -46,13 +52,15 @@ const TomlEntry* TableReader::ask(std::string_view key, std::string example, Nee
 
 void TableReader::wrong_type(const TomlEntry& entry, std::string expected) const {
   reporter_.error("machine.wrong-type", entry.value.place,
-                  fmt::format("{} is {}", full_name(entry.key), kind_of(entry.value)), std::move(expected));
+                  machine_file_says::key_is.with({{"key", full_name(entry.key)}, {"value", kind_of(entry.value)}}),
+                  std::move(expected));
 }
 
 bool TableReader::in_range(const NumberKey& key, double value, const SourcePlace& place) const {
   if (value >= key.least && value <= key.most) return true;  // a NaN gives false
-  reporter_.error("machine.out-of-range", place, fmt::format("{} is {}", full_name(key.name), value),
-                  fmt::format("a number from {} to {}", key.least, key.most));
+  reporter_.error("machine.out-of-range", place,
+                  machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", value)}}),
+                  range_in_words(machine_file_says::number_within, key));
   return false;
 }
 
@@ -77,8 +85,9 @@ std::optional<double> TableReader::peek(const NumberKey& key) const {
 std::optional<double> TableReader::whole_number(const NumberKey& key, Need need) {
   const auto value = number(key, need);
   if (!value || *value == std::floor(*value)) return value;
-  error("machine.out-of-range", key.name, fmt::format("{} is {}", full_name(key.name), *value),
-        fmt::format("a whole number from {} to {}", key.least, key.most));
+  error("machine.out-of-range", key.name,
+        machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", *value)}}),
+        range_in_words(machine_file_says::whole_number_within, key));
   return std::nullopt;
 }
 
@@ -110,7 +119,8 @@ std::optional<LowHigh> TableReader::pair_of(const NumberKey& key, const TomlValu
                                             const std::string& expected) const {
   const auto* list = std::get_if<TomlArray>(&value.content);
   if (list == nullptr || list->size() != 2) {
-    reporter_.error("machine.wrong-type", value.place, fmt::format("{} is {}", full_name(key.name), kind_of(value)),
+    reporter_.error("machine.wrong-type", value.place,
+                    machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", kind_of(value)}}),
                     expected);
     return std::nullopt;
   }
@@ -152,7 +162,8 @@ std::optional<bool> TableReader::is_second_of(std::string_view code, std::string
   const auto word = text(key, first, need);
   if (!word) return given || need == Need::required ? std::nullopt : std::optional(false);
   if (*word == first || *word == second) return *word == second;
-  error(code, key, fmt::format("{} is \"{}\"", full_name(key), *word), fmt::format("\"{}\" or \"{}\"", first, second));
+  error(code, key, machine_file_says::key_is.with({{"key", full_name(key)}, {"value", fmt::format("\"{}\"", *word)}}),
+        fmt::format("\"{}\" or \"{}\"", first, second));
   return std::nullopt;
 }
 
@@ -206,10 +217,10 @@ void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::
   } else {
     expected = fmt::format("one of {}", fmt::join(known_, ", "));
   }
-  reporter_.error(
-      is_table ? "machine.unknown-table" : "machine.unknown-key", entry.place,
-      fmt::format("{} has no {} {}", reporter_.kind_in_words(), is_table ? "table" : "key", full_name(entry.key)),
-      expected);
+  reporter_.error(is_table ? "machine.unknown-table" : "machine.unknown-key", entry.place,
+                  (is_table ? machine_file_says::unknown_table : machine_file_says::unknown_key)
+                      .with({{"where", reporter_.kind_in_words()}, {"key", full_name(entry.key)}}),
+                  expected);
 }
 
 // One mistake makes one diagnostic: a misspelt key is not reported as missing too.
@@ -226,8 +237,10 @@ void TableReader::report_missing_keys() const {
     examples.push_back(key.example);
   }
   const std::string where = path_.empty() ? "the file" : fmt::format("[{}]", path_);
-  reporter_.error("machine.missing-key", place_, fmt::format("{} lacks {}", where, fmt::join(names, ", ")),
-                  fmt::format("{}", fmt::join(examples, "; ")));
+  reporter_.error(
+      "machine.missing-key", place_,
+      machine_file_says::lacks.with({{"where", where}, {"what", fmt::format("{}", fmt::join(names, ", "))}}),
+      fmt::format("{}", fmt::join(examples, "; ")));
 }
 
 }  // namespace passo

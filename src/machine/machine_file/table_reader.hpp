@@ -61,7 +61,8 @@ class TableReader {
   // Returns a table inside this one. `what` describes it for messages.
   const TomlEntry* table(std::string_view key, std::string_view what, Need need);
 
-  void error(std::string_view code, std::string_view key, std::string message, std::string expected) const;
+  void error(std::string_view code, std::string_view key, const FindingWords& message,
+             const FindingWords& expected) const;
   void missing(std::string_view key, std::string example);
 
   // Reports unknown keys, and missing keys if `report_missing` (the whole file could be read). `top_keys` are top-level

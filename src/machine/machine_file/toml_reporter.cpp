@@ -18,11 +18,17 @@ std::size_t bytes_before(std::string_view line, std::uint32_t character) {
 }
 
 // Messages quote keys and values of the file. Their control characters must not reach a terminal.
-std::string printable(std::string text) {
+void make_printable(std::string& text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = '?';
   }
-  return text;
+}
+
+FindingWords printable(const FindingWords& words) {
+  Sentence sentence = words.sentence();
+  make_printable(sentence.text);
+  for (auto& [name, value] : sentence.arguments) make_printable(value);
+  return sentence;
 }
 
 }  // namespace
@@ -38,14 +44,14 @@ TomlReporter::TomlReporter(std::string_view text, std::string file, Diagnostics&
   }
 }
 
-void TomlReporter::error(std::string_view code, const SourcePlace& place, std::string message,
-                         std::string expected) const {
+void TomlReporter::error(std::string_view code, const SourcePlace& place, const FindingWords& message,
+                         const FindingWords& expected) const {
   diagnostics_.add({.severity = Severity::error,
                     .code = kind_.area + std::string(code.substr(std::min(code.find('.'), code.size()))),
                     .file = file_,
                     .place = place,
-                    .message = printable(std::move(message)),
-                    .expected = printable(std::move(expected)),
+                    .message = printable(message),
+                    .expected = printable(expected),
                     .text = std::string(line(place.line))});
 }
 

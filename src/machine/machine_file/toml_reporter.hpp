@@ -21,7 +21,8 @@ class TomlReporter {
   // `text` must outlive the reporter.
   TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics, TomlFileKind kind = {});
 
-  void error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const;
+  void error(std::string_view code, const SourcePlace& place, const FindingWords& message,
+             const FindingWords& expected) const;
 
   const std::string& kind_in_words() const { return kind_.words; }
   std::size_t line_count() const { return lines_.size(); }

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "fit_for_parser.hpp"
+#include "machine_file_sentences.hpp"
 #include "table_reader.hpp"
 #include <fmt/format.h>
 
@@ -36,7 +37,9 @@ Cutter read_cutter(TableReader& reader) {
   const std::optional<std::string> shape = reader.text(shape_key, "\"ball\"", Need::required);
   const auto kind = shape ? cutter_kind_of(*shape) : std::nullopt;
   if (shape && !kind) {
-    reader.error("machine.shape", shape_key, fmt::format("{} is \"{}\"", reader.full_name(shape_key), *shape),
+    reader.error("machine.shape", shape_key,
+                 machine_file_says::key_is.with(
+                     {{"key", reader.full_name(shape_key)}, {"value", fmt::format("\"{}\"", *shape)}}),
                  cutter_kind_names);
   }
   const auto diameter = Mm(reader.number(diameter_key, Need::required).value_or(3));

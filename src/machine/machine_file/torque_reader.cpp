@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "machine_file_sentences.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -49,7 +50,8 @@ std::optional<TorqueCurve> read_points(TableReader& reader, const Rotor& rotor) 
   for (const NumberKey* key : electrical_keys) {
     if (!reader.has(key->name)) continue;
     reader.error(torque_code, key->name,
-                 fmt::format("{} and {} are both given", reader.full_name(key->name), pull_out_key.name),
+                 machine_file_says::both_given.with(
+                     {{"first", reader.full_name(key->name)}, {"second", std::string(pull_out_key.name)}}),
                  fmt::format("either measured torque, {}, or the motor's data", pull_out_key.name));
     return std::nullopt;
   }

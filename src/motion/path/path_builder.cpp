@@ -422,7 +422,7 @@ Action PathBuilder::outputs_action(Action::Kind kind, Seconds dwell) const {
   return {.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = 0, .heeds = heeds(), .source = outputs_source_};
 }
 
-void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected,
+void PathBuilder::report(Severity severity, std::string code, FindingWords message, FindingWords expected,
                          std::optional<Axis> axis) {
   WordPlace word = operation_.word;
   if (axis && operation_.axis_words != nullptr && (*operation_.axis_words)[*axis].column != 0) {

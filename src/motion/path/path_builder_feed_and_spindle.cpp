@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/path/path_builder.hpp"
@@ -64,7 +65,7 @@ MmPerSecond PathBuilder::feed_along(const Curve& curve) {
       [is_rotary](const auto& feed) { return is_rotary ? feed.rotary : feed.linear.value(); }, feed_rate_.feed);
   if (std::holds_alternative<operation::FeedPerRevolution>(feed_rate_.feed)) return feed_with_spindle(rate);
   if (rate > 0) return MmPerSecond(rate);
-  report(Severity::error, "path.no-feed", "a feed move without a feed rate", "F above 0 before the move, or on it");
+  report(Severity::error, "path.no-feed", path_says::no_feed, path_says::feed_above_zero);
   return speed_after_error;
 }
 
@@ -83,10 +84,10 @@ void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
   commanded_.revolutions_per_minute = limit > 0 ? std::min(revolutions_per_minute, limit) : revolutions_per_minute;
   if (!(limit > 0 && revolutions_per_minute > limit) || revolutions_per_minute == refused_spindle_speed_) return;
   refused_spindle_speed_ = revolutions_per_minute;
+  const std::string most = fmt::format("{:.0f}", limit);
   report(Severity::warning, "path.spindle-too-fast",
-         fmt::format("the program asks for {:.0f} rpm, and the spindle turns at {:.0f} at most, which is used",
-                     revolutions_per_minute, limit),
-         fmt::format("S up to {:.0f}", limit));
+         path_says::spindle_too_fast.with({{"asked", fmt::format("{:.0f}", revolutions_per_minute)}, {"most", most}}),
+         path_says::speed_up_to.with({{"most", most}}));
 }
 
 // The planner would slow down a feed that is too fast for an axis, and a thread would then get another pitch.

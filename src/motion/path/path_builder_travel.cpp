@@ -1,6 +1,7 @@
 // PathBuilder's check that the machine can go where the program sends it.
 #include <algorithm>
 
+#include "path_sentences.hpp"
 #include <fmt/format.h>
 
 #include "passo/path/path_builder.hpp"
@@ -83,13 +84,19 @@ void PathBuilder::check_side(Axis axis, TravelEnd end, double reached, const Cur
   const double end_beyond = high_side ? curve.end()[axis] - limit : limit - curve.end()[axis];
   if (!outside_.leaves(axis, end, end_beyond > slack)) return;
   const auto shown = [&](double value) { return in_units(value, axis, units_); };
-  const std::string limits = fmt::format("{} within {} to {}", letter_of(axis), shown(travel.low), shown(travel.high));
+  const std::string letter(1, letter_of(axis));
+  const double work = frame_.work_from_machine(place_of(curve, axis, reached))[axis];
+  const std::string far = shown(high_side ? reached - limit : limit - reached) + " " + unit_of(axis, units_);
+  const bool inches = units_ == LengthUnits::inch;
   report(Severity::error, std::string(travel_exceeded),
-         fmt::format("{} would reach {} (work {}), {} {} {} its travel's end at {}", letter_of(axis), shown(reached),
-                     shown(frame_.work_from_machine(place_of(curve, axis, reached))[axis]),
-                     shown(high_side ? reached - limit : limit - reached), unit_of(axis, units_),
-                     high_side ? "beyond" : "below", shown(limit)),
-         units_ == LengthUnits::inch ? limits + ", machine coordinates in inches" : limits + ", machine coordinates",
+         (high_side ? path_says::above_travel : path_says::below_travel)
+             .with({{"axis", letter},
+                    {"reached", shown(reached)},
+                    {"work", shown(work)},
+                    {"far", far},
+                    {"end", shown(limit)}}),
+         (inches ? path_says::within_travel_in_inches : path_says::within_travel)
+             .with({{"axis", letter}, {"low", shown(travel.low)}, {"high", shown(travel.high)}}),
          axis);
 }
 
@@ -103,8 +110,8 @@ void PathBuilder::check_axes(const Curve& curve) {
       if (options_.axes.has(other)) has += letter_of(other);
     }
     report(Severity::error, "travel.no-such-axis",
-           fmt::format("this moves the axis {}, which the machine does not have", letter_of(axis)),
-           fmt::format("moves of {} only", has), axis);
+           path_says::no_such_axis.with({{"axis", std::string(1, letter_of(axis))}}),
+           path_says::these_axes.with({{"axes", has}}), axis);
   }
 }
 

@@ -1,6 +1,8 @@
 // The parts of the API that need no machine: the members of a body, what a job has said, and offsets on a disk.
 #include <string>
+#include <utility>
 
+#include "../api_json.hpp"
 #include "../job_log.hpp"
 #include "../json_members.hpp"
 #include "../kept_offsets.hpp"
@@ -16,6 +18,23 @@ MachineDescription two_axes() {
   MachineDescription machine;
   for (const Axis axis : {Axis::x, Axis::z}) machine.axes.emplace_back().axis = axis;
   return machine;
+}
+
+TEST(Findings, carry_the_sentences_of_their_texts) {
+  constexpr SentenceRow row{"area.key", "{key} is {value}"};
+  Diagnostic finding;
+  finding.code = "area";
+  finding.message = row.with({{"key", "X"}, {"value", "0"}});
+  finding.expected = "a plain text";
+  Diagnostics findings;
+  findings.add(std::move(finding));
+  const Json json = as_json(findings)[0];
+  EXPECT_EQ(json["code"], "area");
+  EXPECT_EQ(json["message"], "X is 0");
+  EXPECT_EQ(json["message_sentence"]["code"], "area.key");
+  EXPECT_EQ(json["message_sentence"]["arguments"], Json({{"key", "X"}, {"value", "0"}}));
+  EXPECT_EQ(json["expected"], "a plain text");
+  EXPECT_EQ(json["expected_sentence"]["code"], "");
 }
 
 TEST(JsonMembers, are_read_and_nothing_else_is_there) {

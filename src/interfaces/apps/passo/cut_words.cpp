@@ -4,6 +4,12 @@
 #include <nlohmann/json.hpp>
 
 namespace passo {
+namespace {
+
+constexpr SentenceRow no_spindle_speed{
+    "check.no-spindle-speed", "the tool cuts, and no spindle speed is known: the force of such cuts is left out"};
+
+}  // namespace
 
 void add_findings(const CutOutcome& cut, Diagnostics& findings) {
   add_findings(cut.simulation, findings);
@@ -12,7 +18,7 @@ void add_findings(const CutOutcome& cut, Diagnostics& findings) {
                 .code = "check.no-spindle-speed",
                 .file = cut.simulation.program,
                 .place = {.line = cut.silent_line, .column = 0, .length = 1},
-                .message = "the tool cuts while the spindle speed is unknown; the force of such cuts is not included",
+                .message = no_spindle_speed,
                 .expected = "S and M3 in the program, or --spindle-speed",
                 .text = {}});
 }

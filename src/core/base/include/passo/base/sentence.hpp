@@ -9,7 +9,7 @@
 
 namespace passo {
 
-using SentenceArguments = std::vector<std::pair<std::string_view, std::string>>;
+using SentenceArguments = std::vector<std::pair<std::string, std::string>>;
 
 struct Sentence {
   std::string code;  // stable, e.g. "machine.asleep"; empty: none, so only the text can be shown
@@ -20,5 +20,13 @@ struct Sentence {
 
 // Replaces each {argument} of the sentence by its value.
 std::string filled(std::string_view sentence, const SentenceArguments& arguments);
+
+// One row of a table of sentences: the only place where its words stand.
+struct SentenceRow {
+  std::string_view code;
+  std::string_view text;  // {name} stands for an argument
+
+  Sentence with(SentenceArguments arguments = {}) const;
+};
 
 }  // namespace passo

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "passo/diagnostics/finding_words.hpp"
+
 namespace passo {
 
 // A position in a file. Line and column count from 1; columns and length are in bytes. Line 0 means the file as a
@@ -37,8 +39,8 @@ struct Diagnostic {
   std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
   std::string file;  // the file name as the user wrote it
   SourcePlace place;
-  std::string message;    // one sentence without a full stop: what is wrong, with the value found
-  std::string expected;   // the correct form, or how to correct the error; may be empty
+  FindingWords message;   // one sentence without a full stop: what is wrong, with the value found
+  FindingWords expected;  // the correct form, or how to correct the error; may be empty
   std::string text;       // the source line, for the caret; may be empty
   std::string rule = {};  // the standard that the program violates, or another program's number for the error; may be
                           // empty

@@ -20,7 +20,7 @@
 
 #include "passo/activity/open_program.hpp"
 #include "passo/api/program_store.hpp"
-#include "passo/base/sentence.hpp"
+#include "passo/diagnostics/finding_words.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -35,10 +35,9 @@ class MdiLines {
 
   struct Answer {
     std::string code;  // empty: the line was accepted
-    std::string message;
-    std::string expected;            // what was expected instead; may be empty
+    FindingWords message;
+    FindingWords expected;           // what was expected instead; may be empty
     std::vector<std::string> words;  // the output requested by a $ command
-    Sentence sentence = {};          // the message with its code; without a code: an error in the line
   };
   Answer execute(std::string_view line);
 
@@ -55,7 +54,7 @@ class MdiLines {
   bool streams() const { return ticket_.has_value(); }
   ModesInForce modes() const;
   // Returns why the last line was not completed, e.g. a probe without contact. Empty: it was.
-  const std::string& trouble() const { return trouble_; }
+  const FindingWords& trouble() const { return trouble_; }
   // Increases with each change of the state returned here.
   std::uint64_t version() const { return version_; }
   SavedParameters parameters() const { return program_->parameters(); }
@@ -77,7 +76,7 @@ class MdiLines {
   bool ended_ = false;                     // the program was ended by M2 or M30
   bool changed_ = false;                   // a line was accepted, and its effect has not been queried yet
   std::optional<ProbeOutcome> probe_;
-  std::string trouble_;
+  FindingWords trouble_;
   std::uint64_t version_ = 0;
 };
 

@@ -4,11 +4,13 @@
 #include <string>
 #include <string_view>
 
+#include "passo/base/sentence.hpp"
+
 namespace passo {
 
 struct ForeignFile {
-  std::string_view kind;      // "a DXF drawing"; empty: the file was not recognised
-  std::string_view expected;  // how to get G-code from it
+  std::string_view kind;  // "a DXF drawing"; empty: the file was not recognised
+  SentenceRow expected;   // how to get G-code from it
 };
 
 // `first` are the first bytes of the file, about a kilobyte. The format is detected from the contents; the extension is

@@ -19,7 +19,7 @@ class OperationWatcher {
   ~OperationWatcher() = default;
 
   // Returns a warning at the source position of the operation.
-  Diagnostic warning(const Operation& operation, std::string code, std::string message, std::string expected) const {
+  Diagnostic warning(const Operation& operation, std::string code, FindingWords message, FindingWords expected) const {
     return {.severity = Severity::warning,
             .code = std::move(code),
             .file = operation.file.empty() ? file_ : std::string(operation.file),
@@ -35,10 +35,10 @@ class OperationWatcher {
   bool is_noted(const Operation& operation, std::string_view code) const {
     return diagnostics_.count_repeated(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
   }
-  void warn(const Operation& operation, std::string_view code, std::string_view message,
-            std::string_view expected) const {
+  void warn(const Operation& operation, std::string_view code, const SentenceRow& message,
+            const SentenceRow& expected) const {
     if (is_noted(operation, code)) return;
-    diagnostics_.add_certain(warning(operation, std::string(code), std::string(message), std::string(expected)));
+    diagnostics_.add_certain(warning(operation, std::string(code), message, expected));
   }
 
   Diagnostics& diagnostics_;

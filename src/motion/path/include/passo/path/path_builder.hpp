@@ -154,7 +154,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void check_side(Axis axis, TravelEnd end, double reached, const Curve& curve);
   void check_axes(const Curve& curve);
   // Reports at the axis word or, without one, at the words of the current operation.
-  void report(Severity severity, std::string code, std::string message, std::string expected,
+  void report(Severity severity, std::string code, FindingWords message, FindingWords expected,
               std::optional<Axis> axis = std::nullopt);
 
   Source<Operation>& operations_;
