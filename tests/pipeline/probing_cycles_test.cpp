@@ -239,7 +239,7 @@ TEST_F(ProbingCycles, two_bores_tell_place_and_angle) {
   const double worst = 2 * step_of(machine_, Axis::y) / 70 * 180 / std::numbers::pi;
   const double found = run.parameters.at(5230);
   EXPECT_NEAR(found, 2.3, worst);
-  // The work system puts the middle of both where it is in the machine, and both beside it along their line.
+  // The work coordinate system puts the middle of both where it is in the machine, and both beside it along their line.
   const auto in_machine = [&](double x, double y) {
     const double turn = found * std::numbers::pi / 180;
     return std::pair(run.offset(Axis::x) + x * std::cos(turn) - y * std::sin(turn),

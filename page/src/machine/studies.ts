@@ -28,7 +28,7 @@ export interface Tuning {
 }
 // With what a program would run that does not, or not well. `words` are English; the values are for words in other languages.
 export type Proposal = { words: string } & (
-  | { kind: 'work-zero'; zeros: Record<string, Record<string, number>> } // machine coordinates, by work system and axis
+  | { kind: 'work-zero'; zeros: Record<string, Record<string, number>> } // machine coordinates, by work coordinate system and axis
   | { kind: 'axis-too-short'; axis: string; needed: number; travel: number }
   | { kind: 'tools'; tools: number[] }
   | { kind: 'spindle-speed'; spindle_rpm: number; feed_percent: number }

@@ -236,7 +236,7 @@ void CycleText::tool() {
   line("(PRINT,found: tool {} is #<length> long)", tool);
 }
 
-// The work system is turned about its zero. Until both places are known it is not turned.
+// The work coordinate system is turned about its zero. Until both places are known it is not turned.
 void CycleText::angle() {
   const TouchWay way = *way_of(cycle_.side);
   const bool along_x = way.axis == 'Y';

@@ -1,5 +1,5 @@
-// Leveller: work systems, offsets and places of the machine. What the machine knows and this program does not (offsets,
-// lengths of tools, homes) stays words: G55, G43 H1, G28.
+// Leveller: work coordinate systems, offsets and places of the machine. What the machine knows and this program does
+// not (offsets, lengths of tools, homes) stays words: G55, G43 H1, G28.
 #include <cmath>
 #include <utility>
 

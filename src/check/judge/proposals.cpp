@@ -57,9 +57,9 @@ struct Span {
   }
 };
 
-// How far the program goes in machine coordinates in each work system, of the places that follow the system's zero.
-// They are found by playing the program twice, with zeros that differ by a little: G53, and the zeros that the program
-// sets itself, follow none.
+// How far the program goes in machine coordinates in each work coordinate system, of the places that follow the
+// system's zero. They are found by playing the program twice, with zeros that differ by a little: G53, and the zeros
+// that the program sets itself, follow none.
 class ZeroFollower {
  public:
   using Spans = std::array<PerAxis<Span>, work_systems + 1>;

@@ -24,14 +24,14 @@ inline constexpr SentenceRow second_line_number{"gcode.repeated-word.line-number
 inline constexpr SentenceRow no_function{"gcode.unknown-function", "there is no function {name}"};
 inline constexpr SentenceRow fanuc_word{"gcode.fanuc-macro", "{name} is a word of Fanuc's macros"};
 inline constexpr SentenceRow for_while{"expected.fanuc-while",
-                                       "o1 while [...] on one line, and o1 endwhile where END stands"};
+                                       "o1 while [...] on one line, and o1 endwhile instead of END"};
 inline constexpr SentenceRow for_goto{"expected.fanuc-goto",
-                                      "o1 if [...] and o1 endif around what is passed over; there are no jumps"};
+                                      "o1 if [...] and o1 endif around the lines to skip, because there is no GOTO"};
 inline constexpr SentenceRow for_then{"expected.fanuc-then",
                                       "o1 if [...], the assignment on the next line, and o1 endif"};
 inline constexpr SentenceRow for_end{"expected.fanuc-end", "o1 endwhile, with the label of its o1 while"};
 inline constexpr SentenceRow for_if{"expected.fanuc-if",
-                                    "o1 if [...] on one line, and o1 endif after the last line that it guards"};
+                                    "o1 if [...] on one line, and o1 endif after the last conditional line"};
 inline constexpr SentenceRow letter_o{"expected.o-for-colon",
                                       "O for ':', as in O0491; on some controls ':' begins the number of a program"};
 inline constexpr SentenceRow empty_file{"file.empty", "the file is empty"};

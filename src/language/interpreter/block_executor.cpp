@@ -387,7 +387,7 @@ bool BlockExecutor::check_words_used() {
   for (const Word& word : reporter_.block().words) {
     if (!unused.has(word.letter)) continue;
     const std::string users = codes_using(word.letter);
-    std::string expected = users.empty() ? fmt::format("no {}: no code that is supported uses it", word.letter)
+    std::string expected = users.empty() ? fmt::format("no {}, which no supported code uses", word.letter)
                                          : fmt::format("{} with {}", word.letter, users);
     if (word.letter == 'E' && follows_digit(reporter_.block().text, word.span)) {
       expected += "; numbers cannot have an exponent, so 1E3 is written 1000";
@@ -410,10 +410,10 @@ bool BlockExecutor::check_words_shared() {
       if (word.letter == 'G' || word.letter == 'M' || word.letter == 'N' || !shared.has(word.letter)) continue;
       const CodeEntry*& taken = owner[letter_index(word.letter)];
       if (taken != nullptr && taken != entry) {
-        return fail("gcode.ambiguous-word", word.span,
-                    fmt::format("{} belongs to {} or to {}, which both use it", word.letter, spelling(*taken),
-                                spelling(*entry)),
-                    interpreter_says::two_blocks);
+        return fail(
+            "gcode.ambiguous-word", word.span,
+            fmt::format("{} is ambiguous: both {} and {} use it", word.letter, spelling(*taken), spelling(*entry)),
+            interpreter_says::two_blocks);
       }
       taken = entry;
     }

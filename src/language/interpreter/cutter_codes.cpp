@@ -58,7 +58,7 @@ bool CutterCodes::check() {
   if (is_on && words_.has_code(non_modal, code(10)) && words_.has('L') && words_.has('P') &&
       (words_['L'] == 2 || words_['L'] == 20) && (words_['P'] == 0 || words_['P'] == state_.frame.work_system())) {
     return fail("gcode.cutter-compensation", words_.span(non_modal),
-                fmt::format("G10 changes the active work system {}", with), cure);
+                fmt::format("G10 changes the active work coordinate system {}", with), cure);
   }
   if (is_on && block_.motion != nullptr && !is_contour(block_.motion->number)) {
     return fail("gcode.cutter-compensation", motion_span(),

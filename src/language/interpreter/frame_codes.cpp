@@ -29,7 +29,7 @@ void FrameCodes::change_frame(const Operations&... operations) {
   state_.position = state_.frame.work_from_machine(machine);
 }
 
-// Starts with the work system and the offsets of the parameters, as the last run left them.
+// Starts with the work coordinate system and the offsets of the parameters, as the last run left them.
 void FrameCodes::start() {
   const int system = static_cast<int>(parameters_.get(work_system_parameter));
   state_.modal.set(work_system, code_of_system(system));
@@ -109,7 +109,8 @@ bool FrameCodes::check_work_offset_words(int& system) {
   return true;
 }
 
-// G10 L2 sets a work system's offset. G10 L20 sets the offset with which the tool's work position is the given one.
+// G10 L2 sets a work coordinate system's offset. G10 L20 sets the offset with which the tool's work position is the
+// given one.
 bool FrameCodes::set_work_offset() {
   int system = 0;
   if (!check_work_offset_words(system)) return false;

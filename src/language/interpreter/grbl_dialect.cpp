@@ -168,7 +168,7 @@ class GrblCheck {
     const Instruction& value = block_.code[word.value.first];
     const std::string_view text = block_.text.substr(word.span.column - 1, word.span.length);
     if (word.value.count != 1 || value.op != ExpressionOp::number || text.find('[') != std::string_view::npos) {
-      return fail(2, word.span, "grbl knows no parameters and expressions", "a number");
+      return fail(2, word.span, "Grbl does not support parameters and expressions", "a number");
     }
     const auto is_sign = [](char c) { return c == '-' || c == '+'; };
     if (std::ranges::count_if(text, is_sign) > 1)

@@ -34,15 +34,15 @@ inline constexpr SentenceRow both_use_axes{"gcode.axis-conflict",
                                            "{first} and {second} both use the axis words of the block"};
 inline constexpr SentenceRow without_axes{"gcode.missing-axis", "{code} without axis words"};
 inline constexpr SentenceRow an_axis{"expected.axis-word", "one of X Y Z A B C U V W at least"};
-inline constexpr SentenceRow nothing_moves{"gcode.missing-motion", "axis words, and no code that moves is active"};
+inline constexpr SentenceRow nothing_moves{"gcode.missing-motion", "axis words, but no motion code is active"};
 inline constexpr SentenceRow motion_code{"expected.motion-code",
                                          "G0, G1, G2, G3 or another motion code before, or in this block"};
-inline constexpr SentenceRow home_beside_g0{"gcode.g0-with-home",
-                                            "{code} uses the axis words of the block; G0 only stays in force"};
+inline constexpr SentenceRow home_beside_g0{
+    "gcode.g0-with-home", "{code} uses the axis words of the block; G0 only becomes the active motion code"};
 inline constexpr SentenceRow home_alone{"expected.home-without-g0", "{code} in a block without G0"};
 inline constexpr SentenceRow dwell_without_p{"gcode.missing-word.dwell", "G4 without P"};
 inline constexpr SentenceRow seconds_to_wait{"expected.seconds-to-wait", "P, the seconds to wait"};
-inline constexpr SentenceRow no_tool_selected{"gcode.missing-tool", "M6 and no tool was selected"};
+inline constexpr SentenceRow no_tool_selected{"gcode.missing-tool", "M6, but no tool is selected"};
 inline constexpr SentenceRow tool_before{"expected.tool-before", "T before, or in this block"};
 inline constexpr SentenceRow tool_not_in_table{"gcode.unknown-tool", "tool {tool} is not in the tool table"};
 inline constexpr SentenceRow offset_taken_as_zero{
@@ -88,19 +88,20 @@ inline constexpr SentenceRow zero_arc{"gcode.zero-arc", "the arc's centre is its
 inline constexpr SentenceRow some_radius{"expected.some-radius", "a radius above zero"};
 inline constexpr SentenceRow small_radius{"gcode.impossible-arc",
                                           "no arc with a radius of {radius} reaches from the start to the end"};
-inline constexpr SentenceRow half_the_distance{"expected.half-the-distance", "half the distance at least"};
+inline constexpr SentenceRow half_the_distance{"expected.half-the-distance", "a radius of at least half the distance"};
 inline constexpr SentenceRow ends_at_start{"gcode.impossible-arc.ends-at-start",
                                            "an arc with R that ends where it starts"};
-inline constexpr SentenceRow full_circle{"expected.full-circle", "a full circle is written with I J K"};
+inline constexpr SentenceRow full_circle{"expected.full-circle", "I J K, for a full circle"};
 inline constexpr SentenceRow instead_of_g12{"expected.instead-of-g12", "G2 or G3 with I and J, a full circle"};
 inline constexpr SentenceRow instead_of_g15{"expected.instead-of-g15", "X and Y, or @ and ^ for polar coordinates"};
 inline constexpr SentenceRow instead_of_g16{"expected.instead-of-g16", "@ and ^ for polar coordinates"};
 inline constexpr SentenceRow instead_of_g31{"expected.instead-of-g31", "G38.2 to G38.5, which probe"};
 inline constexpr SentenceRow instead_of_g37{"expected.instead-of-g37", "G38.2 and G10 L10, which measure a tool"};
 inline constexpr SentenceRow instead_of_g44{"expected.instead-of-g44", "G43 with the offset's other sign"};
-inline constexpr SentenceRow instead_of_g68{"expected.instead-of-g68", "G10 L2 with R, which rotates a work system"};
+inline constexpr SentenceRow instead_of_g68{"expected.instead-of-g68",
+                                            "G10 L2 with R, which rotates a work coordinate system"};
 inline constexpr SentenceRow instead_of_g69{"expected.instead-of-g69",
-                                            "G10 L2 with R0, which ends the rotation of a work system"};
+                                            "G10 L2 with R0, which ends the rotation of a work coordinate system"};
 inline constexpr SentenceRow instead_of_m13{"expected.instead-of-m13",
                                             "M3 and M8: on other controls this is both at once"};
 inline constexpr SentenceRow instead_of_m14{"expected.instead-of-m14",

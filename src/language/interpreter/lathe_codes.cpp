@@ -101,7 +101,7 @@ bool LatheCodes::add_segment() {
   if (words_.code(motion) != nullptr) {
     const CodeNumber number = words_.code(motion)->number;
     if (number > code(3)) {
-      return fail("gcode.bad-contour", words_.span(motion), "the contour of a lathe cycle is made of lines and arcs",
+      return fail("gcode.bad-contour", words_.span(motion), "the contour of a lathe cycle may only have lines and arcs",
                   "G0, G1, G2 or G3");
     }
     state_.modal.set(motion, number);
@@ -284,7 +284,8 @@ bool LatheCodes::report_contour(LatheFault fault) {
     case LatheFault::parallel:
     case LatheFault::vanished:
       return fail_contour("with the offset D, a part of the contour disappears", "a smaller D, or wider arcs");
-    default: return fail_contour("the contour cannot be cut in this way", "a contour without undercuts");
+    default:
+      return fail_contour("the contour has undercuts, which this cycle cannot cut", "a contour without undercuts");
   }
 }
 

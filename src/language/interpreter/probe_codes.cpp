@@ -87,7 +87,8 @@ bool ProbeCodes::check(CodeNumber number) {
   return check_feed();
 }
 
-// #5061 … get the place of contact, in the program's units and work system. #5070 tells whether the move succeeded.
+// #5061 … get the place of contact, in the program's units and work coordinate system. #5070 tells whether the move
+// succeeded.
 void ProbeCodes::keep_result(const Point& place, bool touched) {
   for (const Axis axis : all_axes) {
     parameters_.set(probe_parameter + static_cast<int>(index_of(axis)), place[axis] / state_.units_of(axis));

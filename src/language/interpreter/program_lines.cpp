@@ -289,7 +289,7 @@ std::string ProgramLines::places_looked_at(const std::string& file) const {
   for (const auto& open : files_) {
     if (open.get() == file_) continue;
     const bool has_its_name = std::filesystem::path(open->name).filename() == file;
-    places += fmt::format("; {} {}", open->name, has_its_name ? "is there without it" : "was looked through");
+    places += fmt::format("; {} {}", open->name, has_its_name ? "exists, but does not contain it" : "was searched");
   }
   return places;
 }

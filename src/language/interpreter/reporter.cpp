@@ -23,7 +23,7 @@ std::string_view domain_of(std::string_view text) {
   if (name == "LN") return "LN of more than 0";
   if (name == "ASIN") return "ASIN of -1 to 1";
   if (name == "ACOS") return "ACOS of -1 to 1";
-  return "a whole exponent; a negative number has no other powers";
+  return "a whole-number exponent, because the base is negative";
 }
 
 SourcePlace place_of(std::uint32_t line, Span span) {
@@ -82,7 +82,7 @@ void Reporter::error(const EvaluationError& error) {
       return this->error("gcode.overflow", error.span, fmt::format("{} is too large to compute", what), {});
     case Kind::too_deep:
       return this->error("gcode.too-deep", error.span, "the expression is nested too deep",
-                         fmt::format("at most {} values waiting for their operator", deepest_expression));
+                         fmt::format("at most {} pending operands", deepest_expression));
   }
 }
 

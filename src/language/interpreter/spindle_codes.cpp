@@ -27,7 +27,7 @@ bool SpindleCodes::set_mode(CodeNumber number) {
     limit = words_.has('D') ? words_['D'] : no_limit;
     if (limit <= 0) {
       return fail("gcode.negative-word", words_.span('D'),
-                  fmt::format("the highest spindle speed is {}", plain_number(limit)), "D above 0");
+                  fmt::format("D, the highest spindle speed, is {}", plain_number(limit)), "D above 0");
     }
   }
   if (range.first == 0) state_.modal.set(spindle_mode, number);

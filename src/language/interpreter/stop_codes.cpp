@@ -53,7 +53,7 @@ bool StopCodes::dwell() {
   block_.word = {words_.span(non_modal).column, words_.span(non_modal).length};
   if (block_.motion != nullptr && letters_of(*block_.motion).has('P')) {
     return fail("gcode.ambiguous-word", words_.span('P'),
-                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)),
+                fmt::format("P is ambiguous: both G4 and {} use it", spelling(*block_.motion)),
                 interpreter_says::two_blocks);
   }
   if (is_negative('P')) {

@@ -51,7 +51,7 @@ bool ThreadingCodes::start() {
 bool ThreadingCodes::check_thread(const ThreadingPlan& plan) {
   const double length = std::abs(plan.end[Axis::z] - plan.start[Axis::z]);
   if (length == 0) {
-    return fail("gcode.bad-thread", motion_span(), "the thread has no length: its end has the Z of its start",
+    return fail("gcode.bad-thread", motion_span(), "the thread has no length: Z is the same at its start and its end",
                 "Z, the end of the thread");
   }
   const int tapers = (plan.taper_at_start ? 1 : 0) + (plan.taper_at_end ? 1 : 0);

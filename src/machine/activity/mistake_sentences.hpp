@@ -36,7 +36,8 @@ inline constexpr SentenceRow nearly_circle{"path.nearly-circle",
 inline constexpr SentenceRow whole_circle{
     "expected.whole-circle",
     "the start as the end for a full circle; the other direction (G2, G3) or G1 for a short way"};
-inline constexpr SentenceRow low_rapid{"path.low-rapid", "a sideways rapid at Z{z}, and the program has cut at Z{cut}"};
+inline constexpr SentenceRow low_rapid{"path.low-rapid",
+                                       "a sideways rapid at Z{z}, although the program has cut at Z{cut}"};
 inline constexpr SentenceRow above_work{"expected.above-work",
                                         "Z above the work before a sideways rapid, or a feed (G1)"};
 inline constexpr SentenceRow rapid_plunge{"path.rapid-plunge",

@@ -11,24 +11,24 @@ inline constexpr SentenceRow goes_from_to{"machine.travel", "{key} goes from {lo
 inline constexpr SentenceRow low_end_first{"expected.low-end-first", "the low end first, then the high end"};
 inline constexpr SentenceRow has_left_travel{
     "machine.homing.beyond-travel",
-    "{key} is {value}, and {off} off it the machine has left its travel of {low} to {high}"};
+    "{key} is {value}; after a pull-off of {off} the axis would be outside its travel of {low} to {high}"};
 inline constexpr SentenceRow switch_within_travel{"expected.switch-within-travel",
-                                                  "a switch, less {key}, within the travel"};
+                                                  "a switch position that is within the travel after {key}"};
 inline constexpr SentenceRow key_is{"machine.bad-value", "{key} is {value}"};
 inline constexpr SentenceRow number_within{"expected.number-within", "a number from {low} to {high}"};
 inline constexpr SentenceRow whole_number_within{"expected.whole-number-within", "a whole number from {low} to {high}"};
-inline constexpr SentenceRow motor_taken{"machine.motor.taken", "motor {motor} turns axis {axis} already"};
-inline constexpr SentenceRow own_motor{"expected.own-motor", "a motor of its own for each axis"};
+inline constexpr SentenceRow motor_taken{"machine.motor.taken", "motor {motor} is already assigned to axis {axis}"};
+inline constexpr SentenceRow own_motor{"expected.own-motor", "a different motor for each axis"};
 inline constexpr SentenceRow no_such_motor{"machine.motor.none", "axis {axis} has motor {motor}"};
-inline constexpr SentenceRow motor_missing{"machine.motor.missing", "[axis.{axis}] lacks its motor"};
+inline constexpr SentenceRow motor_missing{"machine.motor.missing", "[axis.{axis}] has no key motor"};
 inline constexpr SentenceRow motors_for_all{
     "expected.motors-for-all", "a motor for every axis, or for none: then they are in the order X Y Z A B C U V W"};
 inline constexpr SentenceRow too_fast{
-    "machine.too-fast", "axis {axis} needs {steps} steps/s for {speed}/s, and the board makes {most} events"};
-inline constexpr SentenceRow starts_too_fast{"machine.start-stop",
-                                             "axis {axis} would start at {speed}/s, and is never faster than {most}/s"};
+    "machine.too-fast", "axis {axis} needs {steps} steps/s for {speed}/s, but the board makes at most {most} events/s"};
+inline constexpr SentenceRow starts_too_fast{
+    "machine.start-stop", "the start-stop velocity of axis {axis}, {speed}/s, is above its velocity of {most}/s"};
 inline constexpr SentenceRow too_weak{"machine.too-weak",
-                                      "at {speed}/s the motor of axis {axis} has nothing left to accelerate with"};
+                                      "at {speed}/s the motor of axis {axis} has no torque left for acceleration"};
 inline constexpr SentenceRow stronger_motor{"expected.stronger-motor", "{key} below {most}, or a stronger motor"};
 inline constexpr SentenceRow both_given{"machine.both-given", "{first} and {second} are both given"};
 inline constexpr SentenceRow no_axis{"machine.no-axis", "the machine has no axis"};

@@ -7,7 +7,8 @@ namespace passo {
 namespace {
 
 constexpr SentenceRow no_spindle_speed{
-    "check.no-spindle-speed", "the tool cuts, and no spindle speed is known: the force of such cuts is left out"};
+    "check.no-spindle-speed",
+    "the tool cuts while the spindle speed is unknown; the force of such cuts is not included"};
 
 }  // namespace
 

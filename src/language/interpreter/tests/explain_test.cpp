@@ -56,7 +56,7 @@ TEST(Explain, the_modes_are_those_the_line_runs_under) {
   EXPECT_EQ(mode(line, "distances").code, "G91");
   EXPECT_EQ(mode(line, "plane").code, "G18");
   EXPECT_TRUE(mode(line, "plane").set_here);
-  EXPECT_EQ(mode(line, "work system").code, "G55");
+  EXPECT_EQ(mode(line, "work coordinate system").code, "G55");
   EXPECT_TRUE(mode(line, "motion").set_here);
   EXPECT_EQ(mode(line, "feed").meaning, "10 in/min");
   EXPECT_EQ(mode(line, "spindle").meaning, "clockwise, 900 rev/min");

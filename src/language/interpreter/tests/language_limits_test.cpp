@@ -165,7 +165,7 @@ TEST(Limits, each_error_tells_its_own_cause) {
   EXPECT_EQ(error_of("#1=sqrt[-1]\nM2\n").expected, "SQRT of 0 or more");
   EXPECT_EQ(error_of("#1=LN[0]\nM2\n").expected, "LN of more than 0");
   EXPECT_EQ(error_of("#1=ASIN[2]\nM2\n").expected, "ASIN of -1 to 1");
-  EXPECT_EQ(error_of("#1=[[0-2]**0.5]\nM2\n").expected, "a whole exponent; a negative number has no other powers");
+  EXPECT_EQ(error_of("#1=[[0-2]**0.5]\nM2\n").expected, "a whole-number exponent, because the base is negative");
 }
 
 }  // namespace

@@ -204,7 +204,7 @@ TEST(OWords, a_sub_that_is_nowhere_tells_where_it_was_looked_for_and_the_run_goe
   const auto& found = result.diagnostics.all();
   ASSERT_EQ(found.size(), 5U) << result.rendered();
   EXPECT_THAT(found[0].expected, testing::AllOf(testing::HasSubstr("o<half> sub in this file"),
-                                                testing::EndsWith("half.ngc is there without it")));
+                                                testing::EndsWith("half.ngc exists, but does not contain it")));
   EXPECT_THAT(found[1].expected, testing::HasSubstr("in a file lost.ngc next to the program"));
   EXPECT_THAT(found[2].expected, testing::HasSubstr("O8 in this file"));
   EXPECT_EQ(found[4].code, "gcode.unused-word");

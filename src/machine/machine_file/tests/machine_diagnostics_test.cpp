@@ -188,7 +188,7 @@ const Mistake mistakes[] = {
      "= 25\nstart_stop_velocity_mm_s = 25.5\n",
      "machine.start-stop",
      {18, 28, 4},
-     "axis X would start at 25.5 mm/s, and is never faster than 25 mm/s",
+     "the start-stop velocity of axis X, 25.5 mm/s, is above its velocity of 25 mm/s",
      "start_stop_velocity_mm_s = 25 or less"},
     {"too_many_events",
      "50_000",
@@ -217,7 +217,7 @@ const Mistake mistakes[] = {
      "motor = 0\ninverted",
      "machine.motor",
      {14, 7, 1},
-     "[axis.X] lacks its motor",
+     "[axis.X] has no key motor",
      "or for none"},
 };
 
@@ -272,7 +272,7 @@ TEST(MachineDiagnostics, two_axes_with_one_motor_and_a_gap_in_the_numbers_are_re
   Diagnostics one_motor;
   EXPECT_FALSE(parse_machine(replaced(with_x, "[axis.A]\n", "[axis.A]\nmotor = 1\n"), "m.toml", one_motor));
   EXPECT_EQ(all_codes(one_motor), "22 machine.motor\n");
-  EXPECT_EQ(one_motor.all()[0].message, "motor 1 turns axis X already");
+  EXPECT_EQ(one_motor.all()[0].message, "motor 1 is already assigned to axis X");
   Diagnostics gap;
   EXPECT_FALSE(parse_machine(replaced(with_x, "[axis.A]\n", "[axis.A]\nmotor = 2\n"), "m.toml", gap));
   EXPECT_EQ(all_codes(gap), "22 machine.motor\n");

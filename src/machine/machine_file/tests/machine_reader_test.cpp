@@ -76,7 +76,7 @@ TEST(MachineReader, an_axis_may_have_a_start_stop_velocity_up_to_its_velocity) {
   EXPECT_FALSE(parse_machine(faster, "machine.toml", diagnostics));
   ASSERT_EQ(diagnostics.all().size(), 1U);
   EXPECT_EQ(diagnostics.all()[0].code, "machine.start-stop");
-  EXPECT_EQ(diagnostics.all()[0].message.substr(0, 27), "axis X would start at 10000");
+  EXPECT_EQ(diagnostics.all()[0].message.substr(0, 41), "the start-stop velocity of axis X, 10000 ");
   const std::string below = replaced(sound_machine, "[axis.X]\n", "[axis.X]\nstart_stop_velocity_mm_s = -1\n");
   EXPECT_FALSE(parse_machine(below, "machine.toml", diagnostics));
   EXPECT_EQ(diagnostics.all()[1].code, "machine.out-of-range");
