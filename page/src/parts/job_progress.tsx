@@ -7,6 +7,7 @@ import { status } from '../machine/connection';
 import { shown, timeOf } from '../machine/programs';
 import { isUnderWay } from '../machine/words';
 import { Button } from './button';
+import { ProgressBar } from './progress_bar';
 
 // The job of the shown program, if it runs.
 const run = computed(() => {
@@ -40,16 +41,7 @@ export function JobProgress() {
         <h2 class="job-name">{program.name}</h2>
         <span class={`verdict ${program.state}`}>{say(`files.state.${program.state}`)}</span>
       </div>
-      <div
-        class="bar"
-        role="progressbar"
-        aria-label={say('run.progress')}
-        aria-valuemin={0}
-        aria-valuemax={100}
-        aria-valuenow={Math.floor(percent)}
-      >
-        <i style={{ width: `${percent}%` }} />
-      </div>
+      <ProgressBar share={now?.progress ?? 0} name={say('run.progress')} />
       <div class="job-figures">
         <div>
           <span class="dim">{say('run.progress')}</span>

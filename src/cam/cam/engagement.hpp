@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 
 namespace passo {
@@ -17,6 +18,7 @@ struct Engagement {
 };
 
 // `entry`: what was cut before, which does not count. `runs`: in their order; between two of them the cutter is lifted.
-Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter);
+Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter,
+                           const WorkProgress& progress = {});
 
 }  // namespace passo

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 
@@ -46,6 +47,6 @@ inline Nanometres least_peeled(Nanometres cutter) {
 // `ground`: one part, at least twice `least_peeled` wide everywhere. Not whole: the way would be longer than
 // `longest_peel` radii of the cutter, or the ground is wider than 4 m.
 inline constexpr double longest_peel = 500'000;
-PeelWay peel(const Region& ground, const PeelOptions& options);
+PeelWay peel(const Region& ground, const PeelOptions& options, const WorkProgress& progress = {});
 
 }  // namespace passo

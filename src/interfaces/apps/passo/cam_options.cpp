@@ -1,10 +1,12 @@
 #include "cam_options.hpp"
 
 #include <array>
+#include <filesystem>
 #include <type_traits>
 
 #include "command_table.hpp"
 #include "number_range.hpp"
+#include "progress_display.hpp"
 #include <CLI/CLI.hpp>
 
 #include "passo/operations/cam_operation.hpp"
@@ -76,8 +78,29 @@ void add_cam_options(CLI::App& command, Arguments& arguments) {
   add_options(command, cam_options_of(arguments));
 }
 
-template <class Arguments, int (*run)(const Arguments&)>
-constexpr auto operation_of = options_of<Arguments, add_cam_options<Arguments>, run>;
+// Runs an operation. Its progress has the name of the first input.
+template <class Arguments, class Run>
+int run_with_progress(const Arguments& arguments, Run run) {
+  std::string input;
+  if constexpr (requires { arguments.file; }) {
+    input = arguments.file;
+  } else if constexpr (requires { arguments.paths; }) {
+    if (!arguments.paths.empty()) input = arguments.paths.front();
+  } else if (!arguments.files.empty()) {
+    input = arguments.files.front();
+  }
+  const std::string name = std::filesystem::path(input).filename().string();
+  ProgressDisplay progress(name.empty() ? "passo cam" : name);
+  return run(arguments, progress.work());
+}
+
+template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
+int shown(const Arguments& arguments) {
+  return run_with_progress(arguments, run);
+}
+
+template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
+constexpr auto operation_of = options_of<Arguments, add_cam_options<Arguments>, shown<Arguments, run>>;
 
 // The options of a command whose options can be remembered for a machine. `part` is the member that they fill in.
 template <auto part, auto run>
@@ -87,16 +110,19 @@ std::function<int()> remembered_of(CLI::App& command) {
   add_remember_options(command, *all);
   return [all, &command] {
     const int code = use_remembered(command, *all);
-    return code == exit_done ? run((*all).*part, nullptr, nullptr) : code;
+    if (code != exit_done) return code;
+    return run_with_progress((*all).*part, [](const auto& arguments, const WorkProgress& progress) {
+      return run(arguments, progress, nullptr, nullptr);
+    });
   };
 }
 
-int make_board_job(const CamBoardArguments& board) {
+int make_board_job(const CamBoardArguments& board, const WorkProgress& progress) {
   CamArguments all;
   all.board = board;
   if (const int code = read_profile(all); code != exit_done) return code;
   if (!all.board.join.empty()) all.outline.join = all.board.join;
-  return cam_board(all.board, all.drill, all.isolate, all.outline);
+  return cam_board(all.board, progress, all.drill, all.isolate, all.outline);
 }
 
 Command command_of(const char* name, std::function<int()> (*add)(CLI::App&)) {

@@ -2,7 +2,8 @@
 // machine goes on.
 //
 // It may take `most_time` of a processor and `most_memory`. It inherits none of the server's files and lines. What it
-// writes to standard output and standard error lies in files of its folder.
+// writes to standard output and standard error lies in files of its folder. Its progress comes by a pipe, as the typed
+// messages of percent_line.hpp.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include <sys/types.h>
+
+#include "passo/base/percent_line.hpp"
 
 namespace passo {
 
@@ -24,11 +27,17 @@ class LowProcess {
   // In its folder.
   static constexpr const char* said_file = ".said";        // standard error
   static constexpr const char* printed_file = ".printed";  // standard output
+  // A process with this environment variable writes its progress to this descriptor.
+  static constexpr const char* wants_progress = "PASSO_WANTS_PROGRESS";
+  static constexpr int progress_pipe = 3;
 
   LowProcess() = default;
   LowProcess(const LowProcess&) = delete;
   LowProcess& operator=(const LowProcess&) = delete;
-  ~LowProcess() { end(); }
+  ~LowProcess() {
+    end();
+    close_pipe();
+  }
 
   // `words`: the command line, the first is the program's name. False: one runs already, or none can begin.
   bool begin(const std::string& folder, const std::vector<std::string>& words);
@@ -36,9 +45,15 @@ class LowProcess {
   // How it has ended, as waitpid() tells; once. Empty: it runs, or there is none.
   std::optional<int> poll();
   void end();
+  // How much of its work is done, in per cent; it only grows while the process runs.
+  int percent();
 
  private:
+  void close_pipe();
+
   pid_t process_ = 0;
+  int pipe_ = -1;  // the end to read from
+  PercentReceiver progress_;
 };
 
 // Why a process with this end has done nothing, where it said nothing itself.

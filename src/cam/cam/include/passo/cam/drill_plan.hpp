@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/drawing.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 
@@ -56,6 +57,7 @@ struct DrillPlan {
 };
 
 // Errors "drill.…" are in `diagnostics`.
-DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics);
+DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics,
+                        const WorkProgress& progress = {});
 
 }  // namespace passo

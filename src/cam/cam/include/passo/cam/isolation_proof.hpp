@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 
@@ -23,6 +24,7 @@ struct IsolationProof {
 };
 
 // `board`: what is beyond it joins no islands, as it is cut off. Empty: copper goes on without end.
-IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board = {});
+IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board = {},
+                               const WorkProgress& progress = {});
 
 }  // namespace passo

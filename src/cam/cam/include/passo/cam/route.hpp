@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/drawing.hpp"
 
 namespace passo {
@@ -19,7 +20,7 @@ namespace passo {
 // The indices of `places` in a good order. `steps`: distances looked at and places moved, an upper bound but for the
 // first order, which needs about 100 a place.
 std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
-                                         std::uint64_t steps);
+                                         std::uint64_t steps, const WorkProgress& progress = {});
 
 // More steps hardly shorten the route of so many places: `a_place` for each, and fewer where there are few.
 std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place);

@@ -24,6 +24,7 @@ struct MakeResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
   std::string job;
+  double progress = 0;                  // 0 to 1; only grows while the order runs
   std::vector<std::string> names = {};  // of the programs, in the order in which they are run
   std::string words = {};               // what was said; why it failed
   std::string picture_type = {};        // "image/svg+xml"; empty: there is no picture
