@@ -33,15 +33,16 @@ class WebApi final : public WebHandler {
   WebApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
   ~WebApi() override;
 
-  WebAnswer answer(const WebRequest& request) override;
+  WebService find(const WebRequest& head) override;
   WebAnswer refusal(unsigned status) override;
-  std::size_t longest_body(const WebRequest& request) override;
   // The page itself is no secret: what it asks of the API needs the token.
   bool is_public(const WebRequest& request) override;
-  bool is_stream(std::string_view path) override;
   // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} is a POST; the answer has "do", "status" and "body".
   std::string hear(std::string_view message, std::uint64_t client) override;
   void gone(std::uint64_t client) override;
+
+  // To a request whose body is at hand.
+  WebAnswer answer(const WebRequest& request) { return find(request).answer(request); }
 
   // Heeds what has happened. `changes`: the session's, since the last call. Call after each turn of the session.
   void on_change(const std::vector<MachineChange>& changes);

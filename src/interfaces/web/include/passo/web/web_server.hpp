@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -50,18 +51,22 @@ struct WebAnswer {
   std::string allow = {};     // Allow; empty: none
 };
 
+// What a handler does with a request. Found once, when the header is known.
+struct WebService {
+  std::size_t longest_body = 0;  // bytes; a longer body is refused, and not read
+  bool is_stream = false;        // the stream for WebSocket clients is here
+  std::function<WebAnswer(const WebRequest& request)> answer = {};  // called once the body is read
+};
+
 class WebHandler {
  public:
   virtual ~WebHandler() = default;
-  virtual WebAnswer answer(const WebRequest& request) = 0;
+  // `head`: the request without its body.
+  virtual WebService find(const WebRequest& head) = 0;
   // What a server itself refuses is told in the handler's form too.
   virtual WebAnswer refusal(unsigned status) = 0;
-  // How many bytes the body of such a request may have. Asked before the body is read.
-  virtual std::size_t longest_body(const WebRequest& request) = 0;
   // True: also those who do not know the token may ask this. Host and Origin are checked all the same.
   virtual bool is_public(const WebRequest&) { return false; }
-  // True: at this path is the stream, for WebSocket clients.
-  virtual bool is_stream(std::string_view path) = 0;
   // A client of the stream has sent a message. Returns the answer; empty: none.
   virtual std::string hear(std::string_view message, std::uint64_t client) = 0;
   // A client of the stream has left, or has not answered for `stream_dead_after`. Its number is never used again.
