@@ -1,4 +1,4 @@
-// What an order of a CAM operation may say, as JSON Schema and as a check. Private to api/.
+// What an order of a CAM operation or a study may say, as JSON Schema and as a check. Private to api/.
 #pragma once
 
 #include <string>

@@ -3,15 +3,15 @@
 #include <utility>
 
 #include "api_json.hpp"
+#include "cam_schema.hpp"
 
 #include "passo/interpreter/parameter_file.hpp"
 #include "passo/interpreter/tool_table_file.hpp"
+#include "passo/operations/study_arguments.hpp"
 
 namespace passo {
 namespace {
 
-constexpr double least_margin = 0.1;
-constexpr double most_margin = 0.9;
 constexpr std::size_t longest_machine = std::size_t{1} << 20;  // bytes
 
 const char* name_of(StudyResult::State state) {
@@ -53,18 +53,28 @@ WebAnswer StudiesApi::picture(const ApiCall&) {
   return file_answer("image/svg+xml", is_done() ? shared_.options.studies->picture() : "");
 }
 
+WebAnswer StudiesApi::options(const ApiCall&) {
+  return json_answer(200, {{"tune", schema_of(tune_study())}});
+}
+
 WebAnswer StudiesApi::begin(const ApiCall& call) {
   const Json& said = call.body;
   if (!said.is_object()) return bad_body("the body is not a JSON object");
+  StudyOrder order;
+  const std::vector<CamOption> rows = tune_study().options();
   for (const auto& [name, value] : said.items()) {
-    if (name != "study" && name != "program" && name != "machine" && name != "margin") {
-      return bad_body("there is no \"" + name.substr(0, 40) + "\"");
-    }
+    if (name == "study" || name == "program" || name == "machine") continue;
+    const CamOption* const row = find_ordered(rows, name);
+    if (row == nullptr) return bad_body("there is no \"" + name.substr(0, 40) + "\"");
+    // Here no person is typing: a number is a number.
+    const bool is_typed = !is_number(row->kind) || value.is_number();
+    const auto texts = ordered_values(*row, is_typed ? value : Json(), {});
+    if (!texts) return bad_body(texts.error());
+    for (const std::string& text : *texts) order.options.push_back("--" + name + (text.empty() ? "" : "=" + text));
   }
   if (shared_.options.studies == nullptr) return no_studies();
   const Json study = said.value("study", Json());
   if (study != "motors" && study != "tune") return bad_body("\"study\": expected motors or tune");
-  StudyOrder order;
   order.kind = study == "tune" ? StudyOrder::Kind::tune : StudyOrder::Kind::motors;
   const Json machine = said.value("machine", Json());
   const MachineFileAccess& file = shared_.options.machine_access;
@@ -76,11 +86,6 @@ WebAnswer StudiesApi::begin(const ApiCall& call) {
   if (order.machine.empty() || order.machine.size() > longest_machine) {
     return bad_body("\"machine\": expected the text of a machine file");
   }
-  const Json margin = said.value("margin", Json(order.margin));
-  if (!margin.is_number() || !(margin >= least_margin && margin <= most_margin)) {
-    return bad_body("\"margin\": expected 0.1 to 0.9");
-  }
-  order.margin = margin.get<double>();
   std::uint64_t id = 0;
   if (order.kind == StudyOrder::Kind::motors) {
     const Json wanted = said.value("program", Json());

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "passo/operations/cam_operation.hpp"
+#include "passo/operations/study_arguments.hpp"
 
 namespace passo {
 namespace {
@@ -55,8 +56,8 @@ void add_option(CLI::App& command, const CamOption& row, Value& value) {
   } else {
     CLI::Option& option = *command.add_option(name_of(row), value, help);
     constexpr bool is_list = std::is_same_v<Value, std::vector<std::string>>;
+    option.required(row.traits.is_required);
     if (row.kind == CamKind::drawings) {
-      option.required(row.traits.is_required);
       if (is_list && row.traits.most_files > 0) option.expected(1, row.traits.most_files);
       return;
     }
@@ -76,6 +77,7 @@ void add_option(CLI::App& command, const CamOption& row, Value& value) {
 template <class Arguments>
 void add_cam_options(CLI::App& command, Arguments& arguments) {
   add_options(command, cam_options_of(arguments));
+  command.footer(find_cam_operation(command.get_name())->examples);
 }
 
 // Runs an operation. Its progress has the name of the first input.
@@ -135,7 +137,11 @@ void add_options(CLI::App& command, std::span<const CamOption> options) {
   for (const CamOption& row : options) {
     std::visit([&](auto* value) { add_option(command, row, *value); }, row.value);
   }
-  command.footer(find_cam_operation(command.get_name())->examples);
+}
+
+void add_tune_options(CLI::App& command, TuneArguments& arguments) {
+  add_options(command, cam_options_of(arguments));
+  command.footer(tune_study().examples);
 }
 
 std::span<const Command> cam_commands() {

@@ -21,9 +21,12 @@ struct CamArguments {
 // The commands of `passo cam`.
 std::span<const Command> cam_commands();
 
-// The options of an operation, as its rows describe them, and its examples. The values that are given go where the rows
+// The options of an operation or a study, as its rows describe them. The values that are given go where the rows
 // say that they stand.
 void add_options(CLI::App& command, std::span<const CamOption> options);
+
+// Of the study `tune`.
+void add_tune_options(CLI::App& command, TuneArguments& arguments);
 
 // Options that are kept for a machine: how they are asked for, and how what was not given is filled in with them.
 void add_remember_options(CLI::App& command, CamArguments& arguments);

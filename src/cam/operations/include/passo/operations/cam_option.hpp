@@ -1,6 +1,6 @@
-// CamOption: one option of an operation of `passo cam`: name, permitted values, help text, and the member that holds
-// its value. The options of the command line, the checks of the API, the form of the page and the tables of the manual
-// come from these rows.
+// CamOption: one option of an operation of `passo cam`, or of a study: name, permitted values, help text, and the
+// member that holds its value. The options of the command line, the checks of the API, the form of the page and the
+// tables of the manual come from these rows.
 #pragma once
 
 #include <cstdint>
@@ -54,8 +54,8 @@ struct CamTraits {
   bool is_of_job = false;        // it speaks of one drawing or one job: it is not remembered for a machine
   bool is_of_machine = false;    // the machine file may have another default
   std::string_view letter = {};  // "o": -o is the same
-  bool is_required = false;      // of drawings
-  int most_files = 0;            // of drawings; 0: any number
+  bool is_required = false;
+  int most_files = 0;  // of drawings; 0: any number
 };
 
 struct CamOption {

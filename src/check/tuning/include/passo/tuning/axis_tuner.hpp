@@ -28,7 +28,7 @@
 namespace passo {
 
 struct TuningWish {
-  double margin = 0.3;     // of the weakest motor's torque; 0.1 to 0.9
+  double margin = 0;       // of the weakest motor's torque; the caller's default stands in TuneArguments
   double way = 0;          // of the reference move, mm or degrees; 0: half of the travel
   MmPerSecond fastest{0};  // a velocity that must not be exceeded; 0: none but the board's
 };

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace passo {
 
@@ -23,7 +24,7 @@ struct StudyOrder {
   std::string dialect;     // "linuxcnc" or "grbl"
   std::string parameters;  // the text of a parameter file: offsets
   std::string tools;       // the text of a tool table; empty: none
-  double margin = 0.3;     // of `tune`: the share of the torque that is never asked for
+  std::vector<std::string> options;  // of `tune`: "--margin=0.4"
 };
 
 struct StudyResult {
