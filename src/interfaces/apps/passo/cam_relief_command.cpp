@@ -9,6 +9,7 @@
 #include "length_argument.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
+#include "progress_display.hpp"
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
@@ -284,6 +285,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   const ReliefReport report = write_relief(
       read->grid, job.program, [&](std::string_view text) { file->write(text); }, progress.part(0.05, 0.95),
       !arguments.picture.empty());
+  ProgressDisplay::clear_shown();  // the program may go to the same terminal
   if (const Status<OutputError> written = file->commit(); !written) return fail(exit_failed, written.error().message);
   if (!arguments.picture.empty()) {
     const std::string picture = draw_carved(report.carved, read->grid.pitch_x, read->grid.pitch_y);
