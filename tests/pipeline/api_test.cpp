@@ -137,6 +137,8 @@ TEST(ApiStudies, are_ordered_with_all_that_they_need) {
   EXPECT_EQ(run.status, 202U);
   EXPECT_EQ(studies.last.kind, StudyOrder::Kind::tune);
   EXPECT_EQ(studies.last.options, std::vector<std::string>{"--margin=0.5"});
+  run.post("/study", R"({"study": "tune", "machine": "text", "margin": "0.4"})");
+  EXPECT_EQ(studies.last.options, std::vector<std::string>{"--margin=0.4"});
   run.post("/study", R"({"study": "tune", "machine": "text", "axes": "X", "keep-velocity": true})");
   EXPECT_EQ(studies.last.options, (std::vector<std::string>{"--axes=X", "--keep-velocity"}));
   expect_members(openapi()["components"]["schemas"]["StudyOptions"], run.get("/study/options"), "StudyOptions");

@@ -1,5 +1,6 @@
 #include "studies_api.hpp"
 
+#include <charconv>
 #include <utility>
 
 #include "api_json.hpp"
@@ -22,6 +23,15 @@ const char* name_of(StudyResult::State state) {
     case StudyResult::State::failed: return "failed";
   }
   return "";
+}
+
+// A text that is no number is refused here: no person is typing it. Null: it is no number.
+Json number_of(const Json& value) {
+  if (!value.is_string()) return value;
+  const auto& text = value.get_ref<const std::string&>();
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? Json(number) : Json();
 }
 
 WebAnswer file_answer(const char* type, std::string text) {
@@ -66,9 +76,7 @@ WebAnswer StudiesApi::begin(const ApiCall& call) {
     if (name == "study" || name == "program" || name == "machine") continue;
     const CamOption* const row = find_ordered(rows, name);
     if (row == nullptr) return bad_body("there is no \"" + name.substr(0, 40) + "\"");
-    // Here no person is typing: a number is a number.
-    const bool is_typed = !is_number(row->kind) || value.is_number();
-    const auto texts = ordered_values(*row, is_typed ? value : Json(), {});
+    const auto texts = ordered_values(*row, is_number(row->kind) ? number_of(value) : value, {});
     if (!texts) return bad_body(texts.error());
     for (const std::string& text : *texts) order.options.push_back("--" + name + (text.empty() ? "" : "=" + text));
   }
