@@ -366,6 +366,27 @@ TEST_F(ServeHttp, makes_a_program_of_a_drill_file) {
   EXPECT_TRUE(json("DELETE", "/cam/files")["files"].empty());
 }
 
+// The process that makes the program reports over its pipe.
+TEST_F(ServeHttp, shows_how_much_of_a_job_is_done) {
+  serve();
+  std::string holes = "M48\nMETRIC\nT1C0.800\n%\nT1\n";
+  for (int i = 0; i < 1500; ++i) holes += fmt::format("X{}.0Y{}.0\n", i * 37 % 1009, i * 53 % 997);
+  json("POST", "/cam/files?name=many.drl", holes + "M30\n");
+  EXPECT_EQ(json("POST", "/cam", R"({"job": "drill", "files": ["many.drl"]})")["state"], "running");
+  std::vector<double> shares = {0};
+  until([&] {
+    const auto now = json("GET", "/cam");
+    const double share = now["progress"].get<double>();
+    EXPECT_GE(share, shares.back());
+    if (share > shares.back()) shares.push_back(share);
+    return now["state"] != "running";
+  });
+  EXPECT_EQ(json("GET", "/cam")["state"], "done");
+  EXPECT_EQ(shares.back(), 1);
+  EXPECT_GE(shares.size(), 3U) << "it has grown on the way";
+  EXPECT_EQ(json("DELETE", "/cam/files")["progress"], 0);
+}
+
 TEST_F(ServeHttp, makes_all_programs_of_a_board_and_says_what_to_do_when) {
   serve();
   const std::string head = "%FSLAX46Y46*%\n%MOMM*%\n%LPD*%\n%ADD10C,1*%\nD10*\n";

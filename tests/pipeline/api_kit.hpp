@@ -37,7 +37,7 @@ class ApiRun {
  public:
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
                   const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
-                  const ToolTable& known_tools = {})
+                  const ToolTable& known_tools = {}, Maker* maker = nullptr)
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -52,6 +52,7 @@ class ApiRun {
                    if (keep) keep(parameters, tools);
                    return disk_trouble;
                  },
+             .maker = maker,
              .studies = studies,
              .timer = &timer_}) {}
 

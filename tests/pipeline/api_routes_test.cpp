@@ -118,7 +118,7 @@ TEST(ApiRoutes, need_what_a_server_may_lack) {
     EXPECT_EQ(run.status, 404U) << to;
     EXPECT_EQ(answer["error"]["code"], codes[static_cast<std::size_t>(route.needs)]) << to;
     const std::string path = std::string(api_root) + to;
-    EXPECT_EQ(run.api.longest_body({.method = std::string(route.method), .path = path}), std::size_t{1} << 16) << to;
+    EXPECT_EQ(run.api.find({.method = std::string(route.method), .path = path}).longest_body, std::size_t{1} << 16) << to;
   }
 }
 
@@ -126,7 +126,7 @@ TEST(ApiRoutes, need_what_a_server_may_lack) {
 TEST(ApiRoutes, know_how_long_a_body_may_be) {
   ApiRun run;
   const auto longest = [&](const char* method, const char* path) {
-    return run.api.longest_body({.method = method, .path = std::string(api_root) + path});
+    return run.api.find({.method = method, .path = std::string(api_root) + path}).longest_body;
   };
   EXPECT_EQ(longest("POST", "/programs"), ProgramStore::longest_program);
   EXPECT_EQ(longest("POST", "/uploads/1"), ProgramStore::longest_program);

@@ -82,6 +82,39 @@ class NotedStudies final : public Studies {
   StudyResult found;
 };
 
+// Says how far it is, and makes nothing.
+class SlowMaker final : public Maker {
+ public:
+  std::vector<std::string> files() const override { return {"holes.drl"}; }
+  bool keep(const std::string&, std::string_view) override { return true; }
+  void clear() override {}
+  bool begin(const MakeOrder& order) override {
+    now = {.state = MakeResult::State::running, .job = order.job};
+    return true;
+  }
+  const MakeResult& result() override { return now; }
+  std::string program(std::size_t) const override { return "M2\n"; }
+  std::string picture(std::optional<std::size_t>) const override { return ""; }
+  std::string page() const override { return ""; }
+  MakeResult now;
+};
+
+TEST(ApiCam, shows_the_progress_of_its_job) {
+  SlowMaker maker;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, &maker);
+  expect_members(openapi()["components"]["schemas"]["Cam"], run.get("/cam"), "Cam");
+  EXPECT_EQ(run.get("/cam")["progress"], 0);
+  EXPECT_EQ(run.post("/cam", R"({"job": "drill", "files": ["holes.drl"]})")["progress"], 0);
+  EXPECT_EQ(run.status, 202U);
+  maker.now.progress = 0.42;
+  EXPECT_EQ(run.get("/cam")["progress"], 0.42);
+  EXPECT_EQ(run.get("/cam")["state"], "running");
+  maker.now.state = MakeResult::State::done;
+  maker.now.names = {"holes-drill.ngc"};
+  maker.now.progress = 1;
+  EXPECT_EQ(run.get("/cam")["progress"], 1);
+}
+
 TEST(ApiStudies, are_ordered_with_all_that_they_need) {
   NotedStudies studies;
   ApiRun run(GrblRun::at_zero(), nullptr, {}, &studies);
@@ -103,7 +136,12 @@ TEST(ApiStudies, are_ordered_with_all_that_they_need) {
   run.post("/study", R"({"study": "tune", "machine": "text", "margin": 0.5})");
   EXPECT_EQ(run.status, 202U);
   EXPECT_EQ(studies.last.kind, StudyOrder::Kind::tune);
-  EXPECT_EQ(studies.last.margin, 0.5);
+  EXPECT_EQ(studies.last.options, std::vector<std::string>{"--margin=0.5"});
+  run.post("/study", R"({"study": "tune", "machine": "text", "margin": "0.4"})");
+  EXPECT_EQ(studies.last.options, std::vector<std::string>{"--margin=0.4"});
+  run.post("/study", R"({"study": "tune", "machine": "text", "axes": "X", "keep-velocity": true})");
+  EXPECT_EQ(studies.last.options, (std::vector<std::string>{"--axes=X", "--keep-velocity"}));
+  expect_members(openapi()["components"]["schemas"]["StudyOptions"], run.get("/study/options"), "StudyOptions");
   run.get("/study/picture");
   EXPECT_EQ(run.status, 404U) << "there is none";
 }

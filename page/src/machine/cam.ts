@@ -9,6 +9,7 @@ export interface Cam {
   files: string[];
   state: 'none' | 'running' | 'done' | 'failed';
   job: string;
+  progress: number; // 0 to 1
   words: string;
   picture: string;
   program: number | null;

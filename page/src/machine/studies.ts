@@ -137,11 +137,28 @@ export function followStudies(): void {
 
 // --- limits for the motors ---
 
+// What GET /study/options says of the share of the torque that stays unused.
+interface Margin {
+  minimum: number;
+  maximum: number;
+  default: number;
+}
+export const marginRow = signal<Margin | null>(null);
+
+// It does not change while the daemon runs.
+export async function needStudyOptions(): Promise<void> {
+  if (marginRow.value !== null) return;
+  await attempt(async () => {
+    marginRow.value = (await get<{ tune: { properties: { margin: Margin } } }>('/study/options')).tune.properties.margin;
+  });
+}
+
 export const tuning = signal<{ state: 'running' | 'done' | 'failed'; words: string; report: Tuning | null } | null>(null);
 // Counts the tunings, so that each has a picture of its own.
 export const tunedCount = signal(0);
 
-export async function tune(machineText: string, margin: number): Promise<void> {
+// Without a margin: the usual one.
+export async function tune(machineText: string, margin?: number): Promise<void> {
   tuning.value = { state: 'running', words: '', report: null };
   const good = await attempt(async () => {
     const found = await study<Tuning>({ study: 'tune', machine: machineText, margin });

@@ -9,6 +9,7 @@ import { clearDrawings, cam, madeCount } from '../machine/cam';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
+import { ProgressBar } from '../parts/progress_bar';
 import { Choice } from '../parts/view_dialog';
 import { forms, usualOf, withUnit, type Field, type Form } from './cam_forms';
 import { BoardLayers, BoardSteps } from './cam_board';
@@ -107,6 +108,7 @@ function Result() {
           {say(`cam.state.${now?.state ?? 'none'}`)}
         </span>
       </div>
+      {now?.state === 'running' && <ProgressBar share={now.progress} name={say('cam.state.running')} />}
       {shown && now.job !== 'board' && <img src={`api/v1/cam/picture?order=${madeCount.value}${secret}`} alt={say('cam.picture')} />}
       {now !== null && now.words !== '' && (
         <pre class={`toml ${now.state === 'failed' ? 'failed' : ''}`} lang="en" tabIndex={0}>

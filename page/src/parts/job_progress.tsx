@@ -9,6 +9,7 @@ import { loadsOfShown } from '../machine/studies';
 import { lookOf, overallVerdict } from '../machine/verdict';
 import { isUnderWay } from '../machine/words';
 import { Button } from './button';
+import { ProgressBar } from './progress_bar';
 
 // The job of the shown program, if it runs.
 const run = computed(() => {
@@ -43,16 +44,7 @@ export function JobProgress() {
         <h2 class="job-name">{program.name}</h2>
         <span class={`verdict ${lookOf(verdict)}`}>{say(`files.state.${verdict}`)}</span>
       </div>
-      <div
-        class="bar"
-        role="progressbar"
-        aria-label={say('run.progress')}
-        aria-valuemin={0}
-        aria-valuemax={100}
-        aria-valuenow={Math.floor(percent)}
-      >
-        <i style={{ width: `${percent}%` }} />
-      </div>
+      <ProgressBar share={now?.progress ?? 0} name={say('run.progress')} />
       <div class="job-figures">
         <div>
           <span class="dim">{say('run.progress')}</span>

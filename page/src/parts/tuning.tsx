@@ -1,16 +1,17 @@
 // Limits for the machine's motors, as `passo tune` proposes them, with the curves of their torque.
 import { signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
 import { say } from '../core/language';
 import { confirm } from '../core/question';
 import { isLive } from '../machine/connection';
 import { draft, setValues, values } from '../machine/machine_file';
-import { tune, tunedCount, tuning, type Tuning as Report } from '../machine/studies';
+import { marginRow, needStudyOptions, tune, tunedCount, tuning, type Tuning as Report } from '../machine/studies';
 import { token } from '../machine/token';
 import { fromMm, isRotary, lengthUnit } from '../core/units';
 import { Button } from './button';
 import { Slider } from './slider';
 
-const margin = signal(0.3);
+const margin = signal<number | null>(null); // null: the usual one
 const limits: readonly ['max_velocity' | 'max_acceleration' | 'max_jerk', string][] = [
   ['max_velocity', '/s'],
   ['max_acceleration', '/s²'],
@@ -88,25 +89,32 @@ function Proposal({ report }: { report: Report }) {
 }
 
 export function Tuning() {
+  useEffect(() => {
+    if (isLive.value) void needStudyOptions();
+  }, [isLive.value]);
   const text = draft.value;
   const now = tuning.value;
+  const row = marginRow.value;
   if (text === null) return null;
+  const share = margin.value ?? row?.default ?? 0;
   const knows = Object.keys(values.value).some((path) => /^axis\.[A-Z]\.torque\./.test(path));
   const why = !isLive.value ? say('why.lost') : !knows ? say('tune.none') : !text.good ? say('file.refused') : now?.state === 'running' ? say('tune.running') : '';
   return (
     <section class="panel tuning" aria-label={say('tune.title')}>
       <h2 class="title">{say('tune.title')}</h2>
       <p class="dim">{say(knows ? 'tune.what' : 'tune.none')}</p>
-      <Slider
-        class="jog-speed"
-        name={say('tune.margin')}
-        value={margin.value}
-        least={0.1}
-        step={0.05}
-        words={`${Math.round(100 * margin.value)} %`}
-        set={(to) => (margin.value = Math.min(0.9, to))}
-      />
-      <Button icon="lab" why={why} onClick={() => tune(text.text, Number(margin.value.toFixed(2)))}>
+      {row !== null && (
+        <Slider
+          class="jog-speed"
+          name={say('tune.margin')}
+          value={share}
+          least={row.minimum}
+          step={0.05}
+          words={`${Math.round(100 * share)} %`}
+          set={(to) => (margin.value = Math.min(row.maximum, to))}
+        />
+      )}
+      <Button icon="lab" why={why} onClick={() => tune(text.text, margin.value === null ? undefined : Number(margin.value.toFixed(2)))}>
         {say('tune.do')}
       </Button>
       {now?.state === 'running' && <p role="status">{say('tune.running')}</p>}

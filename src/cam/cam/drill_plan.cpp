@@ -36,10 +36,11 @@ class DrillPlanner {
  public:
   DrillPlanner(const DrillOptions& options, Diagnostics& diagnostics) : options_(options), diagnostics_(diagnostics) {}
 
-  DrillPlan plan(const std::vector<Drawing>& drawings) {
+  DrillPlan plan(const std::vector<Drawing>& drawings, const WorkProgress& progress) {
     collect(drawings);
     for (const WantedCut& cut : cuts_) give_to_a_tool(cut);
     finish();
+    order_all(progress);
     return std::move(plan_);
   }
 
@@ -52,7 +53,8 @@ class DrillPlanner {
   std::optional<Nanometres> drill_for(Nanometres width) const;
   void refuse(const WantedCut& first, std::size_t count);
   void finish();
-  void order(DrillTool& tool) const;
+  void order_all(const WorkProgress& progress);
+  void order(DrillTool& tool, const WorkProgress& progress) const;
 
   DrillTool& drill_of(Nanometres diameter) {
     DrillTool& tool = drills_[diameter];
@@ -267,11 +269,20 @@ void DrillPlanner::finish() {
                       .expected = "circles or points on the selected layers of a DXF file, or a drill file",
                       .text = ""});
   }
-  for (DrillTool& tool : plan_.tools) order(tool);
+}
+
+void DrillPlanner::order_all(const WorkProgress& progress) {
+  double all = 0;
+  for (const DrillTool& tool : plan_.tools) all += static_cast<double>(tool.targets.size());
+  double done = 0;
+  for (DrillTool& tool : plan_.tools) {
+    const double before = std::exchange(done, done + static_cast<double>(tool.targets.size()));
+    order(tool, progress.part(before / all, done / all));
+  }
 }
 
 // Each target counts as the place where it begins: an open slot is short beside the ways between.
-void DrillPlanner::order(DrillTool& tool) const {
+void DrillPlanner::order(DrillTool& tool, const WorkProgress& progress) const {
   std::vector<DrawnPoint> places;
   for (const DrillTarget& target : tool.targets) places.push_back(target.points.front().at);
   std::vector<std::uint32_t> given(places.size());
@@ -279,7 +290,7 @@ void DrillPlanner::order(DrillTool& tool) const {
   tool.rapids_before_nm = route_length(places, given, options_.park, options_.park);
   constexpr std::uint64_t enough_a_place = 20'000;
   const std::uint64_t steps = std::min(options_.route_steps, enough_steps(places.size(), enough_a_place));
-  std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, steps);
+  std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, steps, progress);
   tool.rapids_after_nm = route_length(places, best, options_.park, options_.park);
   if (tool.rapids_after_nm > tool.rapids_before_nm) {  // the file's own order is better
     best = given;
@@ -293,8 +304,9 @@ void DrillPlanner::order(DrillTool& tool) const {
 
 }  // namespace
 
-DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics) {
-  return DrillPlanner(options, diagnostics).plan(drawings);
+DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics,
+                        const WorkProgress& progress) {
+  return DrillPlanner(options, diagnostics).plan(drawings, progress);
 }
 
 }  // namespace passo

@@ -27,7 +27,7 @@ class EngagementFinder {
     for (const MillRun& run : runs) add(run);
   }
 
-  Engagement find() {
+  Engagement find(const WorkProgress& progress) {
     if (places_.empty()) return {};
     lay_out();
     // Very long ways are looked at here and there.
@@ -38,6 +38,7 @@ class EngagementFinder {
       if (i >= first_ && i % each == 0) {
         const double degrees = engagement_at(places_[i]) * 360 / turn;
         if (degrees > most.most_degrees) most = {degrees, drawn(places_[i])};
+        progress.stage(i, places_.size()).update(1);
       }
       cell_of(places_[i]).push_back(static_cast<std::uint32_t>(i));
     }
@@ -138,8 +139,9 @@ class EngagementFinder {
 
 }  // namespace
 
-Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter) {
-  return EngagementFinder(entry, runs, cutter).find();
+Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter,
+                           const WorkProgress& progress) {
+  return EngagementFinder(entry, runs, cutter).find(progress);
 }
 
 }  // namespace passo

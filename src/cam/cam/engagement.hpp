@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 
 namespace passo {
@@ -19,6 +20,7 @@ struct Engagement {
 
 // `entry`: the toolpath that was cut before and is not evaluated. `runs`: in cutting order; the cutter is lifted
 // between them.
-Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter);
+Engagement find_engagement(const std::vector<MillRun>& entry, const std::vector<MillRun>& runs, Nanometres cutter,
+                           const WorkProgress& progress = {});
 
 }  // namespace passo

@@ -51,12 +51,17 @@ class IsolationPlanner {
     if (lines) lines_ = std::move(*lines);
     return lines.has_value();
   }
-  IsolationPlan plan() {
+  IsolationPlan plan(const WorkProgress& progress) {
     std::vector<IsolationCutter> cutters = options_.cutters;
     std::ranges::stable_sort(cutters, [](const auto& a, const auto& b) { return a.width > b.width; });
     widest_ = cutters.front().width;
-    for (std::size_t i = 0; i < cutters.size(); ++i) mill_with(cutters[i], i == 0, i + 1 < cutters.size());
+    for (std::size_t i = 0; i < cutters.size(); ++i) {
+      const WorkProgress milling = progress.part(0, 0.8).stage(i, cutters.size());
+      mill_with(cutters[i], i == 0, i + 1 < cutters.size(), milling);
+      milling.update(1);
+    }
     find_narrow_ground(cutters.back());
+    progress.update(1);
     plan_.islands = islands_.size();
     return std::move(plan_);
   }
@@ -71,10 +76,11 @@ class IsolationPlanner {
         std::max<std::int64_t>(1'000, std::llround(static_cast<double>(cutter.width.count) * (1 - options_.overlap)))};
   }
   std::uint32_t loops_of(const IsolationCutter& cutter) const;
-  std::vector<CutterWay> loops(const IsolationCutter& cutter, const Region* within, Region& outermost) const;
+  std::vector<CutterWay> loops(const IsolationCutter& cutter, const Region* within, Region& outermost,
+                               const WorkProgress& progress) const;
   std::vector<CutterWay> ways_between(const IsolationCutter& cutter, Region& outermost);
   std::vector<CutterWay> ways_in_openings(const IsolationCutter& cutter);
-  void mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed);
+  void mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed, const WorkProgress& progress);
   Region left_ground() const;
   void find_narrow_ground(const IsolationCutter& finest);
 
@@ -187,14 +193,33 @@ Region IsolationPlanner::left_ground() const {
   return options_.clear ? notable : between_islands(notable, islands_, {2 * open.count});
 }
 
+// How far the corners of a board are from the box around its copper, at most.
+double farthest_corner_nm(const Region& board, const Region& copper) {
+  const DrawnBox outer = bounds(board).value_or(DrawnBox{});
+  const DrawnBox inner = bounds(copper).value_or(DrawnBox{});
+  const auto beyond = [](Nanometres low, Nanometres high) {
+    return static_cast<double>(std::max<std::int64_t>({0, low.count, high.count}));
+  };
+  return std::hypot(beyond(inner.least.x - outer.least.x, outer.most.x - inner.most.x),
+                    beyond(inner.least.y - outer.least.y, outer.most.y - inner.most.y));
+}
+
 // Around the copper, one around the other. `outermost`: what the last one is around.
-std::vector<CutterWay> IsolationPlanner::loops(const IsolationCutter& cutter, const Region* within,
-                                               Region& outermost) const {
+std::vector<CutterWay> IsolationPlanner::loops(const IsolationCutter& cutter, const Region* within, Region& outermost,
+                                               const WorkProgress& progress) const {
   LoopCollector found(within, options_.climb);
+  // The number of loops that clear a board is not known, but the ground that they clear is.
+  const double copper_mm2 = options_.clear ? area_mm2(copper_) : 0;
+  const double ground_mm2 = options_.clear ? area_mm2(options_.board) - copper_mm2 : 0;
+  const double farthest = options_.clear ? farthest_corner_nm(options_.board, copper_) : 0;
   for (std::uint32_t k = 0; k < loops_of(cutter); ++k) {
     Region around = grown(copper_, {off(cutter).count + k * step(cutter).count}, options_.tolerance);
     const bool found_any = found.take(around);
     outermost = std::move(around);
+    // Ground beside the board counts in the area: the loops reach the board's corners last.
+    const double reached = static_cast<double>(off(cutter).count + k * step(cutter).count) / std::max(1.0, farthest);
+    progress.update(options_.clear ? std::min(reached, (area_mm2(outermost) - copper_mm2) / ground_mm2)
+                                   : (k + 1.0) / loops_of(cutter));
     if (!found_any && k > 0) break;
   }
   return std::move(found.ways);
@@ -242,7 +267,8 @@ std::vector<CutterWay> IsolationPlanner::ways_in_openings(const IsolationCutter&
   return ways;
 }
 
-void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed) {
+void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed,
+                                 const WorkProgress& progress) {
   const Nanometres radius{cutter.width.count / 2};
   const bool is_bounded = !options_.board.empty();
   Region within;
@@ -255,9 +281,9 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
     if (is_bounded) within = common(within, grown(options_.board, radius, options_.tolerance));
   }
   Region outermost;
-  const std::vector<CutterWay> ways = options_.voronoi
-                                          ? ways_between(cutter, outermost)
-                                          : loops(cutter, is_first && !is_bounded ? nullptr : &within, outermost);
+  const std::vector<CutterWay> ways =
+      options_.voronoi ? ways_between(cutter, outermost)
+                       : loops(cutter, is_first && !is_bounded ? nullptr : &within, outermost, progress.part(0, 0.5));
   last_off_ = off(cutter);
   if (ways.empty()) return;
 
@@ -274,7 +300,8 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
   const ArcFit arcs{.even_chord_nm = static_cast<double>(options_.tolerance.count),
                     .rounded_turn = options_.climb ? -1 : 1};
   MillTool tool{cutter.width, cutter.words, {}};
-  tool.runs = order_ways(ways, {options_.park, options_.depth, options_.route_steps, arcs, may_link});
+  tool.runs =
+      order_ways(ways, {options_.park, options_.depth, options_.route_steps, arcs, may_link}, progress.part(0.5, 1));
   if (is_followed && !options_.voronoi) {
     std::vector<DrawnRing> chords;
     for (const MillRun& run : tool.runs) chords.push_back(chords_of(run, options_.tolerance));
@@ -312,7 +339,8 @@ Nanometres v_cutter_width(Nanometres tip, double angle_degrees, Nanometres depth
   return {tip.count + std::llround(2 * slope * static_cast<double>(depth.count))};
 }
 
-IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& options, Diagnostics& diagnostics) {
+IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& options, Diagnostics& diagnostics,
+                             const WorkProgress& progress) {
   if (copper.empty()) {
     diagnostics.add({.code = "isolation.no-copper",
                      .file = "",
@@ -332,7 +360,7 @@ IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& optio
                      .text = ""});
     return {};
   }
-  return planner.plan();
+  return planner.plan(progress);
 }
 
 }  // namespace passo

@@ -209,7 +209,8 @@ std::vector<std::size_t> pieces_of(const std::vector<Region>& islands, const std
 
 }  // namespace
 
-IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board) {
+IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board,
+                               const WorkProgress& progress) {
   constexpr Nanometres beyond{10'000'000};  // around all, where copper goes on without end
   const std::vector<SweptWay> ways = swept_ways(plan);
   const ProvedLayer layer(copper);
@@ -226,6 +227,7 @@ IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const
   around->most = {around->most.x + beyond, around->most.y + beyond};
 
   std::vector<Strip> strips = strips_of(ways, *around);
+  std::size_t proved = 0;
   for (Strip& strip : strips) {
     const Region face{{rectangle(strip.box)}};
     const Region milled = milled_in(strip, ways);
@@ -233,6 +235,7 @@ IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const
     proof.milled_mm2 += area_mm2(face) - area_mm2(left);
     if (layer.has_common(milled)) proof.lost_mm2 += layer.common_mm2(milled, strip);
     strip.left = parts_of(board.empty() ? left : common(board, left));
+    progress.stage(proved++, strips.size()).update(1);
   }
   std::vector<std::size_t> pieces = pieces_of(layer.islands(), strips);
   std::ranges::sort(pieces);

@@ -19,7 +19,8 @@ using Chain = std::vector<EnteredWay>;  // ways between which the cutter stays d
 
 class WayOrderer {
  public:
-  WayOrderer(const std::vector<CutterWay>& ways, const WayOrder& order) : ways_(ways), order_(order) {}
+  WayOrderer(const std::vector<CutterWay>& ways, const WayOrder& order, const WorkProgress& progress)
+      : ways_(ways), order_(order), progress_(progress) {}
 
   std::vector<MillRun> runs() {
     chain();
@@ -49,6 +50,7 @@ class WayOrderer {
 
   const std::vector<CutterWay>& ways_;
   const WayOrder& order_;
+  const WorkProgress& progress_;
   std::vector<Chain> chains_;
 };
 
@@ -69,6 +71,7 @@ void WayOrderer::chain() {
   firsts.push_back(static_cast<std::uint32_t>(places.size()));
   PlaceTree left(places);
   DrawnPoint at = order_.park;
+  const WorkProgress chaining = progress_.part(0, 0.4);
   for (std::size_t done = 0; done < ways_.size(); ++done) {
     const EnteredWay next = entered[left.nearest_left(at)];
     const bool stays_down = !chains_.empty() && order_.may_link(at, start(next));
@@ -76,6 +79,7 @@ void WayOrderer::chain() {
     chains_.back().push_back(next);
     at = end(next);
     for (std::uint32_t place = firsts[next.way]; place < firsts[next.way + 1]; ++place) left.forget(place);
+    chaining.stage(done, ways_.size()).update(1);
   }
 }
 
@@ -95,7 +99,7 @@ void WayOrderer::shorten() {
   constexpr std::uint64_t enough_a_place = 5'000;
   const std::uint64_t steps = std::min(order_.route_steps, enough_steps(places.size(), enough_a_place));
   std::vector<Chain> shorter;
-  for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps)) {
+  for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps, progress_.part(0.4, 1))) {
     shorter.push_back(chains_[index]);
   }
   if (rapids(shorter) < rapids(chains_)) chains_ = std::move(shorter);
@@ -136,9 +140,10 @@ MillRun WayOrderer::run_of(const Chain& chain) const {
 
 }  // namespace
 
-std::vector<MillRun> order_ways(const std::vector<CutterWay>& ways, const WayOrder& order) {
+std::vector<MillRun> order_ways(const std::vector<CutterWay>& ways, const WayOrder& order,
+                                const WorkProgress& progress) {
   if (ways.empty()) return {};
-  return WayOrderer(ways, order).runs();
+  return WayOrderer(ways, order, progress).runs();
 }
 
 }  // namespace passo

@@ -8,6 +8,7 @@
 
 #include "arc_fit.hpp"
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 
@@ -30,6 +31,7 @@ struct WayOrder {
   std::function<bool(DrawnPoint, DrawnPoint)> may_link = {};
 };
 
-std::vector<MillRun> order_ways(const std::vector<CutterWay>& ways, const WayOrder& order);
+std::vector<MillRun> order_ways(const std::vector<CutterWay>& ways, const WayOrder& order,
+                                const WorkProgress& progress = {});
 
 }  // namespace passo

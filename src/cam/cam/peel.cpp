@@ -53,7 +53,7 @@ class Peeler {
         most_(options.most_degrees / 360 * whole_turn),
         least_beyond_(cutter_ / 50) {}
 
-  PeelWay find() {
+  PeelWay find(const WorkProgress& progress) {
     constexpr double chords = 2'000;  // nm
     axis_ = medial_axis(ground_, {.tolerance_nm = chords});
     if (!axis_ || axis_->pieces.empty()) return {};
@@ -70,7 +70,7 @@ class Peeler {
     const MedialPiece& piece = axis_->pieces[at_node_[root].front()];
     open(disc_of(piece.from == root ? piece.points.front() : piece.points.back()));
     prune(root);
-    walk(root);
+    walk(root, progress.part(0.2, 0.9));
     if (is_too_long()) return {};
     for (const DrawnRing& ring : ground_.rings) go_along_wall(ring);
     lift();
@@ -98,7 +98,7 @@ class Peeler {
   void open(const PeelDisc& disc);
   void widen(const PeelDisc& disc, double radius);
   void prune(std::uint32_t root);
-  void walk(std::uint32_t root);
+  void walk(std::uint32_t root, const WorkProgress& progress);
   void walk_piece(const Branch& branch, std::vector<Branch>& branches);
   void take(const PeelDisc& before, const PeelDisc& disc);
   std::vector<std::pair<double, double>> rim_outside(const PeelDisc& disc, double from) const;
@@ -196,9 +196,11 @@ void Peeler::prune(std::uint32_t root) {
   }
 }
 
-void Peeler::walk(std::uint32_t root) {
+void Peeler::walk(std::uint32_t root, const WorkProgress& progress) {
   is_passed_.assign(at_node_.size(), false);
   is_passed_[root] = true;
+  const auto left = static_cast<std::size_t>(std::ranges::count(is_walked_, false));
+  std::size_t walked = 0;
   std::vector<Branch> branches;
   const MedialPiece& any = axis_->pieces[at_node_[root].front()];
   const PeelDisc first = disc_of(any.from == root ? any.points.front() : any.points.back());
@@ -209,6 +211,7 @@ void Peeler::walk(std::uint32_t root) {
     if (is_walked_[branch.piece]) continue;
     is_walked_[branch.piece] = true;
     walk_piece(branch, branches);
+    progress.stage(walked++, left).update(1);
   }
 }
 
@@ -363,8 +366,8 @@ void Peeler::go_along_wall(const DrawnRing& ring) {
 
 }  // namespace
 
-PeelWay peel(const Region& ground, const PeelOptions& options) {
-  return Peeler(ground, options).find();
+PeelWay peel(const Region& ground, const PeelOptions& options, const WorkProgress& progress) {
+  return Peeler(ground, options).find(progress);
 }
 
 }  // namespace passo

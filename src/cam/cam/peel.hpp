@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 
@@ -45,6 +46,6 @@ inline Nanometres least_peeled(Nanometres cutter) {
 // Clears `ground`: one part, everywhere at least twice `least_peeled` wide. The result is incomplete if the toolpath
 // would exceed `longest_peel` cutter radii or if the area is wider than 4 m.
 inline constexpr double longest_peel = 500'000;
-PeelWay peel(const Region& ground, const PeelOptions& options);
+PeelWay peel(const Region& ground, const PeelOptions& options, const WorkProgress& progress = {});
 
 }  // namespace passo

@@ -27,10 +27,12 @@ constexpr std::int64_t most_offsets = 5'000;
 
 class PocketPlanner {
  public:
-  PocketPlanner(const Region& area, const PocketOptions& options, Diagnostics& diagnostics)
+  PocketPlanner(const Region& area, const PocketOptions& options, Diagnostics& diagnostics,
+                const WorkProgress& progress)
       : area_(area),
         options_(options),
         diagnostics_(diagnostics),
+        progress_(progress),
         narrowest_(options.most_engagement > 0 ? least_peeled(options.cutter) : Nanometres{}),
         reach_(reachable(area)),
         walls_(bounds(area).value_or(DrawnBox{}), {1'000'000}) {
@@ -49,6 +51,7 @@ class PocketPlanner {
     const bool is_done = options_.most_engagement > 0 ? peel_all(tool.runs) : go_around_all(tool.runs);
     if (!is_done) return {};
     measure();
+    progress_.update(1);
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     return std::move(plan_);
   }
@@ -66,7 +69,7 @@ class PocketPlanner {
   }
   bool go_around_all(std::vector<MillRun>& runs);
   bool peel_all(std::vector<MillRun>& runs);
-  std::optional<PeelWay> peel_within(const Region& ground);
+  std::optional<PeelWay> peel_within(const Region& ground, const WorkProgress& progress);
   void sweep(const PeelWay& way);
   void add_layers(const PeelWay& way, std::vector<MillRun>& runs);
   std::vector<std::uint32_t> order_of(const std::vector<Region>& pockets) const;
@@ -76,7 +79,7 @@ class PocketPlanner {
   void tell(std::string code, Severity severity, std::string message, std::string expected);
   void tell_narrow_parts();
   void find_offsets();
-  void take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) const;
+  void take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings);
   CutTrack track_of(DrawnRing ring, DrawnPoint near) const;
   bool may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const;
   void add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs);
@@ -85,6 +88,7 @@ class PocketPlanner {
   const Region& area_;
   const PocketOptions& options_;
   Diagnostics& diagnostics_;
+  const WorkProgress& progress_;
   Nanometres narrowest_;  // half of the ground's least width, beyond the cutter's
   Region reach_;          // where the middle of the cutter may be
   EdgeGrid walls_;        // what it never crosses
@@ -93,6 +97,8 @@ class PocketPlanner {
     std::vector<std::vector<std::size_t>> inner = {};  // of each part: the parts of the next offset in it
   };
   std::vector<Offset> offsets_;
+  std::size_t parts_ = 0;  // of all offsets
+  std::size_t taken_ = 0;  // of these
   std::vector<DrawnRing> ways_;
   Region cut_;  // by ways that are swept already
   PocketPlan plan_;
@@ -144,23 +150,36 @@ bool PocketPlanner::go_around_all(std::vector<MillRun>& runs) {
 bool PocketPlanner::peel_all(std::vector<MillRun>& runs) {
   const std::vector<Region> grounds = parts_of(reach_);
   plan_.pockets = grounds.size();
+  const WorkProgress peeling = progress_.part(0, 0.95);
+  const double all_mm2 = area_mm2(reach_);
+  double done_mm2 = 0;
   for (const std::uint32_t index : order_of(grounds)) {
-    const std::optional<PeelWay> way = peel_within(grounds[index]);
+    const double before = done_mm2 / all_mm2;
+    done_mm2 += area_mm2(grounds[index]);
+    const WorkProgress progress = peeling.part(before, done_mm2 / all_mm2);
+    const std::optional<PeelWay> way = peel_within(grounds[index], progress.part(0, 0.85));
     if (!way) return false;
     plan_.loops += way->discs;
     sweep(*way);
     add_layers(*way, runs);
+    progress.update(1);
   }
   return true;
 }
 
 // The plan looks from disc to disc. What it makes is measured as a whole; where walls and crossings make it more, with
 // a smaller angle once more.
-std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground) {
+std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground, const WorkProgress& progress) {
   double aim = 0.97 * options_.most_engagement;
   Engagement found;
+  double from = 0;
   for (int attempt = 0; attempt < 4; ++attempt) {
-    PeelWay way = peel(ground, {.cutter = options_.cutter, .most_degrees = aim, .climb = options_.climb});
+    // Nobody knows how many attempts it takes, mostly one: each gets most of what is left.
+    const double to = from + 0.8 * (1 - from);
+    const WorkProgress now = progress.part(from, to);
+    from = to;
+    PeelWay way =
+        peel(ground, {.cutter = options_.cutter, .most_degrees = aim, .climb = options_.climb}, now.part(0, 0.9));
     if (!way.is_whole) {
       tell("pocket.engagement", Severity::error,
            fmt::format("this engagement needs a toolpath of more than {:.4g} m",
@@ -168,7 +187,7 @@ std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground) {
            "a greater --engagement, or a larger cutter");
       return std::nullopt;
     }
-    found = find_engagement({way.entry}, way.runs, options_.cutter);
+    found = find_engagement({way.entry}, way.runs, options_.cutter, now.part(0.9, 1));
     if (found.most_degrees <= options_.most_engagement) {
       plan_.engagement = std::max(plan_.engagement, found.most_degrees);
       return way;
@@ -265,8 +284,11 @@ void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
 // again, with ever more points.
 void PocketPlanner::find_offsets() {
   offsets_.push_back({parts_of(reach_), {}});
+  const double ground_mm2 = area_mm2(reach_);
   for (std::int64_t k = 1; k < most_offsets && !offsets_.back().parts.empty(); ++k) {
-    Offset inner{parts_of(grown(reach_, {-k * step_over().count}, pocket_chords)), {}};
+    const Region ground = grown(reach_, {-k * step_over().count}, pocket_chords);
+    progress_.part(0, 0.05).update(1 - area_mm2(ground) / ground_mm2);
+    Offset inner{parts_of(ground), {}};
     Offset& outer = offsets_.back();
     outer.inner.resize(outer.parts.size());
     const std::vector<std::size_t> around = parts_with(inner.parts, outer.parts);
@@ -276,11 +298,12 @@ void PocketPlanner::find_offsets() {
     offsets_.push_back(std::move(inner));
   }
   offsets_.back().inner.resize(offsets_.back().parts.size());
+  for (const Offset& offset : offsets_) parts_ += offset.parts.size();
 }
 
 // The rings around a part of the ground: first what lies within them. Where corners are sharp, two loops leave ground
 // between them. It is less than a cutter wide, so its own edge is a way that clears it.
-void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) const {
+void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) {
   const Region& part = offsets_[layer].parts[index];
   Region between = grown(part, {-radius().count}, pocket_chords);
   for (const std::size_t inner : offsets_[layer].inner[index]) {
@@ -288,6 +311,7 @@ void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector
     between = subtracted(between, grown(offsets_[layer + 1].parts[inner], radius(), pocket_chords));
   }
   for (const DrawnRing& ring : notable_part(between, least_left).rings) rings.push_back(ring);
+  progress_.part(0.05, 0.25).stage(taken_++, parts_).update(1);
   // Islands before the outer wall, which comes last.
   for (std::size_t i = part.rings.size(); i-- > 0;) rings.push_back(part.rings[i]);
 }
@@ -386,8 +410,9 @@ void PocketPlanner::measure() {
 
 }  // namespace
 
-PocketPlan plan_pocket(const Region& area, const PocketOptions& options, Diagnostics& diagnostics) {
-  return PocketPlanner(area, options, diagnostics).plan();
+PocketPlan plan_pocket(const Region& area, const PocketOptions& options, Diagnostics& diagnostics,
+                       const WorkProgress& progress) {
+  return PocketPlanner(area, options, diagnostics, progress).plan();
 }
 
 }  // namespace passo

@@ -33,8 +33,9 @@ class FixedRandom {
 // no change parts them for long.
 class Tour {
  public:
-  Tour(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end, std::uint64_t steps)
-      : points_(places), steps_left_(steps) {
+  Tour(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end, std::uint64_t steps,
+       const WorkProgress& progress)
+      : points_(places), steps_(steps), steps_left_(steps), progress_(progress) {
     points_.push_back(end);
     points_.push_back(start);
     order_by_nearest();
@@ -85,6 +86,11 @@ class Tour {
   void exchange(Node a, Node b, Node c, Node d);
   void reverse(std::size_t i, std::size_t j);
   void roll_back(std::size_t changes);
+  void report() {
+    constexpr std::uint32_t at_once = 1024;  // changes
+    if (++changes_ % at_once != 0) return;
+    progress_.update(1 - static_cast<double>(steps_left_) / static_cast<double>(steps_));
+  }
   void queue(std::initializer_list<Node> nodes) {
     for (const Node node : nodes) {
       if (is_queued_[node]) continue;
@@ -100,7 +106,10 @@ class Tour {
   std::vector<std::uint32_t> place_;  // of each node in tour_
   std::vector<Node> queue_;           // nodes where a change may shorten the tour
   std::vector<bool> is_queued_;
+  std::uint64_t steps_;
   std::uint64_t steps_left_;
+  const WorkProgress& progress_;
+  std::uint32_t changes_ = 0;
   double change_ = 0;                                           // of the tour's length since it was set to 0
   std::vector<std::pair<std::size_t, std::size_t>> reversals_;  // since it was cleared
 };
@@ -240,6 +249,7 @@ void Tour::improve_queued() {
   while (!queue_.empty() && steps_left_ > 0) {
     const Node node = queue_.back();
     queue_.pop_back();
+    report();
     is_queued_[node] = false;
     while (steps_left_ > 0 && (improve_two_ways(node) || improve_by_shift(node))) {
     }
@@ -281,9 +291,9 @@ void Tour::improve_by_chance() {
 }  // namespace
 
 std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
-                                         std::uint64_t steps) {
+                                         std::uint64_t steps, const WorkProgress& progress) {
   if (places.empty()) return {};
-  Tour tour(places, start, end, steps);
+  Tour tour(places, start, end, steps, progress);
   if (places.size() > 1) tour.improve();
   return tour.order();
 }

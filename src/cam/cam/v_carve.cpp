@@ -30,7 +30,7 @@ class VCarvePlanner {
     }
   }
 
-  VCarvePlan plan() {
+  VCarvePlan plan(const WorkProgress& progress) {
     if (most_ <= least_) {
       refuse_cutter();
       return {};
@@ -41,16 +41,19 @@ class VCarvePlanner {
       refuse(area_.empty() ? "these files have no closed contour" : "the drawing is wider than 4 m");
       return {};
     }
+    progress.update(0.8);
     nodes_ = axis->nodes;
     for (const MedialPiece& piece : axis->pieces) clip(piece);
     // Beside its tip the cutter mills as wide as it is deep there: the drawing itself.
     MillTool tool{options_.tip, options_.words, {}};
     tool.runs = walk_strokes(std::move(strokes_), nodes_, options_.park);
+    progress.update(0.9);
     go_around_floors(tool.runs);
     for (const MillRun& run : tool.runs) {
       for (const MillPoint& point : run) plan_.deepest = std::min(plan_.deepest, point.z);
     }
     if (options_.step.count > 0) tool.runs = in_layers(std::move(tool.runs));
+    progress.update(0.95);
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     if (options_.tip.count > 0) {
       constexpr Nanometres small{10'000};
@@ -59,6 +62,7 @@ class VCarvePlanner {
       // In corners the tip leaves a little everywhere: what counts is where it finds no way in at all.
       plan_.unreached = notable_part(subtracted(area_, wide), {std::max<std::int64_t>(small.count, half.count / 4)});
     }
+    progress.update(1);
     return std::move(plan_);
   }
 
@@ -217,8 +221,9 @@ std::vector<MillRun> VCarvePlanner::in_layers(std::vector<MillRun> runs) {
 
 }  // namespace
 
-VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics) {
-  return VCarvePlanner(area, options, diagnostics).plan();
+VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics,
+                        const WorkProgress& progress) {
+  return VCarvePlanner(area, options, diagnostics).plan(progress);
 }
 
 }  // namespace passo

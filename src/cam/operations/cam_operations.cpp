@@ -139,13 +139,6 @@ Examples:
 
 All options: docs/manual/hot-wire.md.)";
 
-// The rows stand for what the arguments are before anything is said.
-template <class Arguments>
-std::vector<CamOption> options_with_defaults() {
-  static Arguments arguments;
-  return cam_options_of(arguments);
-}
-
 constexpr std::array board_parts = {"drill", "isolate", "outline"};
 
 constexpr std::array operations = {

@@ -15,6 +15,13 @@ inline const CamTraits of_one_job{.is_of_job = true};
 inline const CamTraits experts_of_one_job{.matters_to = experts, .is_of_job = true};
 inline const CamTraits are_needed{.is_required = true};  // for the files of drawings
 
+// The rows stand for what the arguments are before anything is said.
+template <class Arguments>
+std::vector<CamOption> options_with_defaults() {
+  static Arguments arguments;
+  return cam_options_of(arguments);
+}
+
 std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> parts);
 
 // The options of every operation that mills drawings. `layer`: the users to whom --layer is shown.

@@ -101,6 +101,7 @@ constexpr ApiRoute routes[] = {
     {"GET", "/study", "getStudy", anybody, none, &StudiesApi::get, Needs::studies},
     {"POST", "/study", "beginStudy", anybody, json, &StudiesApi::begin},
     {"GET", "/study/loads", "getStudyLoads", anybody, none, &StudiesApi::loads, Needs::studies},
+    {"GET", "/study/options", "getStudyOptions", anybody, none, &StudiesApi::options},
     {"GET", "/study/picture", "getStudyPicture", anybody, none, &StudiesApi::picture, Needs::studies},
 
     {"GET", "/uploads", "listUploads", anybody, none, &ProgramsApi::list_uploads},

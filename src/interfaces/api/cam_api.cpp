@@ -120,6 +120,7 @@ WebAnswer CamApi::state_answer(unsigned status) {
                               {"files", maker.files()},
                               {"state", name_of(result.state)},
                               {"job", result.job},
+                              {"progress", result.progress},
                               {"words", result.words},
                               {"picture", result.picture_type},
                               {"program", made_.empty() ? Json() : Json(made_.front())},

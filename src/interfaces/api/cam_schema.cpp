@@ -126,7 +126,7 @@ bool is_good(const CamOption& option, const Json& value, const std::vector<std::
 
 Json schema_of(const CamOperation& operation) {
   Json schema = {{"type", "object"}, {"title", operation.name}, {"description", operation.purpose}};
-  schema["x-accepts"] = operation.accepts;
+  if (*operation.accepts != 0) schema["x-accepts"] = operation.accepts;
   const std::string_view instead = operation.instead_of_files;
   if (!instead.empty()) schema["x-instead-of-files"] = std::string(instead);
   for (const char* part : operation.parts) schema["x-parts"].push_back(part);

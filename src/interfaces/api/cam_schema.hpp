@@ -1,4 +1,4 @@
-// The parameters of a CAM operation, as JSON Schema and as a check. Private to api/.
+// The parameters of a CAM operation or a study, as JSON Schema and as a check. Private to api/.
 #pragma once
 
 #include <string>

@@ -1,17 +1,18 @@
 #include "studies_api.hpp"
 
+#include <charconv>
 #include <utility>
 
 #include "api_json.hpp"
+#include "cam_schema.hpp"
 
 #include "passo/interpreter/parameter_file.hpp"
 #include "passo/interpreter/tool_table_file.hpp"
+#include "passo/operations/study_arguments.hpp"
 
 namespace passo {
 namespace {
 
-constexpr double least_margin = 0.1;
-constexpr double most_margin = 0.9;
 constexpr std::size_t longest_machine = std::size_t{1} << 20;  // bytes
 
 const char* name_of(StudyResult::State state) {
@@ -22,6 +23,15 @@ const char* name_of(StudyResult::State state) {
     case StudyResult::State::failed: return "failed";
   }
   return "";
+}
+
+// A text that is no number is refused here: no person is typing it. Null: it is no number.
+Json number_of(const Json& value) {
+  if (!value.is_string()) return value;
+  const auto& text = value.get_ref<const std::string&>();
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? Json(number) : Json();
 }
 
 WebAnswer file_answer(const char* type, std::string text) {
@@ -53,18 +63,26 @@ WebAnswer StudiesApi::picture(const ApiCall&) {
   return file_answer("image/svg+xml", is_done() ? shared_.options.studies->picture() : "");
 }
 
+WebAnswer StudiesApi::options(const ApiCall&) {
+  return json_answer(200, {{"tune", schema_of(tune_study())}});
+}
+
 WebAnswer StudiesApi::begin(const ApiCall& call) {
   const Json& said = call.body;
   if (!said.is_object()) return bad_body("the body is not a JSON object");
+  StudyOrder order;
+  const std::vector<CamOption> rows = tune_study().options();
   for (const auto& [name, value] : said.items()) {
-    if (name != "study" && name != "program" && name != "machine" && name != "margin") {
-      return bad_body("there is no \"" + name.substr(0, 40) + "\"");
-    }
+    if (name == "study" || name == "program" || name == "machine") continue;
+    const CamOption* const row = find_ordered(rows, name);
+    if (row == nullptr) return bad_body("there is no \"" + name.substr(0, 40) + "\"");
+    const auto texts = ordered_values(*row, is_number(row->kind) ? number_of(value) : value, {});
+    if (!texts) return bad_body(texts.error());
+    for (const std::string& text : *texts) order.options.push_back("--" + name + (text.empty() ? "" : "=" + text));
   }
   if (shared_.options.studies == nullptr) return no_studies();
   const Json study = said.value("study", Json());
   if (study != "motors" && study != "tune") return bad_body("\"study\": expected motors or tune");
-  StudyOrder order;
   order.kind = study == "tune" ? StudyOrder::Kind::tune : StudyOrder::Kind::motors;
   const Json machine = said.value("machine", Json());
   const MachineFileAccess& file = shared_.options.machine_access;
@@ -76,11 +94,6 @@ WebAnswer StudiesApi::begin(const ApiCall& call) {
   if (order.machine.empty() || order.machine.size() > longest_machine) {
     return bad_body("\"machine\": expected the text of a machine file");
   }
-  const Json margin = said.value("margin", Json(order.margin));
-  if (!margin.is_number() || !(margin >= least_margin && margin <= most_margin)) {
-    return bad_body("\"margin\": expected 0.1 to 0.9");
-  }
-  order.margin = margin.get<double>();
   std::uint64_t id = 0;
   if (order.kind == StudyOrder::Kind::motors) {
     const Json wanted = said.value("program", Json());

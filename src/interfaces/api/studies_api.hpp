@@ -17,6 +17,7 @@ class StudiesApi {
 
   WebAnswer get(const ApiCall& call);
   WebAnswer begin(const ApiCall& call);
+  WebAnswer options(const ApiCall& call);
   WebAnswer loads(const ApiCall& call);
   WebAnswer picture(const ApiCall& call);
 

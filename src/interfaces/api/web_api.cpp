@@ -61,9 +61,8 @@ class WebApi::Parts {
     session.board().sent_segments().keep(machine.board.clock);
   }
 
-  WebAnswer answer(const WebRequest& request, std::optional<Json> said = {}) {
+  WebAnswer answer(const WebRequest& request, const FoundRoute& found, std::optional<Json> said = {}) {
     owner_api.hear(request.key);
-    const FoundRoute found = find_route(request.method, request.path);
     if (found.route == nullptr) return answer_elsewhere(request, found);
     const ApiRoute& route = *found.route;
     if (route.moves && !shared.owner.is_client(request.key)) return not_the_owner();
@@ -125,27 +124,23 @@ WebApi::WebApi(const MachineDescription& machine, MachineSession& session, Motio
 
 WebApi::~WebApi() = default;
 
-WebAnswer WebApi::answer(const WebRequest& request) {
-  return parts_->answer(request);
+WebService WebApi::find(const WebRequest& head) {
+  FoundRoute found = find_route(head.method, head.path);
+  const ApiRoute* const route = found.route;
+  const bool is_served = route != nullptr && !what_lacks(route->needs, parts_->options);
+  return {.longest_body = is_served ? longest_of(route->body) : small_body,
+          .is_stream = route != nullptr && route->handler == ApiHandler(&MachineApi::stream),
+          .answer = [this, found = std::move(found)](const WebRequest& request) {
+            return parts_->answer(request, found);
+          }};
 }
 
 WebAnswer WebApi::refusal(unsigned status) {
   return refusal_answer(status);
 }
 
-std::size_t WebApi::longest_body(const WebRequest& request) {
-  const ApiRoute* const route = find_route(request.method, request.path).route;
-  const bool is_served = route != nullptr && !what_lacks(route->needs, parts_->options);
-  return is_served ? longest_of(route->body) : small_body;
-}
-
 bool WebApi::is_public(const WebRequest& request) {
   return parts_->options.page && request.method == "GET" && !request.path.starts_with("/api/");
-}
-
-bool WebApi::is_stream(std::string_view path) {
-  const FoundRoute found = find_route("GET", path);
-  return found.route != nullptr && found.route->handler == ApiHandler(&MachineApi::stream);
 }
 
 std::string WebApi::hear(std::string_view message, std::uint64_t client) {
@@ -159,7 +154,8 @@ std::string WebApi::hear(std::string_view message, std::uint64_t client) {
   const std::string key = text("key");
   const bool has_body = said.is_object() && said.contains("body");
   const WebRequest request{.method = "POST", .path = path, .key = key, .type = "application/json"};
-  const WebAnswer answer = parts_->answer(request, has_body ? std::optional(member("body")) : std::nullopt);
+  const WebAnswer answer = parts_->answer(request, find_route(request.method, request.path),
+                                          has_body ? std::optional(member("body")) : std::nullopt);
   parts_->owner_api.hear(key, client);
   return Json({{"do", path}, {"status", answer.status}, {"body", Json::parse(answer.body, nullptr, false)}})
       .dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -234,8 +234,9 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
                            .query = request_.query};
     const auto status = server_.access.refuse(caller);
     if (status && !(*status == 401 && server_.handler.is_public(request_))) return refuse(*status);
+    service_ = server_.handler.find(request_);
     if (websocket::is_upgrade(header)) return upgrade();
-    const std::size_t longest = server_.handler.longest_body(request_);
+    const std::size_t longest = service_.longest_body;
     const auto length = parser_->content_length();
     if (length && *length > longest) return refuse(413);
     if (length.value_or(longest) > server_.limits.small_body) {
@@ -269,14 +270,14 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   void answer() {
     ++server_.requests;
     request_.body = std::move(parser_->get().body());
-    WebAnswer answer = server_.handler.answer(request_);
+    WebAnswer answer = service_.answer(request_);
     request_.body = std::string();
     give_back_body();
     send(std::move(answer), parser_->get().keep_alive());
   }
 
   void upgrade() {
-    if (!server_.handler.is_stream(request_.path)) return refuse(404);
+    if (!service_.is_stream) return refuse(404);
     if (server_.watching.size() >= server_.limits.watchers) return refuse(503);
     ++server_.requests;
     stream_.expires_never();
@@ -325,6 +326,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   std::optional<Parser> parser_;
   http::response<http::string_body> response_;
   WebRequest request_;
+  WebService service_;
   short awaits_ = POLLIN;
   bool large_body_ = false;
   bool asks_ = false;  // a whole header has come

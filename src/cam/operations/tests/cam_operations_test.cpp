@@ -1,6 +1,8 @@
 // The operations of `passo cam` as rows: each says all that the command line, the API, the page and the manual need.
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "kit/golden.hpp"
@@ -9,6 +11,7 @@
 
 #include "passo/operations/cam_arguments.hpp"
 #include "passo/operations/cam_operation.hpp"
+#include "passo/operations/study_arguments.hpp"
 
 namespace passo {
 namespace {
@@ -81,12 +84,10 @@ TEST(CamOperations, read_and_write_the_member_that_a_row_names) {
   EXPECT_EQ(text_of(*find_option(find_cam_operation("outline")->options(), "tabs")), "0") << "the default has changed";
 }
 
-// A chapter of docs/manual/cam-options.md.
-std::string manual_of(const CamOperation& operation) {
-  std::string purpose = operation.purpose;
-  purpose.front() = static_cast<char>(purpose.front() - 'a' + 'A');
-  std::string text =
-      fmt::format("\n## passo cam {}\n\n{}.\n\n| option | default | |\n|---|---|---|\n", operation.name, purpose);
+constexpr const char* table_head = "| option | default | |\n|---|---|---|\n";
+
+std::string table_of(const CamOperation& operation) {
+  std::string text = table_head;
   for (const CamOption& option : operation.options()) {
     std::string help(option.help);
     std::ranges::replace(help, '\n', ' ');
@@ -103,6 +104,13 @@ std::string manual_of(const CamOperation& operation) {
   return text;
 }
 
+// A chapter of docs/manual/cam-options.md.
+std::string manual_of(const CamOperation& operation) {
+  std::string purpose = operation.purpose;
+  purpose.front() = static_cast<char>(purpose.front() - 'a' + 'A');
+  return fmt::format("\n## passo cam {}\n\n{}.\n\n{}", operation.name, purpose, table_of(operation));
+}
+
 TEST(CamOperations, stand_in_the_manual) {
   std::string page =
       "# The options of passo cam\n\n"
@@ -111,6 +119,27 @@ TEST(CamOperations, stand_in_the_manual) {
       "A test writes this page from the program's own description of its operations (`src/cam/operations`).\n";
   for (const CamOperation& operation : cam_operations()) page += manual_of(operation);
   test::expect_golden("docs/manual/cam-options.md", page);
+}
+
+TEST(TuneStudy, has_its_options_in_the_manual) {
+  std::ifstream file(PASSO_SOURCE_DIR "/docs/manual/tuning.md");
+  std::string page(std::istreambuf_iterator<char>(file), {});
+  const std::size_t begin = page.find(table_head);
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t end = page.find("\n\n", begin) + 1;
+  page.replace(begin, end - begin, table_of(tune_study()));
+  test::expect_golden("docs/manual/tuning.md", page);
+}
+
+TEST(TuneStudy, has_rows_that_agree_with_themselves) {
+  TuneArguments arguments;
+  for (const CamOption& option : cam_options_of(arguments)) {
+    EXPECT_TRUE(fits(option.kind, option.value)) << option.name;
+    EXPECT_FALSE(option.help.empty()) << option.name;
+  }
+  const std::vector<CamOption> options = tune_study().options();
+  EXPECT_EQ(text_of(*find_option(options, "margin")), fmt::format("{}", arguments.margin));
+  EXPECT_EQ(text_of(*find_option(options, "way")), "") << "half of the travel";
 }
 
 }  // namespace

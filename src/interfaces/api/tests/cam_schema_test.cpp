@@ -7,6 +7,7 @@
 #include "kit/golden.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/operations/study_arguments.hpp"
 #include "passo/probing/probing_cycle.hpp"
 
 namespace passo {
@@ -41,6 +42,15 @@ TEST(CamSchemas, are_those_of_the_description) {
     properties["job"]["enum"] = jobs;
     properties["options"]["anyOf"] = options;
   }
+  test::expect_golden(description, document.dump(1) + "\n");
+}
+
+TEST(StudySchema, is_that_of_the_description) {
+  Json document = described();
+  const Json tune = schema_of(tune_study());
+  document["components"]["schemas"]["TuneStudy"] = tune;
+  Json& order = document["paths"]["/study"]["post"]["requestBody"]["content"]["application/json"]["schema"];
+  for (const auto& [name, option] : tune["properties"].items()) order["properties"][name] = option;
   test::expect_golden(description, document.dump(1) + "\n");
 }
 

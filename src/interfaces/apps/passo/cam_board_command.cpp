@@ -8,6 +8,7 @@
 #include "cam_job.hpp"
 #include "check_page.hpp"
 #include "low_process.hpp"
+#include "progress_display.hpp"
 #include "unfinished_job.hpp"
 
 #include "passo/cam/board_job.hpp"
@@ -84,7 +85,8 @@ BoardPlan plan_of(const BoardJob& job, Nanometres join, Diagnostics& findings) {
 }
 
 // How long the program takes, by the planner. Empty: it has errors, which are shown.
-std::optional<Seconds> time_of(const std::string& program, const MachineDescription& machine) {
+std::optional<Seconds> time_of(const std::string& program, const MachineDescription& machine,
+                               const WorkProgress& progress) {
   ProgramArguments arguments;
   arguments.program = program;
   std::optional<ProgramReader> reader = open_program(arguments);
@@ -96,7 +98,7 @@ std::optional<Seconds> time_of(const std::string& program, const MachineDescript
     show(findings);
     return std::nullopt;
   }
-  return judge(std::move(*reader), machine, *options, checked, {}, [](double) {}).summary.time();
+  return judge(std::move(*reader), machine, *options, checked, {}, progress).summary.time();
 }
 
 class BoardMaker {
@@ -106,7 +108,8 @@ class BoardMaker {
              const MachineDescription* machine)
       : arguments_(arguments), folder_(std::move(folder)), plan_(plan), machine_(machine) {}
 
-  int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline);
+  int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline,
+           const WorkProgress& progress);
   const std::filesystem::path& folder() const { return folder_; }
   void tell_files() const;
   BoardPage page;
@@ -133,8 +136,9 @@ class BoardMaker {
     arguments.picture = (folder_ / (stem + ".svg")).string();
   }
   template <class Arguments>
-  int add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*), const CamSources& sources,
-          BoardStep step);
+  int add(Arguments arguments, int (*command)(const Arguments&, const WorkProgress&, const CamSources*, CamMade*),
+          const CamSources& sources, BoardStep step);
+  WorkProgress next_step();
   void tell(const BoardStep& step) const;
   std::array<DrawnPoint, 2> pins(Nanometres distance) const;
   // In the programs, of either side.
@@ -152,18 +156,24 @@ class BoardMaker {
   const MachineDescription* machine_;
   Nanometres margin_;
   int programs_ = 0;
+  WorkProgress steps_progress_;
+  std::size_t steps_begun_ = 0;
 };
 
 template <class Arguments>
-int BoardMaker::add(Arguments arguments, int (*command)(const Arguments&, const CamSources*, CamMade*),
+int BoardMaker::add(Arguments arguments,
+                    int (*command)(const Arguments&, const WorkProgress&, const CamSources*, CamMade*),
                     const CamSources& sources, BoardStep step) {
+  const WorkProgress progress = next_step();
+  const bool is_timed = machine_ != nullptr;
   CamMade made;
-  if (const int code = command(arguments, &sources, &made); code != exit_done) return code;
+  const int code = command(arguments, progress.part(0, is_timed ? 0.6 : 1), &sources, &made);
+  if (code != exit_done) return code;
   step.program = std::filesystem::path(arguments.output).filename().string();
   step.tools = made.tools;
   step.figures = made.summary;
   step.picture = content_of(arguments.picture);
-  if (machine_ != nullptr) step.time = time_of(arguments.output, *machine_);
+  if (is_timed) step.time = time_of(arguments.output, *machine_, progress.part(0.6, 1));
   tell(step);
   page.steps.push_back(std::move(step));
   return exit_done;
@@ -174,8 +184,15 @@ void BoardMaker::tell_files() const {
   for (const BoardPageFile& file : page.files) fmt::print("{}\n", words_for(file));
 }
 
+// The steps that take time: holes, each side, the edge.
+WorkProgress BoardMaker::next_step() {
+  const std::size_t sides = (plan_.front ? 1 : 0) + (plan_.back ? 1 : 0);
+  return steps_progress_.stage(steps_begun_++, sides + 2);
+}
+
 void BoardMaker::tell(const BoardStep& step) const {
   if (arguments_.json) return;
+  ProgressDisplay::clear_shown();
   const std::string time = step.time ? ", " + clock_words(*step.time) : "";
   fmt::print("{}: {}{}\n{}", step.program, step.title, time, step.figures);
 }
@@ -256,7 +273,9 @@ int BoardMaker::find_heights(const char* side) {
                      fmt::format("heights-{}", side).c_str(), std::move(step));
 }
 
-int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline) {
+int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline,
+                     const WorkProgress& progress) {
+  steps_progress_ = progress;
   const bool two_sides = plan_.front && plan_.back;
   const bool only_back = plan_.back && !plan_.front;
   LengthArguments lengths(1);
@@ -357,11 +376,11 @@ std::string heed_words(BoardJob& job, const std::vector<std::string>& told) {
 
 // The programs, their pictures, and the page.
 int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, CamIsolateArguments isolate,
-             CamOutlineArguments outline) {
+             CamOutlineArguments outline, const WorkProgress& progress) {
   const std::filesystem::path& folder = maker.folder();
   if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = usual_isolation_tool;
   maker.tell_files();
-  int code = maker.make(std::move(drill), std::move(isolate), std::move(outline));
+  int code = maker.make(std::move(drill), std::move(isolate), std::move(outline), progress);
   if (code != exit_done) return code;
   const std::string picture = (folder / "board.svg").string();
   code = write_picture(picture, maker.page.name,
@@ -373,8 +392,8 @@ int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, Ca
 
 }  // namespace
 
-int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
-              CamOutlineArguments outline) {
+int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, CamDrillArguments drill,
+              CamIsolateArguments isolate, CamOutlineArguments outline) {
   if (std::ranges::find(arguments.paths, "") != arguments.paths.end()) {
     return fail(exit_bad_program, "expected a folder, an archive or files, but the name is empty");
   }
@@ -410,8 +429,10 @@ int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIs
     code = fail(exit_bad_program, nothing_to_make(job));
   }
   if (code == exit_done) code = unfinished.begin();
-  if (code == exit_done) code = make_all(maker, job, std::move(drill), std::move(isolate), std::move(outline));
+  if (code == exit_done)
+    code = make_all(maker, job, std::move(drill), std::move(isolate), std::move(outline), progress.part(0.1, 0.95));
   if (code == exit_done) code = unfinished.finish();
+  if (code == exit_done) progress.update(1);
   // What was read helps to mend what was refused.
   if (code != exit_done) maker.page.steps.clear();
   if (arguments.json) fmt::print("{}", to_json(maker.page));

@@ -1,7 +1,7 @@
 // The commands of `passo cam`, one function each.
 //
-// `given`: input that was already read, instead of the files. `made`: receives what is otherwise printed. Null: not
-// used.
+// `progress`: receives the completed fraction of the work; it is 1 before the command prints its summary. `given`:
+// input that was already read, instead of the files. `made`: receives what is otherwise printed. Null: not used.
 #pragma once
 
 #include <string>
@@ -10,6 +10,7 @@
 #include "commands.hpp"
 
 #include "passo/base/counted.hpp"
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/board_layer.hpp"
 #include "passo/operations/cam_arguments.hpp"
 
@@ -34,17 +35,20 @@ struct CamShowArguments {
   bool json = false;
 };
 
-int cam_drill(const CamDrillArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
-int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
-int cam_outline(const CamOutlineArguments& arguments, const CamSources* given = nullptr, CamMade* made = nullptr);
-int cam_profile(const CamProfileArguments& arguments);
-int cam_pocket(const CamPocketArguments& arguments);
-int cam_engrave(const CamEngraveArguments& arguments);
-int cam_wire(const CamWireArguments& arguments);
-int cam_relief(const CamReliefArguments& arguments);
+int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, const CamSources* given = nullptr,
+              CamMade* made = nullptr);
+int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progress, const CamSources* given = nullptr,
+                CamMade* made = nullptr);
+int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progress, const CamSources* given = nullptr,
+                CamMade* made = nullptr);
+int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progress);
+int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress);
+int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progress);
+int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress);
+int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress);
 // Runs the first three commands on all files of a board.
-int cam_board(const CamBoardArguments& arguments, CamDrillArguments drill, CamIsolateArguments isolate,
-              CamOutlineArguments outline);
+int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, CamDrillArguments drill,
+              CamIsolateArguments isolate, CamOutlineArguments outline);
 int cam_show(const CamShowArguments& arguments);
 
 }  // namespace passo

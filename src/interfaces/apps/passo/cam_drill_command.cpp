@@ -140,7 +140,8 @@ int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureForma
 
 }  // namespace
 
-int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMade* made) {
+int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, const CamSources* given,
+              CamMade* made) {
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.writes("--output", arguments.output);
@@ -167,7 +168,7 @@ int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMa
     return exit_bad_program;
   }
   place(drawings, *job);
-  const DrillPlan plan = plan_drilling(drawings, job->plan, findings);
+  const DrillPlan plan = plan_drilling(drawings, job->plan, findings, progress.part(0.05, 0.95));
   for (const std::string& words : plan.notes) note(words);
   if (findings.any_error()) {
     show(findings, listed(arguments.files));
@@ -179,6 +180,7 @@ int cam_drill(const CamDrillArguments& arguments, const CamSources* given, CamMa
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }
   const std::string words = summary_of(drawings, plan, arguments);
+  progress.update(1);
   if (made != nullptr) {
     for (const DrillTool& tool : plan.tools) {
       made->tools.push_back(fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", to_mm(tool.diameter).value()));

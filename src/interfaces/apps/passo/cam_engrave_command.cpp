@@ -139,7 +139,7 @@ std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const Mi
 
 // The tip of the cutter on the lines.
 int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, const EngraveJob& engrave,
-                  const PartDrawing& part) {
+                  const PartDrawing& part, const WorkProgress& progress) {
   const VCarveOptions& carving = engrave.carving;
   ProfileOptions options{.side = ProfileSide::on};
   constexpr Nanometres usual_depth{-300'000};
@@ -161,7 +161,8 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
                                                            counted(plan.lines, "open line"), depth, width);
   const nlohmann::ordered_json json = {
       {"closed", plan.outline.outsides}, {"open", plan.lines}, {"deepest_mm", depth}, {"width_mm", width}};
-  return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)});
+  return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)},
+                 progress.part(0.8, 1));
 }
 
 // What is carved: what is drawn, or around a plug.
@@ -175,7 +176,7 @@ Region carved_of(const PartDrawing& part, const EngraveJob& engrave) {
 
 }  // namespace
 
-int cam_engrave(const CamEngraveArguments& arguments) {
+int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progress) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   if (arguments.text.empty() == arguments.files.empty()) {
     return fail(exit_bad_program, "expected either a drawing (FILE) or --text");
@@ -197,14 +198,14 @@ int cam_engrave(const CamEngraveArguments& arguments) {
   const std::optional<PartDrawing> part =
       part_of(std::move(*drawing), job, join, engrave.is_on_line ? OpenRows::kept : OpenRows::refused);
   if (!part) return exit_bad_program;
-  if (engrave.is_on_line) return engrave_lines(arguments, job, engrave, *part);
+  if (engrave.is_on_line) return engrave_lines(arguments, job, engrave, *part, progress);
   const Region area = carved_of(*part, engrave);
   Diagnostics findings;
-  VCarvePlan plan = plan_v_carve(area, engrave.carving, findings);
+  VCarvePlan plan = plan_v_carve(area, engrave.carving, findings, progress.part(0.1, engrave.clears ? 0.8 : 0.9));
   Region warned = united(plan.unreached, plan.floor);
   if (!findings.any_error() && engrave.clears && !plan.floor.empty()) {
     engrave.clearing.depth = plan.floor_z;
-    PocketPlan floor = plan_pocket(plan.floor, engrave.clearing, findings);
+    PocketPlan floor = plan_pocket(plan.floor, engrave.clearing, findings, progress.part(0.8, 0.9));
     warned = united(plan.unreached, floor.unreached);
     // The flat cutter goes first.
     std::ranges::move(plan.mill.tools, std::back_inserter(floor.mill.tools));
@@ -226,7 +227,7 @@ int cam_engrave(const CamEngraveArguments& arguments) {
                                  {"unreached_mm2", stays},
                                  {"deepest_mm", to_mm(plan.deepest).value()},
                                  {"layers", plan.layers}};
-  return deliver(arguments, job, {plan.mill, area, warned, {}, words, json.dump(2)});
+  return deliver(arguments, job, {plan.mill, area, warned, {}, words, json.dump(2)}, progress.part(0.9, 1));
 }
 
 }  // namespace passo

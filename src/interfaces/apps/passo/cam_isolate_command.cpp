@@ -153,7 +153,8 @@ std::optional<CamSources> read(const CamIsolateArguments& arguments, Nanometres 
 
 }  // namespace
 
-int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, CamMade* made) {
+int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progress, const CamSources* given,
+                CamMade* made) {
   if (!outputs_are_good(arguments, arguments.edge)) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam isolate", lengths);
@@ -175,12 +176,14 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
   }
   move_to_zero(job.zero, options.board.empty() ? copper : options.board, {&copper, &options.board});
 
-  const IsolationPlan plan = plan_isolation(copper, options, findings);
+  progress.update(0.05);
+  const IsolationPlan plan = plan_isolation(copper, options, findings, progress.part(0.05, 0.6));
   if (findings.any_error()) {
     show(findings, sources->layer.lines.file);
     return exit_bad_program;
   }
-  const IsolationProof proof = prove_isolation(copper, plan.mill, options.voronoi ? options.board : Region{});
+  const IsolationProof proof =
+      prove_isolation(copper, plan.mill, options.voronoi ? options.board : Region{}, progress.part(0.6, 0.9));
   if (proof.lost_mm2 > 0) {
     return fail(exit_failed,
                 fmt::format("the program would remove {:g} mm² of the circuit's copper, so it was not written",
@@ -191,6 +194,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
   if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
     return code;
   }
+  progress.update(0.95);
   if (!arguments.picture.empty()) {
     MillScene scene{plan.mill, copper, "Copper", plan.unmilled, {}, "Gap too narrow", options.park};
     for (const CopperGap& gap : plan.gaps) scene.marks.push_back(gap.at);
@@ -200,6 +204,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const CamSources* given, C
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
     if (code != exit_done) return code;
   }
+  progress.update(1);
   if (arguments.json) {
     fmt::print("{}\n", as_json(plan, proof, options.park).dump(2));
     return exit_done;

@@ -5,6 +5,7 @@
 
 #include "named_files.hpp"
 #include "picture_names.hpp"
+#include "progress_display.hpp"
 
 namespace passo {
 
@@ -13,6 +14,7 @@ ProgramUnits program_units_of(const std::string& name) {
 }
 
 int write_text(const std::string& path, const std::string& text) {
+  ProgressDisplay::clear_shown();  // the text may go to the same terminal
   Result<OutputFile, OutputError> file = OutputFile::open(path.empty() ? "-" : path);
   if (!file) return fail(exit_failed, file.error().message);
   file->write(text);

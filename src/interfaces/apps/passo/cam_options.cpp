@@ -1,13 +1,16 @@
 #include "cam_options.hpp"
 
 #include <array>
+#include <filesystem>
 #include <type_traits>
 
 #include "command_table.hpp"
 #include "number_range.hpp"
+#include "progress_display.hpp"
 #include <CLI/CLI.hpp>
 
 #include "passo/operations/cam_operation.hpp"
+#include "passo/operations/study_arguments.hpp"
 
 namespace passo {
 namespace {
@@ -53,8 +56,8 @@ void add_option(CLI::App& command, const CamOption& row, Value& value) {
   } else {
     CLI::Option& option = *command.add_option(name_of(row), value, help);
     constexpr bool is_list = std::is_same_v<Value, std::vector<std::string>>;
+    option.required(row.traits.is_required);
     if (row.kind == CamKind::drawings) {
-      option.required(row.traits.is_required);
       if (is_list && row.traits.most_files > 0) option.expected(1, row.traits.most_files);
       return;
     }
@@ -74,10 +77,32 @@ void add_option(CLI::App& command, const CamOption& row, Value& value) {
 template <class Arguments>
 void add_cam_options(CLI::App& command, Arguments& arguments) {
   add_options(command, cam_options_of(arguments));
+  command.footer(find_cam_operation(command.get_name())->examples);
 }
 
-template <class Arguments, int (*run)(const Arguments&)>
-constexpr auto operation_of = options_of<Arguments, add_cam_options<Arguments>, run>;
+// Runs an operation. Its progress has the name of the first input.
+template <class Arguments, class Run>
+int run_with_progress(const Arguments& arguments, Run run) {
+  std::string input;
+  if constexpr (requires { arguments.file; }) {
+    input = arguments.file;
+  } else if constexpr (requires { arguments.paths; }) {
+    if (!arguments.paths.empty()) input = arguments.paths.front();
+  } else if (!arguments.files.empty()) {
+    input = arguments.files.front();
+  }
+  const std::string name = std::filesystem::path(input).filename().string();
+  ProgressDisplay progress(name.empty() ? "passo cam" : name);
+  return run(arguments, progress.work());
+}
+
+template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
+int shown(const Arguments& arguments) {
+  return run_with_progress(arguments, run);
+}
+
+template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
+constexpr auto operation_of = options_of<Arguments, add_cam_options<Arguments>, shown<Arguments, run>>;
 
 // The options of a command whose options can be remembered for a machine. `part` is the member that they fill in.
 template <auto part, auto run>
@@ -87,16 +112,19 @@ std::function<int()> remembered_of(CLI::App& command) {
   add_remember_options(command, *all);
   return [all, &command] {
     const int code = use_remembered(command, *all);
-    return code == exit_done ? run((*all).*part, nullptr, nullptr) : code;
+    if (code != exit_done) return code;
+    return run_with_progress((*all).*part, [](const auto& arguments, const WorkProgress& progress) {
+      return run(arguments, progress, nullptr, nullptr);
+    });
   };
 }
 
-int make_board_job(const CamBoardArguments& board) {
+int make_board_job(const CamBoardArguments& board, const WorkProgress& progress) {
   CamArguments all;
   all.board = board;
   if (const int code = read_profile(all); code != exit_done) return code;
   if (!all.board.join.empty()) all.outline.join = all.board.join;
-  return cam_board(all.board, all.drill, all.isolate, all.outline);
+  return cam_board(all.board, progress, all.drill, all.isolate, all.outline);
 }
 
 Command command_of(const char* name, std::function<int()> (*add)(CLI::App&)) {
@@ -109,7 +137,11 @@ void add_options(CLI::App& command, std::span<const CamOption> options) {
   for (const CamOption& row : options) {
     std::visit([&](auto* value) { add_option(command, row, *value); }, row.value);
   }
-  command.footer(find_cam_operation(command.get_name())->examples);
+}
+
+void add_tune_options(CLI::App& command, TuneArguments& arguments) {
+  add_options(command, cam_options_of(arguments));
+  command.footer(tune_study().examples);
 }
 
 std::span<const Command> cam_commands() {

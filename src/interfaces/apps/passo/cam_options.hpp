@@ -21,9 +21,12 @@ struct CamArguments {
 // The commands of `passo cam`.
 std::span<const Command> cam_commands();
 
-// Adds the options of an operation, as its rows describe them, and its examples. Parsed values are stored in the
-// members named by the rows.
+// Adds the options of an operation or a study, as its rows describe them, and its examples. Parsed values are stored in
+// the members named by the rows.
 void add_options(CLI::App& command, std::span<const CamOption> options);
+
+// Adds the options of the study `tune`.
+void add_tune_options(CLI::App& command, TuneArguments& arguments);
 
 // Adds --machine and --remember, with which options are saved for a machine and supply the values that are not given.
 void add_remember_options(CLI::App& command, CamArguments& arguments);

@@ -71,7 +71,8 @@ nlohmann::ordered_json as_json(const OutlinePlan& plan, const EdgeLoops& loops, 
 
 }  // namespace
 
-int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, CamMade* made) {
+int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progress, const CamSources* given,
+                CamMade* made) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
@@ -88,6 +89,7 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
   Region board = mirrored(edge.board, job.mirror);
   move_to_zero(job.zero, board, {&board});
   OutlinePlan plan;
+  progress.update(0.2);
   if (!findings.any_error()) plan = plan_outline(board, options, findings);
   show(findings, layer->lines.file);
   if (findings.any_error()) return exit_bad_program;
@@ -95,6 +97,7 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
   if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
     return code;
   }
+  progress.update(0.9);
   if (!arguments.picture.empty()) {
     const Region nothing;
     const MillScene scene{plan.mill, board, "Board", nothing, plan.tabs, "Tab", options.park};
@@ -103,6 +106,7 @@ int cam_outline(const CamOutlineArguments& arguments, const CamSources* given, C
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
     if (code != exit_done) return code;
   }
+  progress.update(1);
   if (arguments.json) {
     fmt::print("{}\n", as_json(plan, edge.loops, board, options.park).dump(2));
     return exit_done;

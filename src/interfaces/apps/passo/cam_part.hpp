@@ -34,6 +34,7 @@ struct PartResult {
   std::string json;
 };
 // Writes and prints everything. Returns an exit code.
-int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result);
+int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result,
+            const WorkProgress& progress);
 
 }  // namespace passo

@@ -80,11 +80,13 @@ std::string size_words(const PartDrawing& part) {
                      to_mm(part.most.x).value(), to_mm(part.least.y).value(), to_mm(part.most.y).value());
 }
 
-int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result) {
+int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result,
+            const WorkProgress& progress) {
   for (const std::string& words : result.mill.notes) note(words);
   if (const int code = write_text(arguments.output, write_mill_program(result.mill, job.program)); code != exit_done) {
     return code;
   }
+  progress.update(0.5);
   if (!arguments.picture.empty()) {
     const MillScene scene{.plan = result.mill,
                           .face = result.face,
@@ -100,6 +102,7 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
     if (code != exit_done) return code;
   }
+  progress.update(1);
   if (arguments.json) {
     fmt::print("{}\n", result.json);
     return exit_done;
@@ -161,7 +164,7 @@ void check_layers(Nanometres depth, Nanometres step, LengthArguments& lengths) {
 
 }  // namespace
 
-int cam_profile(const CamProfileArguments& arguments) {
+int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progress) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam profile", lengths, "stock");
@@ -198,10 +201,11 @@ int cam_profile(const CamProfileArguments& arguments) {
     json["unreached_mm2"] = plan.unreached_mm2;
   }
   words += joined_words(part->loops);
-  return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json.dump(2)});
+  return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json.dump(2)},
+                 progress.part(0.8, 1));
 }
 
-int cam_pocket(const CamPocketArguments& arguments) {
+int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam pocket", lengths, "stock");
@@ -233,7 +237,7 @@ int cam_pocket(const CamPocketArguments& arguments) {
   Diagnostics findings;
   const Region area = enclosed_by(part->loops.loops);
   const bool is_constant = options.most_engagement > 0;
-  const PocketPlan plan = plan_pocket(area, options, findings);
+  const PocketPlan plan = plan_pocket(area, options, findings, progress.part(0.02, 0.9));
   show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const std::string words =
@@ -251,7 +255,7 @@ int cam_pocket(const CamPocketArguments& arguments) {
   json["area_mm2"] = area_mm2(area);
   json["lost_mm2"] = plan.lost_mm2;
   json["unreached_mm2"] = plan.unreached_mm2;
-  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json.dump(2)});
+  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json.dump(2)}, progress.part(0.9, 1));
 }
 
 }  // namespace passo

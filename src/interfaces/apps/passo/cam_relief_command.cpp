@@ -252,7 +252,7 @@ int draw(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-int cam_relief(const CamReliefArguments& arguments) {
+int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress) {
   NamedFiles files;
   files.reads("the file", arguments.file);
   files.writes("--output", arguments.output);
@@ -282,16 +282,16 @@ int cam_relief(const CamReliefArguments& arguments) {
 
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!file) return fail(exit_failed, file.error().message);
-  ProgressDisplay progress(what);
   const ReliefReport report = write_relief(
-      read->grid, job.program, [&](std::string_view text) { file->write(text); },
-      [&](double share) { progress.update(share); }, !arguments.picture.empty());
-  progress.clear();
+      read->grid, job.program, [&](std::string_view text) { file->write(text); }, progress.part(0.05, 0.95),
+      !arguments.picture.empty());
+  ProgressDisplay::clear_shown();  // the program may go to the same terminal
   if (const Status<OutputError> written = file->commit(); !written) return fail(exit_failed, written.error().message);
   if (!arguments.picture.empty()) {
     const std::string picture = draw_carved(report.carved, read->grid.pitch_x, read->grid.pitch_y);
     if (const int code = draw(arguments.picture, picture); code != exit_done) return code;
   }
+  progress.update(1);
   if (!arguments.output.empty() && arguments.output != "-") {
     fmt::print("{}: {}\n{}\n{}", arguments.file, read->words, grid_words(read->grid), summary_of(report));
   }

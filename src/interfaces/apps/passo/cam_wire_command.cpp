@@ -201,7 +201,7 @@ WireProgramOptions program_of(const CamWireArguments& arguments, const WireJob& 
 
 }  // namespace
 
-int cam_wire(const CamWireArguments& arguments) {
+int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   const MillJob job = mill_job_of(arguments, "passo cam wire", lengths, "block");
@@ -213,6 +213,7 @@ int cam_wire(const CamWireArguments& arguments) {
   const WirePlan plan = plan_wire_cut((*profiles)[0], (*profiles)[1], wire.cut, findings);
   show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
+  progress.update(0.8);
   const int written = write_text(arguments.output, write_wire_program(plan, program_of(arguments, wire, job)));
   if (written != exit_done) return written;
   if (!arguments.picture.empty()) {
@@ -222,6 +223,7 @@ int cam_wire(const CamWireArguments& arguments) {
         [&](const PictureOptions& picture, OutputFile& file) { return draw_wire_cut(scene, picture, file); });
     if (code != exit_done) return code;
   }
+  progress.update(1);
   double minutes = 0;
   for (const double time : plan.minutes) minutes += time;
   if (arguments.json) {

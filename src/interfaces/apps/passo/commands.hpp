@@ -109,16 +109,7 @@ struct CheckArguments {
 };
 int check(const CheckArguments& arguments);
 
-struct TuneArguments {
-  std::string machine;
-  double margin = 0.3;  // fraction of the weakest motors' torque
-  std::string axes;     // "XY"; empty: all axes whose motors the file describes
-  double way = 0;       // length of the reference move, mm or degrees; 0: half of the travel
-  bool keep_velocity = false;
-  std::string output;   // modified copy of the machine file; empty: none
-  std::string picture;  // .svg or .png
-  bool json = false;
-};
+struct TuneArguments;  // passo/operations/study_arguments.hpp
 int tune(const TuneArguments& arguments);
 
 struct CanonArguments {

@@ -22,7 +22,7 @@ void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
 }
 
 // In the new process.
-[[noreturn]] void become(const std::string& folder, const std::vector<std::string>& words) {
+[[noreturn]] void become(const std::string& folder, const std::vector<std::string>& words, int progress) {
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);
@@ -34,7 +34,13 @@ void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
   dup2(open("/dev/null", O_RDWR), 0);
   dup2(printed, 1);
   dup2(said, 2);
-  close_range(3, ~0U, 0);
+  if (progress != LowProcess::progress_pipe) {
+    dup2(progress, LowProcess::progress_pipe);
+  } else {
+    fcntl(progress, F_SETFD, 0);
+  }
+  close_range(LowProcess::progress_pipe + 1, ~0U, 0);
+  setenv(LowProcess::wants_progress, "1", 1);
   limit(RLIMIT_CPU, LowProcess::most_time);
   limit(RLIMIT_AS, LowProcess::most_memory);
   limit(RLIMIT_FSIZE, LowProcess::longest_file);
@@ -49,10 +55,28 @@ void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
 
 bool LowProcess::begin(const std::string& folder, const std::vector<std::string>& words) {
   if (process_ != 0) return false;
+  int ends[2];
+  if (pipe2(ends, O_NONBLOCK | O_CLOEXEC) != 0) return false;
   const pid_t process = fork();
-  if (process == 0) become(folder, words);
+  if (process == 0) become(folder, words, ends[1]);
+  close(ends[1]);
+  close_pipe();
+  pipe_ = ends[0];
+  progress_ = {};
   if (process > 0) process_ = process;
   return process > 0;
+}
+
+int LowProcess::percent() {
+  std::uint8_t messages[256];
+  const ssize_t count = pipe_ < 0 ? 0 : read(pipe_, messages, sizeof messages);
+  if (count > 0) progress_.take({messages, static_cast<std::size_t>(count)});
+  return progress_.percent();
+}
+
+void LowProcess::close_pipe() {
+  if (pipe_ >= 0) close(pipe_);
+  pipe_ = -1;
 }
 
 std::optional<int> LowProcess::poll() {

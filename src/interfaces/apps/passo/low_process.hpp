@@ -2,7 +2,8 @@
 // whatever the input contains.
 //
 // It is limited to `most_time` of a processor and `most_memory`. It inherits none of the server's files and
-// connections. Its standard output and standard error are written to files in its folder.
+// connections. Its standard output and standard error are written to files in its folder. It reports its progress
+// through a pipe, as the typed messages of percent_line.hpp.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include <sys/types.h>
+
+#include "passo/base/percent_line.hpp"
 
 namespace passo {
 
@@ -24,11 +27,17 @@ class LowProcess {
   // In its folder.
   static constexpr const char* said_file = ".said";        // standard error
   static constexpr const char* printed_file = ".printed";  // standard output
+  // A process with this environment variable writes its progress to this descriptor.
+  static constexpr const char* wants_progress = "PASSO_WANTS_PROGRESS";
+  static constexpr int progress_pipe = 3;
 
   LowProcess() = default;
   LowProcess(const LowProcess&) = delete;
   LowProcess& operator=(const LowProcess&) = delete;
-  ~LowProcess() { end(); }
+  ~LowProcess() {
+    end();
+    close_pipe();
+  }
 
   // Starts the process. `words`: the command line, beginning with the program's name. Returns false if one is already
   // running, or if it cannot be started.
@@ -37,9 +46,15 @@ class LowProcess {
   // Returns the exit status, as reported by waitpid(), once. Empty: it is running, or there is none.
   std::optional<int> poll();
   void end();
+  // Returns how much of its work is done, in per cent. Never decreases while the process runs.
+  int percent();
 
  private:
+  void close_pipe();
+
   pid_t process_ = 0;
+  int pipe_ = -1;  // the end to read from
+  PercentReceiver progress_;
 };
 
 // Explains an exit status for which the process gave no message itself.

@@ -23,8 +23,9 @@
 #include "program_options.hpp"
 #include "simulate_options.hpp"
 #include "study_options.hpp"
-#include "tuning_options.hpp"
 #include <CLI/CLI.hpp>
+
+#include "passo/operations/study_arguments.hpp"
 
 namespace {
 
@@ -95,8 +96,7 @@ const std::vector<Command>& all_commands() {
        options_of<ServeArguments, add_serve_options, serve>},
       {"check", "report all errors and warnings of a program, without running it",
        options_of<CheckArguments, add_check_options, check>},
-      {"tune", "propose velocity, acceleration and jerk limits that suit a machine's motors",
-       options_of<TuneArguments, add_tune_options, tune>},
+      {tune_study().name, tune_study().purpose, options_of<TuneArguments, add_tune_options, tune>},
       {"simulate", "simulate cutting: collisions, depths of cut, and the material that is left",
        options_of<SimulateArguments, add_simulate_options, simulate>},
       {"canon", "print a program as canonical calls, like rs274", options_of<CanonArguments, add_canon_options, canon>},

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "progress_display.hpp"
 #include <unistd.h>
 
 #include "passo/interpreter/tool_table_file.hpp"
@@ -96,7 +97,9 @@ std::optional<InterpreterOptions> machine_options(const ProgramArguments& argume
 
 namespace {
 
+// Text on standard error takes the place of a progress line.
 void show(const std::string& text) {
+  ProgressDisplay::clear_shown();
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -131,12 +134,12 @@ void FindingsDisplay::finish() {
 }
 
 int fail(ExitCode code, const std::string& message) {
-  std::fprintf(stderr, "passo: error: %s\n", message.c_str());
+  show(fmt::format("passo: error: {}\n", message));
   return code;
 }
 
 void note(const std::string& words) {
-  std::fprintf(stderr, "passo: note: %s\n", words.c_str());
+  show(fmt::format("passo: note: {}\n", words));
 }
 
 int flush_output() {

@@ -100,6 +100,7 @@ bool ServedMaker::begin(const MakeOrder& order) {
 
 const MakeResult& ServedMaker::result() {
   const std::optional<int> end = process_.poll();
+  if (process_.runs()) result_.progress = process_.percent() / 100.0;
   if (!end) return result_;
   result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
   bool good = WIFEXITED(*end) && WEXITSTATUS(*end) == 0;
@@ -109,6 +110,7 @@ const MakeResult& ServedMaker::result() {
   result_.state = good ? MakeResult::State::done : MakeResult::State::failed;
   if (!good && result_.words.empty()) result_.words = words_of_end(*end);
   if (!good) result_.names.clear();
+  if (good) result_.progress = 1;
   result_.has_page = good && result_.job == board_job;
   if (good && fs::exists(folder_.path(picture_file(result_.job)), none)) {
     result_.picture_type = picture_file(result_.job).ends_with(".png") ? "image/png" : "image/svg+xml";

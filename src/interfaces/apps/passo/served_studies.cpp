@@ -23,8 +23,8 @@ bool ServedStudies::begin(const StudyOrder& order) {
   if (!folder_.make() || !write_content(folder_.path(studied_machine), order.machine)) return false;
   std::vector<std::string> words;
   if (order.kind == StudyOrder::Kind::tune) {
-    words = {"passo",     "tune",       "--machine", studied_machine, "--margin", std::to_string(order.margin),
-             "--picture", found_curves, "--json"};
+    words = {"passo", "tune", "--machine", studied_machine, "--picture", found_curves, "--json"};
+    words.insert(words.end(), order.options.begin(), order.options.end());
   } else {
     const bool written = write_content(folder_.path(studied_program), order.program) &&
                          write_content(folder_.path(studied_offsets), order.parameters);

@@ -14,6 +14,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/machine_file/toml_text.hpp"
+#include "passo/operations/study_arguments.hpp"
 #include "passo/report/line_chart.hpp"
 #include "passo/tuning/tuning_run.hpp"
 
@@ -206,7 +207,7 @@ int tune(const TuneArguments& arguments) {
   const std::vector<Axis> axes = axes_of(arguments, *machine);
   if (axes.empty()) return exit_bad_machine;
 
-  const auto result = tuned(*machine, {.wish = {.margin = arguments.margin, .way = arguments.way},
+  const auto result = tuned(*machine, {.wish = {.margin = arguments.margin, .way = arguments.way.value_or(0)},
                                        .axes = axes,
                                        .keep_velocity = arguments.keep_velocity});
   if (!result) return fail(exit_failed, result.error().message + " [tune.impossible]");

@@ -27,11 +27,13 @@ void require(bool condition, const char* what) {
 
 class Echo final : public WebHandler {
  public:
-  WebAnswer answer(const WebRequest& request) override { return {.type = "text/plain", .body = request.body}; }
+  WebService find(const WebRequest& head) override {
+    return {.longest_body = head.path == "/upload" ? std::size_t{100'000} : std::size_t{100},
+            .is_stream = head.path == "/stream",
+            .answer = [](const WebRequest& request) { return WebAnswer{.type = "text/plain", .body = request.body}; }};
+  }
   WebAnswer refusal(unsigned status) override { return {.status = status, .type = "text/plain", .body = "refused"}; }
-  std::size_t longest_body(const WebRequest& request) override { return request.path == "/upload" ? 100'000 : 100; }
   bool is_public(const WebRequest& request) override { return request.path == "/"; }
-  bool is_stream(std::string_view path) override { return path == "/stream"; }
   std::string hear(std::string_view message, std::uint64_t) override { return std::string(message); }
 };
 

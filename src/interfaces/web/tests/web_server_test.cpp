@@ -21,15 +21,19 @@ namespace {
 
 class Echo final : public WebHandler {
  public:
-  WebAnswer answer(const WebRequest& request) override {
+  WebService find(const WebRequest& head) override {
+    ++found;
+    return {.longest_body = head.path == "/upload" ? std::size_t{1'000'000} : std::size_t{100},
+            .is_stream = head.path == "/stream",
+            .answer = [this](const WebRequest& request) { return answer(request); }};
+  }
+  WebAnswer answer(const WebRequest& request) {
     last = request;
     ++answered;
     if (request.path == "/large") return {.body = std::string(8'000'000, 'x')};
     return {.status = 200, .type = "text/plain", .body = request.method + " " + request.path + " " + request.body};
   }
   WebAnswer refusal(unsigned status) override { return {.status = status, .type = "text/plain", .body = "refused"}; }
-  std::size_t longest_body(const WebRequest& request) override { return request.path == "/upload" ? 1'000'000 : 100; }
-  bool is_stream(std::string_view path) override { return path == "/stream"; }
   void gone(std::uint64_t client) override { left.push_back(client); }
   std::string hear(std::string_view message, std::uint64_t client) override {
     ++heard;
@@ -38,6 +42,7 @@ class Echo final : public WebHandler {
   }
 
   WebRequest last;
+  int found = 0;
   int answered = 0;
   int heard = 0;
   std::uint64_t speaker = 0;
@@ -135,6 +140,7 @@ TEST_F(WebServerTest, answers_one_request_after_the_other) {
   EXPECT_NE(caller.heard.find("GET /a "), std::string::npos);
   EXPECT_NE(caller.heard.find("GET /c "), std::string::npos);
   EXPECT_EQ(server->requests(), 2U);
+  EXPECT_EQ(echo.found, 2) << "once for each";
   EXPECT_EQ(server->connections(), 0U);
   answer_to(
       "POST /p?q HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Length: 3\r\nX-Passo-Key: k\r\n\r\nabc");

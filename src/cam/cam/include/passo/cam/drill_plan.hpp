@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/drawing.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 
@@ -57,6 +58,7 @@ struct DrillPlan {
 };
 
 // Reports errors "drill.…" in `diagnostics`.
-DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics);
+DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics,
+                        const WorkProgress& progress = {});
 
 }  // namespace passo

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -67,6 +68,7 @@ struct IsolationPlan {
 };
 
 // Reports errors "isolation.…" in `diagnostics`.
-IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& options, Diagnostics& diagnostics);
+IsolationPlan plan_isolation(const Region& copper, const IsolationOptions& options, Diagnostics& diagnostics,
+                             const WorkProgress& progress = {});
 
 }  // namespace passo

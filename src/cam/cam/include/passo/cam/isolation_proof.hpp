@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 
@@ -23,6 +24,7 @@ struct IsolationProof {
 };
 
 // `board`: material outside it connects no islands, since it is cut off. Empty: the copper extends without limit.
-IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board = {});
+IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board = {},
+                               const WorkProgress& progress = {});
 
 }  // namespace passo

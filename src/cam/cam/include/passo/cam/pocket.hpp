@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <string>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -46,6 +47,7 @@ struct PocketPlan {
 };
 
 // Reports errors "pocket.…" in `diagnostics`.
-PocketPlan plan_pocket(const Region& area, const PocketOptions& options, Diagnostics& diagnostics);
+PocketPlan plan_pocket(const Region& area, const PocketOptions& options, Diagnostics& diagnostics,
+                       const WorkProgress& progress = {});
 
 }  // namespace passo

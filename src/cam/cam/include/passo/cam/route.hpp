@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/drawing.hpp"
 
 namespace passo {
@@ -19,7 +20,7 @@ namespace passo {
 // Returns the indices of `places` in a good order. `steps`: the maximum number of distances evaluated and points moved,
 // not counting the initial order, which needs about 100 per point.
 std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
-                                         std::uint64_t steps);
+                                         std::uint64_t steps, const WorkProgress& progress = {});
 
 // Returns the number of steps beyond which the route hardly improves: `a_place` for each point, fewer for few points.
 std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place);

@@ -19,6 +19,7 @@
 
 #include <string>
 
+#include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -47,6 +48,7 @@ struct VCarvePlan {
 };
 
 // Reports errors "engrave.…" in `diagnostics`.
-VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics);
+VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics,
+                        const WorkProgress& progress = {});
 
 }  // namespace passo

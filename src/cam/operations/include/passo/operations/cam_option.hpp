@@ -1,6 +1,6 @@
-// CamOption: one option of an operation of `passo cam`: name, permitted values, help text, and the member that holds
-// its value. The command-line options, the checks of the API, the form of the web interface and the tables of the
-// manual are generated from these rows.
+// CamOption: one option of an operation of `passo cam`, or of a study: name, permitted values, help text, and the
+// member that holds its value. The command-line options, the checks of the API, the form of the web interface and the
+// tables of the manual are generated from these rows.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,7 @@ struct CamTraits {
   bool is_of_job = false;        // specific to one drawing or job: not saved for a machine
   bool is_of_machine = false;    // the machine file may set another default
   std::string_view letter = {};  // short form: "o" stands for -o
-  bool is_required = false;      // for kind `drawings`: at least one file is required
+  bool is_required = false;      // the option must be given; for kind `drawings`: at least one file
   int most_files = 0;            // for kind `drawings`: maximum number of files; 0: any number
 };
 

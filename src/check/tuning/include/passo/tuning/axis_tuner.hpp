@@ -28,7 +28,7 @@
 namespace passo {
 
 struct TuningWish {
-  double margin = 0.3;     // fraction of the weakest motor's torque; 0.1 to 0.9
+  double margin = 0;       // fraction of the weakest motor's torque; TuneArguments has the default of the callers
   double way = 0;          // length of the reference move, mm or degrees; 0: half of the travel
   MmPerSecond fastest{0};  // an upper limit of the velocity; 0: only the board's limit
 };

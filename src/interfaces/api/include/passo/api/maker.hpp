@@ -26,6 +26,7 @@ struct MakeResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
   std::string job;
+  double progress = 0;                  // 0 to 1; never decreases while the order runs
   std::vector<std::string> names = {};  // names of the programs, in the order in which they are to be run
   std::string words = {};               // messages, including the reason for a failure
   std::string picture_type = {};        // "image/svg+xml"; empty: no picture

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace passo {
 
@@ -19,11 +20,11 @@ struct StudyOrder {
   Kind kind = Kind::motors;
   std::string machine;  // contents of the machine file
   // For a program:
-  std::string program;     // contents of the program
-  std::string dialect;     // "linuxcnc" or "grbl"
-  std::string parameters;  // contents of the parameter file, with the offsets
-  std::string tools;       // contents of a tool table; empty: none
-  double margin = 0.3;     // for `tune`: fraction of the torque that stays unused
+  std::string program;               // contents of the program
+  std::string dialect;               // "linuxcnc" or "grbl"
+  std::string parameters;            // contents of the parameter file, with the offsets
+  std::string tools;                 // contents of a tool table; empty: none
+  std::vector<std::string> options;  // for `tune`: "--margin=0.4"
 };
 
 struct StudyResult {

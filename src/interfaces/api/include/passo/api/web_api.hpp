@@ -33,15 +33,16 @@ class WebApi final : public WebHandler {
   WebApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
   ~WebApi() override;
 
-  WebAnswer answer(const WebRequest& request) override;
+  WebService find(const WebRequest& head) override;
   WebAnswer refusal(unsigned status) override;
-  std::size_t longest_body(const WebRequest& request) override;
   // The files of the web interface are public; its API requests need the token.
   bool is_public(const WebRequest& request) override;
-  bool is_stream(std::string_view path) override;
   // {"do": "/api/v1/jog/renew", "key": "…", "body": {…}} acts as a POST; the response has "do", "status" and "body".
   std::string hear(std::string_view message, std::uint64_t client) override;
   void gone(std::uint64_t client) override;
+
+  // Answers a request whose body has been received.
+  WebAnswer answer(const WebRequest& request) { return find(request).answer(request); }
 
   // Processes the session's changes since the last call. Must be called after each turn of the session.
   void on_change(const std::vector<MachineChange>& changes);

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -50,18 +51,22 @@ struct WebAnswer {
   std::string allow = {};     // Allow; empty: none
 };
 
+// What a handler does with a request. Found once, when the header is known.
+struct WebService {
+  std::size_t longest_body = 0;                                     // bytes; a longer body is refused, and not read
+  bool is_stream = false;                                           // the stream for WebSocket clients is here
+  std::function<WebAnswer(const WebRequest& request)> answer = {};  // called once the body is read
+};
+
 class WebHandler {
  public:
   virtual ~WebHandler() = default;
-  virtual WebAnswer answer(const WebRequest& request) = 0;
+  // Finds the service for a request. `head`: the request without its body.
+  virtual WebService find(const WebRequest& head) = 0;
   // Formats an error response of the server itself like those of the handler.
   virtual WebAnswer refusal(unsigned status) = 0;
-  // Returns the maximum body length of such a request. Called before the body is read.
-  virtual std::size_t longest_body(const WebRequest& request) = 0;
   // Returns true if the request does not need the token. Host and Origin are checked nevertheless.
   virtual bool is_public(const WebRequest&) { return false; }
-  // Returns true if this path is the stream for WebSocket clients.
-  virtual bool is_stream(std::string_view path) = 0;
   // Processes a message from a stream client. Returns the response; empty: none.
   virtual std::string hear(std::string_view message, std::uint64_t client) = 0;
   // A stream client has disconnected, or has not responded for `stream_dead_after`. Its number is never reused.
