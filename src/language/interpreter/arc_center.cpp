@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-double distance(PlanePoint a, PlanePoint b) {
+double distance_between(PlanePoint a, PlanePoint b) {
   return std::hypot(a.first - b.first, a.second - b.second);
 }
 
@@ -49,7 +49,7 @@ ArcCenter center_from_radius(PlanePoint start, PlanePoint end, double radius, bo
     arc.fault = ArcFault::ends_at_start;
     return arc;
   }
-  const double half = distance(start, end) / 2;
+  const double half = distance_between(start, end) / 2;
   const double size = std::abs(radius);
   if (half - size > tolerance.radius) {
     arc.fault = ArcFault::radius_too_small;

@@ -107,7 +107,7 @@ class Line {
   char* at_ = buffer_.data();
 };
 
-const char* name_of(Plane plane) {
+const char* canon_plane(Plane plane) {
   switch (plane) {
     case Plane::xy: return "XY";
     case Plane::zx: return "XZ";
@@ -139,7 +139,7 @@ struct Call {
     }
   }
   void operator()(const operation::SelectPlane& select) const {
-    line << "SELECT_PLANE(CANON_PLANE_" << name_of(select.plane) << ")";
+    line << "SELECT_PLANE(CANON_PLANE_" << canon_plane(select.plane) << ")";
   }
   void operator()(const operation::SetFeedMode& set) const {
     line << (set.mode == FeedMode::units_per_revolution ? "SET_FEED_MODE(0, 1)" : "SET_FEED_MODE(0, 0)");

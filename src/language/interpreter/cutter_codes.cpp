@@ -11,7 +11,7 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr double highest_orientation = 9;
+constexpr double highest_orientation_word = 9;
 
 // Groups whose codes are forbidden during compensation. They would move the frame or the tool while it follows a
 // contour, or they would act in the middle of moves that are held back.
@@ -110,7 +110,7 @@ bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
   setup.radius = words_['D'] * state_.length_unit() / 2;
   if (!words_.has('L')) return true;
   std::int32_t orientation = 0;
-  if (!whole_word('L', 0, highest_orientation, orientation)) return false;
+  if (!whole_word('L', 0, highest_orientation_word, orientation)) return false;
   setup.orientation = orientation;
   if (setup.plane == Plane::zx) return true;
   return fail("gcode.cutter-compensation", words_.span('L'),

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double largest_length = 1e6;  // millimetres
 constexpr std::int32_t highest_number = 99999;
-constexpr std::int32_t highest_orientation = 9;
+constexpr std::int32_t highest_tool_orientation = 9;
 
 char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -90,7 +90,7 @@ class TableReader {
     switch (letter) {
       case 'T': return read_whole(field, 1, highest_number, tool.number);
       case 'P': return read_whole(field, 0, highest_number, tool.pocket);
-      case 'Q': return read_whole(field, 0, highest_orientation, tool.orientation);
+      case 'Q': return read_whole(field, 0, highest_tool_orientation, tool.orientation);
       default: break;
     }
     const std::optional<double> value = number_of(digits);
@@ -148,7 +148,7 @@ bool read_tool_table(const std::string& path, LengthUnits units, ToolTable& tabl
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view blank_characters = " \t\r";
 constexpr std::string_view value_letters = "XYZABCUVWDIJQ";
 constexpr double written_alike = 5e-7;  // six decimals are written
 
@@ -176,10 +176,10 @@ std::string written(char letter, double value, bool plus) {
 // The words of a line without its remark.
 std::vector<std::string_view> split_words(std::string_view line) {
   std::vector<std::string_view> words;
-  for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+  for (std::size_t at = line.find_first_not_of(blank_characters); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(blank_characters, at), line.size());
     words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(blanks, end);
+    at = line.find_first_not_of(blank_characters, end);
   }
   return words;
 }
