@@ -20,10 +20,10 @@ struct StudyOrder {
   Kind kind = Kind::motors;
   std::string machine;  // the text of a machine file
   // Of a program:
-  std::string program;     // its text
-  std::string dialect;     // "linuxcnc" or "grbl"
-  std::string parameters;  // the text of a parameter file: offsets
-  std::string tools;       // the text of a tool table; empty: none
+  std::string program;               // its text
+  std::string dialect;               // "linuxcnc" or "grbl"
+  std::string parameters;            // the text of a parameter file: offsets
+  std::string tools;                 // the text of a tool table; empty: none
   std::vector<std::string> options;  // of `tune`: "--margin=0.4"
 };
 

@@ -53,8 +53,8 @@ struct WebAnswer {
 
 // What a handler does with a request. Found once, when the header is known.
 struct WebService {
-  std::size_t longest_body = 0;  // bytes; a longer body is refused, and not read
-  bool is_stream = false;        // the stream for WebSocket clients is here
+  std::size_t longest_body = 0;                                     // bytes; a longer body is refused, and not read
+  bool is_stream = false;                                           // the stream for WebSocket clients is here
   std::function<WebAnswer(const WebRequest& request)> answer = {};  // called once the body is read
 };
 
