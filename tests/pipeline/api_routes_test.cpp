@@ -118,7 +118,8 @@ TEST(ApiRoutes, need_what_a_server_may_lack) {
     EXPECT_EQ(run.status, 404U) << to;
     EXPECT_EQ(answer["error"]["code"], codes[static_cast<std::size_t>(route.needs)]) << to;
     const std::string path = std::string(api_root) + to;
-    EXPECT_EQ(run.api.find({.method = std::string(route.method), .path = path}).longest_body, std::size_t{1} << 16) << to;
+    EXPECT_EQ(run.api.find({.method = std::string(route.method), .path = path}).longest_body, std::size_t{1} << 16)
+        << to;
   }
 }
 

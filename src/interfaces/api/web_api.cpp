@@ -128,11 +128,10 @@ WebService WebApi::find(const WebRequest& head) {
   FoundRoute found = find_route(head.method, head.path);
   const ApiRoute* const route = found.route;
   const bool is_served = route != nullptr && !what_lacks(route->needs, parts_->options);
-  return {.longest_body = is_served ? longest_of(route->body) : small_body,
-          .is_stream = route != nullptr && route->handler == ApiHandler(&MachineApi::stream),
-          .answer = [this, found = std::move(found)](const WebRequest& request) {
-            return parts_->answer(request, found);
-          }};
+  return {
+      .longest_body = is_served ? longest_of(route->body) : small_body,
+      .is_stream = route != nullptr && route->handler == ApiHandler(&MachineApi::stream),
+      .answer = [this, found = std::move(found)](const WebRequest& request) { return parts_->answer(request, found); }};
 }
 
 WebAnswer WebApi::refusal(unsigned status) {
