@@ -9,9 +9,9 @@
 #include <stdint.h>
 
 #include "passo/interpolate/arcs.hpp"
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
 #include "passo/interpolate/exact_ramp.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/ramp_move.hpp"
@@ -149,9 +149,9 @@ constexpr bool visit_interpolator(uint8_t number, Visitor&& visit) {
   constexpr MethodKind arc = MethodKind::arc;
   switch (number) {
     case 0: visit(Method<LineWalk<MasterSlave<3, Length>, 3>>{"master-slave", line, bits}); return true;
-    case 1: visit(Method<LineWalk<Lean<3, Length>, 3>>{"lean", line, bits}); return true;
+    case 1: visit(Method<LineWalk<BresenhamLine<3, Length>, 3>>{"lean", line, bits}); return true;
     case 2: visit(Method<LineWalk<Dda<3, Length>, 3>>{"dda", line, bits}); return true;
-    case 3: visit(Method<LineWalk<Lean<2, Length>, 2>>{"lean", line, bits}); return true;
+    case 3: visit(Method<LineWalk<BresenhamLine<2, Length>, 2>>{"lean", line, bits}); return true;
     case 4: visit(Method<LineWalk<SlopeRecalculated<Length>, 2>>{"slope-recalculated", line, bits}); return true;
     case 5: visit(Method<LineWalk<SlopeBlocks<Length>, 2>>{"slope-blocks", line, bits}); return true;
     case 6: visit(Method<LineWalk<PointComparisonLine<Length>, 2>>{"point-comparison", line, bits}); return true;

@@ -10,7 +10,7 @@
 namespace passo {
 
 struct ClassFields {
-  std::string name;  // "Refiller::Motion"
+  std::string name;  // "QueueUpdater::Motion"
   std::size_t line = 0;
   std::size_t fields = 0;  // of each object; static members are none
 

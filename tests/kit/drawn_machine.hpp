@@ -112,7 +112,7 @@ inline std::string program_text(const MachineDescription& machine, Draw& draw) {
 
 struct JudgedRun {
   Verdict verdict = Verdict::safe;
-  Want want = Want::torque;
+  LossCause want = LossCause::torque;
   bool lost = false;
 };
 

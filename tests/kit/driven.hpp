@@ -22,8 +22,8 @@
 namespace passo::test {
 
 // On a virtual link, a working board responds immediately. On a real link, a board may still be in its boot loader.
-inline constexpr LineCare virtual_line_care{.answer_within = Seconds(0.05)};
-inline constexpr LineCare real_line_care{.answer_within = Seconds(0.1), .patience = Seconds(60)};
+inline constexpr LinkTimeouts virtual_line_care{.answer_within = Seconds(0.05)};
+inline constexpr LinkTimeouts real_line_care{.answer_within = Seconds(0.1), .patience = Seconds(60)};
 
 inline StepOptions steps_from(const MachineDescription& machine, const Point& start) {
   StepOptions options = step_options(machine);
@@ -164,7 +164,7 @@ class DrivenProgram {
   DriveOn on_;
   Point start_;
   DrivenBoard board_;
-  AnswerBook answers_;
+  StoredResults answers_;
   Program program_;
   StepOptions steps_;
   std::optional<std::string> unsuited_;
@@ -198,7 +198,7 @@ class DrivenHoming {
     return options;
   }
 
-  AnswerBook answers_;
+  StoredResults answers_;
   DrivenBoard board_;
   HomingPath path_;
   StepOptions steps_;
@@ -228,7 +228,7 @@ class DrivenJog {
   VirtualMachine& machine() { return board_.machine(); }
 
  private:
-  AnswerBook answers_;
+  StoredResults answers_;
   DrivenBoard board_;
   JogLine path_;
   MotionDrive drive_;

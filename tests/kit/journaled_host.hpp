@@ -104,7 +104,7 @@ class JournaledHost {
     ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status(), machine_));
     const std::size_t lead_in = job.lead_in().size();
     job.drive().ledger()->watch_rests(
-        [&](const BoardRest& rest) { writer.record(lead_in > 0 ? without_lead_in(*point, lead_in, rest) : rest); });
+        [&](const BoardStop& rest) { writer.record(lead_in > 0 ? without_lead_in(*point, lead_in, rest) : rest); });
     job.drive().probe().watch([&](const ProbeOutcome& outcome) {
       writer.record(outcome);
       found.push_back(outcome);

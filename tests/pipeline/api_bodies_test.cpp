@@ -157,25 +157,25 @@ TEST(ApiOwner, whose_streams_have_ended_loses_the_motion) {
   EXPECT_EQ(Json::parse(renew(1))["status"], 200);
   renew(2);
   run.api.gone(1);
-  run.pass(MotionOwner::returns_within + Seconds(5));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::client) << "its other stream is there";
+  run.pass(MachineControl::returns_within + Seconds(5));
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::client) << "its other stream is there";
   run.api.gone(2);
-  run.pass(MotionOwner::returns_within - Seconds(1));
+  run.pass(MachineControl::returns_within - Seconds(1));
   renew(3);
-  run.pass(MotionOwner::returns_within + Seconds(5));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::client) << "it came back";
+  run.pass(MachineControl::returns_within + Seconds(5));
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::client) << "it came back";
   run.api.gone(9);
   run.api.gone(3);
-  run.pass(MotionOwner::returns_within + Seconds(1));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::nobody);
+  run.pass(MachineControl::returns_within + Seconds(1));
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::nobody);
 }
 
 TEST(ApiOwner, who_never_used_the_stream_stays_the_owner) {
   ApiRun run;
   run.own();
   run.api.gone(1);
-  run.pass(MotionOwner::returns_within + Seconds(60));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::client);
+  run.pass(MachineControl::returns_within + Seconds(60));
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::client);
 }
 
 // A job goes on when its owner's page dies. Another page may take over at once, and the job still goes on.
@@ -188,8 +188,8 @@ TEST(ApiOwner, who_is_gone_amid_a_job_gives_way_and_the_job_goes_on) {
   run.key.clear();
   run.api.gone(1);
   EXPECT_EQ(run.ask("POST", "/owner", R"({"name": "other"})")["error"]["code"], "owner.moves");
-  run.pass(MotionOwner::returns_within + Seconds(1));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::client) << "a sender gets no machine that moves";
+  run.pass(MachineControl::returns_within + Seconds(1));
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::client) << "a sender gets no machine that moves";
   EXPECT_EQ(run.get("/status")["state"], "Run");
   EXPECT_EQ(run.ask("POST", "/owner", R"({"name": "other"})")["name"], "other");
   EXPECT_EQ(run.get("/status")["state"], "Run");

@@ -37,7 +37,7 @@ class ApiRun {
  public:
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
                   const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
-                  const ToolTable& known_tools = {}, Maker* maker = nullptr)
+                  const ToolTable& known_tools = {}, CamService* maker = nullptr)
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -109,7 +109,7 @@ class ApiRun {
   GrblRun run;
   std::function<void(const SavedParameters&, const ToolTable&)> keep;
   std::string disk_trouble;  // why offsets cannot be kept
-  MotionOwner owner;
+  MachineControl owner;
   WebApi api;
   std::string key;
   unsigned status = 0;

@@ -83,20 +83,20 @@ class NotedStudies final : public Studies {
 };
 
 // Says how far it is, and makes nothing.
-class SlowMaker final : public Maker {
+class SlowMaker final : public CamService {
  public:
   std::vector<std::string> files() const override { return {"holes.drl"}; }
   bool keep(const std::string&, std::string_view) override { return true; }
   void clear() override {}
-  bool begin(const MakeOrder& order) override {
-    now = {.state = MakeResult::State::running, .job = order.job};
+  bool begin(const CamOrder& order) override {
+    now = {.state = CamResult::State::running, .job = order.job};
     return true;
   }
-  const MakeResult& result() override { return now; }
+  const CamResult& result() override { return now; }
   std::string program(std::size_t) const override { return "M2\n"; }
   std::string picture(std::optional<std::size_t>) const override { return ""; }
   std::string page() const override { return ""; }
-  MakeResult now;
+  CamResult now;
 };
 
 TEST(ApiCam, shows_the_progress_of_its_job) {
@@ -109,7 +109,7 @@ TEST(ApiCam, shows_the_progress_of_its_job) {
   maker.now.progress = 0.42;
   EXPECT_EQ(run.get("/cam")["progress"], 0.42);
   EXPECT_EQ(run.get("/cam")["state"], "running");
-  maker.now.state = MakeResult::State::done;
+  maker.now.state = CamResult::State::done;
   maker.now.names = {"holes-drill.ngc"};
   maker.now.progress = 1;
   EXPECT_EQ(run.get("/cam")["progress"], 1);
@@ -291,12 +291,12 @@ TEST(Api, motion_has_one_owner_and_passes_at_rest) {
 TEST(Api, a_silent_owner_loses_the_motion_while_nothing_moves) {
   ApiRun run;
   run.own();
-  run.pass(MotionOwner::silent_for - Seconds(1));
+  run.pass(MachineControl::silent_for - Seconds(1));
   run.post("/hold");  // refused, but heard
-  run.pass(MotionOwner::silent_for - Seconds(1));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::client);
+  run.pass(MachineControl::silent_for - Seconds(1));
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::client);
   run.pass(Seconds(3));
-  EXPECT_EQ(run.owner.kind(), MotionOwner::Kind::nobody);
+  EXPECT_EQ(run.owner.kind(), MachineControl::Kind::nobody);
 }
 
 TEST(Api, senders_and_clients_share_a_machine_one_after_the_other) {

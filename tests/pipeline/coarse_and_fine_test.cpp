@@ -10,8 +10,8 @@
 #include "passo/geometry/bezier.hpp"
 #include "passo/geometry/nurbs.hpp"
 #include "passo/geometry/step_chords.hpp"
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
@@ -95,7 +95,7 @@ TEST_F(CoarseAndFine, any_method_for_lines_in_space_follows_any_curve_to_its_ver
     const Nurbs spline =
         *Nurbs::create({.degree = 3, .control = control, .weights = {1, 2, 1, 3, 1, 2, 1}, .knots = {}});
     const auto follow = [&](const auto& curve) {
-      expect_to_follow<3, Lean<3>>(curve, tolerance, 0.5);
+      expect_to_follow<3, BresenhamLine<3>>(curve, tolerance, 0.5);
       expect_to_follow<3, MasterSlave<3>>(curve, tolerance, 0.5);
       expect_to_follow<3, Dda<3>>(curve, tolerance, 1);
     };

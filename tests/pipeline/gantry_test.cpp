@@ -40,7 +40,8 @@ class HomedMachine {
         line_(board_, machine.board.clock, LineOptions()),
         session_(machine, over_a_line ? static_cast<BoardPort&>(line_) : board_,
                  {.over_a_line = over_a_line,
-                  .care = over_a_line ? LineCare{.answer_within = Seconds(0.25), .patience = Seconds(5)} : LineCare{},
+                  .care = over_a_line ? LinkTimeouts{.answer_within = Seconds(0.25), .patience = Seconds(5)}
+                                      : LinkTimeouts{},
                   .greeting = {.session = static_cast<std::uint16_t>(over_a_line ? 1 : 0)},
                   .start = {.place = Point(), .trust = Trust::commanded}}) {
     board_.connect(plant_);

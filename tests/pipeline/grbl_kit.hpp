@@ -50,7 +50,7 @@ class GrblRun {
 
   VirtualMachine& board() { return board_; }
   MachineSession& session() { return session_; }
-  OpenProgram& program() { return program_; }
+  StreamedProgram& program() { return program_; }
   GrblController& grbl() { return grbl_; }
   const MachineDescription& description() const { return description_; }
 
@@ -106,7 +106,7 @@ class GrblRun {
   VirtualMachine board_;
   IdealPlant plant_;
   MachineSession session_;
-  OpenProgram program_;
+  StreamedProgram program_;
   GrblController grbl_;
 };
 

@@ -82,7 +82,7 @@ TEST(GrblSpindle, the_drivers_have_their_time_before_the_first_motion) {
 
 TEST(OpenProgramOf, a_thread_that_an_axis_cannot_follow_is_refused_each_time) {
   const MachineDescription machine = test::example_machine("router");
-  OpenProgram program(machine, InterpreterOptions(), Point());
+  StreamedProgram program(machine, InterpreterOptions(), Point());
   EXPECT_FALSE(program.add_line("G21 G90 M3 S6000", Seconds(0)));
   for (int i = 0; i < 2; ++i) {
     const std::size_t queued = program.queued();

@@ -87,7 +87,7 @@ inline void note(const DrivenHoming& homing, Homed& result) {
   result.error = homing.drive().link().error();
   result.place = homing.place();
   result.axes = homing.path().homed();
-  const RefillLedger* const ledger = homing.drive().ledger();
+  const QueueUpdateLedger* const ledger = homing.drive().ledger();
   if (ledger == nullptr) return;
   result.recoveries = ledger->recoveries();
   result.longest_ahead = ledger->longest_ahead();

@@ -167,7 +167,7 @@ class JobServer final : public JobKeeper {
 
  private:
   KnownPosition position_of(const BoardStatus& board) const {
-    const MotorPlace motors = steps_since(bench_.zero_counts, board.positions);
+    const MotorPosition motors = steps_since(bench_.zero_counts, board.positions);
     return {.place = kinematics_of(bench_.description).axes(motors), .trust = bench_.trust};
   }
   ApiOptions options(const std::optional<BrokenOff>& found) {
@@ -191,7 +191,7 @@ class JobServer final : public JobKeeper {
   MortalPort port_;
   std::unique_ptr<JobHistory> history_;
   MachineSession session_;
-  MotionOwner owner_;
+  MachineControl owner_;
   std::unique_ptr<WebApi> api_;
   std::string key_;
 };

@@ -17,7 +17,7 @@ using test::SessionRun;
 Point jog(SessionRun& run, const request::Jog& wanted, bool renews = false) {
   run.taken(wanted);
   while (run.session().busy()) {
-    if (renews) run.taken(request::RenewLease{});
+    if (renews) run.taken(request::RenewKeepAlive{});
     run.poll(Seconds(0.005));
   }
   EXPECT_EQ(run.state(), MachineState::idle);
@@ -102,7 +102,7 @@ TEST_P(Jog, with_random_renewals_never_outlives_its_lease_nor_leaves_the_travel)
         run.poll(Seconds(0.005));
         holds = holds && random.chance(0.97);
         if (!holds || !run.session().busy()) continue;
-        run.taken(request::RenewLease{});
+        run.taken(request::RenewKeepAlive{});
         renewed = run.now().value();
       }
       // The slowest of the axes brakes with 30 mm/s².
@@ -174,7 +174,7 @@ TEST_P(JogStories, end_at_rest_within_0_3_s) {
     };
     for (double held = random.between(0, 0.6); held > 0 && run.session().busy(); held -= 0.02) {
       run.pass(Seconds(0.02));
-      if (random.chance(0.3)) asked(request::RenewLease{});
+      if (random.chance(0.3)) asked(request::RenewKeepAlive{});
       if (run.session().busy() && random.chance(0.2)) disturb();
     }
     // Let go, held by the red button, or silent.
@@ -184,7 +184,7 @@ TEST_P(JogStories, end_at_rest_within_0_3_s) {
     if (how == 1) asked(request::Hold{});
     for (bool late = false; run.session().busy() && run.now() - let_go < Seconds(2); late = true) {
       run.pass(Seconds(0.02));
-      if (how < 2 && late) asked(request::RenewLease{});  // a renewal that comes late wakes nothing
+      if (how < 2 && late) asked(request::RenewKeepAlive{});  // a renewal that comes late wakes nothing
     }
     ASSERT_FALSE(run.session().busy()) << story;
     EXPECT_LE(time_of_last_step(run), let_go.value() + 0.3) << story;

@@ -59,8 +59,8 @@ MachineDescription wide_router() {
 }
 
 // All that a program has set, and where it is.
-std::string state_of(const OpenProgram& program) {
-  const ModesInForce modes = program.modes();
+std::string state_of(const StreamedProgram& program) {
+  const ActiveModes modes = program.modes();
   const GrblUnits units{.axes = {Axis::x, Axis::y, Axis::z}};
   std::string text = modes_text(modes, units) + places_text(modes.position, units) +
                      places_text(modes.frame.machine_from_work(Point()), units) + "\n";
@@ -71,7 +71,7 @@ std::string state_of(const OpenProgram& program) {
 }
 
 // What the machine would do, up to where it waits for the next line.
-std::string played(OpenProgram& program) {
+std::string played(StreamedProgram& program) {
   std::string text;
   for (PathItem item; program.next(item);) {
     const auto* const action = std::get_if<Action>(&item);
@@ -86,8 +86,8 @@ void expect_refused_lines_change_nothing(Dialect dialect, std::vector<std::strin
   const MachineDescription machine = wide_router();
   InterpreterOptions options;
   options.dialect = dialect;
-  OpenProgram all(machine, options, Point());
-  OpenProgram good(machine, options, Point());
+  StreamedProgram all(machine, options, Point());
+  StreamedProgram good(machine, options, Point());
   RandomLines lines(seed(), std::move(codes));
   int refused = 0;
   int taken = 0;
@@ -130,7 +130,7 @@ TEST(RefusedLine, in_linuxcnc_s_dialect_leaves_everything_as_it_was) {
 
 // What was sent to a running program is beyond the travel, and ends it as well.
 TEST(RefusedLine, that_would_have_ended_the_program_does_not_end_it) {
-  OpenProgram program(example_machine("router"), in_grbl(example_machine("router")), Point());
+  StreamedProgram program(example_machine("router"), in_grbl(example_machine("router")), Point());
   ASSERT_TRUE(program.add_line("G1 X9999 F100 M2", Seconds(0)));
   EXPECT_FALSE(program.take_ended());
   ASSERT_FALSE(program.add_line("G1 X5 F100", Seconds(0)));

@@ -106,7 +106,7 @@ class SessionRun {
 
   // Streams a line of a program that never ends.
   void stream(const std::string& line) {
-    lines_ = std::make_unique<OpenProgram>(description_, InterpreterOptions(), Point());
+    lines_ = std::make_unique<StreamedProgram>(description_, InterpreterOptions(), Point());
     const auto wrong = lines_->add_line(line, now());
     EXPECT_FALSE(wrong) << wrong->message;
     taken(request::Stream{.program = lines_.get()});
@@ -210,7 +210,7 @@ class SessionRun {
   VirtualMachine board_;
   IdealPlant plant_;
   VirtualLine line_;
-  std::unique_ptr<OpenProgram> lines_;
+  std::unique_ptr<StreamedProgram> lines_;
   MachineSession session_;
   MachineState last_ = MachineState::offline;
   std::map<Ticket, Seconds> waiting_;  // and when they were asked

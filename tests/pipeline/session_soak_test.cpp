@@ -29,7 +29,7 @@ constexpr std::array names = {"start", "stream",       "drop lines", "jog",   "r
                               "done",  "set position", "reset",      "sleep", "wake"};
 static_assert(names.size() == std::variant_size_v<Request>);
 
-constexpr LineCare care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
+constexpr LinkTimeouts care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
 // What somebody has asked to end is at an end after so long, however bad the line.
 constexpr Seconds longest_stop{60};
 
@@ -93,7 +93,7 @@ class SessionSoak : public testing::Test {
       bool operator()(const request::Stream&) const { return lacks(MachineEvent::begin_run); }
       bool operator()(const request::DropLines&) const { return true; }  // nothing here comes line by line
       bool operator()(const request::Jog&) const { return lacks(MachineEvent::begin_jog); }
-      bool operator()(const request::RenewLease&) const { return status.state != MachineState::jog; }
+      bool operator()(const request::RenewKeepAlive&) const { return status.state != MachineState::jog; }
       bool operator()(const request::Home&) const { return lacks(MachineEvent::begin_home); }
       bool operator()(const request::Probe&) const { return lacks(MachineEvent::begin_probe); }
       bool operator()(const request::Check&) const { return lacks(MachineEvent::begin_check); }

@@ -104,7 +104,7 @@ bool is_active(const Situation& situation) {
 const std::vector<Asked> requests = {
     {"start", [] { return Request(start_of("G21 G1 F600 X1\nM2\n")); }, follows<MachineEvent::begin_run>},
     {"jog", [] { return Request(slow_jog()); }, follows<MachineEvent::begin_jog>},
-    {"renew_lease", [] { return Request(request::RenewLease{}); },
+    {"renew_lease", [] { return Request(request::RenewKeepAlive{}); },
      [](const Situation& at) { return at.state == MachineState::jog; }},
     {"home", [] { return Request(request::Home{}); }, follows<MachineEvent::begin_home>},
     {"probe", [] { return Request(slow_probe()); }, follows<MachineEvent::begin_probe>},

@@ -410,7 +410,7 @@ Request any_request(test::Random& random) {
     case 4:
       return request::Jog{.way = {.direction = place(), .speed = MmPerSecond(random.between(1, 50))},
                           .lease = Seconds(0.3)};
-    case 5: return request::RenewLease{};
+    case 5: return request::RenewKeepAlive{};
     case 6: return request::Home{};
     case 7: return request::Probe{.target = place(), .speed = MmPerSecond(10), .toward = random.chance(0.5)};
     case 8: return request::Check{.program = ProgramReader::from_text("t", cutting), .options = {}};

@@ -24,7 +24,7 @@ class SoakClient {
     if (status.state != MachineState::jog) renews_until_ = Seconds(0);
     if (status.time < renews_until_ && status.time >= renews_at_) {
       renews_at_ = status.time + Seconds(0.1);
-      return request::RenewLease{};
+      return request::RenewKeepAlive{};
     }
     if (status.time < next_) return {};
     next_ = status.time + Seconds(std::exp(random_.between(-3, 2)));
@@ -71,7 +71,7 @@ class SoakClient {
     switch (static_cast<int>(random_.between(0, 16.999))) {
       case 0: return start(status);
       case 1: return jog(status);
-      case 2: return request::RenewLease{};
+      case 2: return request::RenewKeepAlive{};
       case 3: return request::Home{};
       case 4: return probe(status);
       case 5: return check(status);

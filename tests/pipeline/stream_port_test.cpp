@@ -18,7 +18,7 @@
 namespace passo {
 namespace {
 
-constexpr LineCare care{.answer_within = Seconds(0.3)};
+constexpr LinkTimeouts care{.answer_within = Seconds(0.3)};
 
 // Plays the board on a descriptor until it is told to stop.
 class Player {

@@ -21,7 +21,7 @@ constexpr const char* torn_job = "G21 G90 G64 P.02 F3000 M3 S1000\nG4 P.1\nG2 X6
 struct LeftBehind {
   std::string journal;
   BoardStatus status;
-  PathPlace place;
+  PathPosition place;
 };
 
 // What a host leaves that dies at this moment. Empty: before the journal knows a rest.

@@ -31,7 +31,7 @@ bool is_playable(const BoardSegment& segment) {
 
 }  // namespace
 
-BoardSession::BoardSession(BoardPort& port, const LineCare& care)
+BoardSession::BoardSession(BoardPort& port, const LinkTimeouts& care)
     : port_(port), silence_(care, port.elapsed()), window_(port, silence_.may_lose()) {
   decoder_.set_motors(max_motors);
 }

@@ -50,7 +50,7 @@ class AirfoilReader {
  private:
   bool read_points();
   bool order_sides();
-  void refuse(SourcePlace place, std::string_view line, std::string message, std::string expected);
+  void refuse(SourceLocation place, std::string_view line, std::string message, std::string expected);
 
   const std::string& name_;
   TextLines lines_;
@@ -60,7 +60,7 @@ class AirfoilReader {
   std::optional<AirfoilPoint> counts_;  // of Lednicer's form
 };
 
-void AirfoilReader::refuse(SourcePlace place, std::string_view line, std::string message, std::string expected) {
+void AirfoilReader::refuse(SourceLocation place, std::string_view line, std::string message, std::string expected) {
   diagnostics_.add({.code = "airfoil.syntax",
                     .file = name_,
                     .place = place,

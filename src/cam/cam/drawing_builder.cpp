@@ -19,14 +19,14 @@ void DrawingBuilder::add_path(DrawnPath path) {
   if (!is_full_ && path.points.size() >= 2) drawing_.paths.push_back(std::move(path));
 }
 
-std::optional<Nanometres> DrawingBuilder::length(Mm value, const SourcePlace& place, std::string_view text) {
+std::optional<Nanometres> DrawingBuilder::length(Mm value, const SourceLocation& place, std::string_view text) {
   if (std::abs(value.value()) <= to_mm(farthest_drawn).value()) return to_nanometres(value);  // false for a NaN
   refuse("drawing.too-far", place, text, fmt::format("a length of {:g} mm is too large for a drawing", value.value()),
          fmt::format("at most {:g} mm; check the unit", to_mm(farthest_drawn).value()));
   return std::nullopt;
 }
 
-std::optional<DrawnPoint> DrawingBuilder::point(Mm x, Mm y, const SourcePlace& place, std::string_view text) {
+std::optional<DrawnPoint> DrawingBuilder::point(Mm x, Mm y, const SourceLocation& place, std::string_view text) {
   const auto across = length(x, place, text);
   if (!across) return std::nullopt;
   const auto up = length(y, place, text);
@@ -34,7 +34,7 @@ std::optional<DrawnPoint> DrawingBuilder::point(Mm x, Mm y, const SourcePlace& p
   return DrawnPoint{*across, *up};
 }
 
-bool DrawingBuilder::has_room_for(std::size_t points, const SourcePlace& place, std::string_view text) {
+bool DrawingBuilder::has_room_for(std::size_t points, const SourceLocation& place, std::string_view text) {
   if (is_full_) return false;
   if (points <= most_drawn - points_) {
     points_ += points;
@@ -46,7 +46,7 @@ bool DrawingBuilder::has_room_for(std::size_t points, const SourcePlace& place, 
   return false;
 }
 
-void DrawingBuilder::refuse(std::string code, const SourcePlace& place, std::string_view text, std::string message,
+void DrawingBuilder::refuse(std::string code, const SourceLocation& place, std::string_view text, std::string message,
                             std::string expected) {
   diagnostics_.add({.code = std::move(code),
                     .file = drawing_.file,

@@ -28,17 +28,17 @@ class DrawingBuilder {
   void note(std::string words) { drawing_.notes.push_back(std::move(words)); }
 
   // Converts a length. Reports an error and returns nothing if the length exceeds the limit of a drawing.
-  std::optional<Nanometres> length(Mm value, const SourcePlace& place, std::string_view text);
-  std::optional<DrawnPoint> point(Mm x, Mm y, const SourcePlace& place, std::string_view text);
+  std::optional<Nanometres> length(Mm value, const SourceLocation& place, std::string_view text);
+  std::optional<DrawnPoint> point(Mm x, Mm y, const SourceLocation& place, std::string_view text);
   // Reserves points before they are created. Reports an error and returns false if the limit would be exceeded.
-  bool has_room_for(std::size_t points, const SourcePlace& place, std::string_view text);
+  bool has_room_for(std::size_t points, const SourceLocation& place, std::string_view text);
 
   bool is_full() const { return is_full_; }
   const Drawing& drawing() const { return drawing_; }
   Drawing take() { return std::move(drawing_); }
 
  private:
-  void refuse(std::string code, const SourcePlace& place, std::string_view text, std::string message,
+  void refuse(std::string code, const SourceLocation& place, std::string_view text, std::string message,
               std::string expected);
 
   Diagnostics& diagnostics_;

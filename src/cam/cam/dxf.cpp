@@ -77,7 +77,7 @@ class DxfExpansion {
     if (document_.number(entity, 230, 1) >= 0) return transform;
     return transform.after({.xx = -1});
   }
-  SourcePlace place_of(const DxfEntity& entity) const { return {entity.line, entity.line == 0 ? 0U : 1U, 1}; }
+  SourceLocation place_of(const DxfEntity& entity) const { return {entity.line, entity.line == 0 ? 0U : 1U, 1}; }
   bool has_room(const DxfEntity& entity, std::size_t points) {
     return builder_.has_room_for(points, place_of(entity), "");
   }

@@ -72,13 +72,13 @@ class ExcellonReader {
     const auto found = std::ranges::find(words_, letter, &DrillWord::letter);
     return found == words_.end() ? nullptr : &*found;
   }
-  SourcePlace place_of(const DrillWord& word) const {
+  SourceLocation place_of(const DrillWord& word) const {
     return {lines_.number(), word.column, static_cast<std::uint32_t>(word.number.size() + 1)};
   }
-  SourcePlace whole_line() const {
+  SourceLocation whole_line() const {
     return {lines_.number(), 1, std::max<std::uint32_t>(1, static_cast<std::uint32_t>(line_.size()))};
   }
-  bool refuse(const SourcePlace& place, const char* code, std::string message, std::string expected) {
+  bool refuse(const SourceLocation& place, const char* code, std::string message, std::string expected) {
     diagnostics_.add({.code = code,
                       .file = builder_.drawing().file,
                       .place = place,

@@ -80,7 +80,7 @@ GerberText::Spot GerberText::spot(const GerberCommand& command, std::size_t at) 
   return spot;
 }
 
-SourcePlace GerberText::place(const GerberCommand& command, std::size_t at, std::size_t length) const {
+SourceLocation GerberText::place(const GerberCommand& command, std::size_t at, std::size_t length) const {
   const Spot where = spot(command, at);
   return {where.line, static_cast<std::uint32_t>(where.byte - where.line_begin + 1),
           static_cast<std::uint32_t>(std::max<std::size_t>(1, length))};

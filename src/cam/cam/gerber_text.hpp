@@ -30,7 +30,7 @@ class GerberText {
   [[nodiscard]] bool next(GerberCommand& command);
 
   // Returns the position of words.substr(at, length).
-  SourcePlace place(const GerberCommand& command, std::size_t at, std::size_t length) const;
+  SourceLocation place(const GerberCommand& command, std::size_t at, std::size_t length) const;
   // Returns the source line at that position, for the caret. Empty if the line is too long to be shown.
   std::string_view line_of(const GerberCommand& command, std::size_t at) const;
 

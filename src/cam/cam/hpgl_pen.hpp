@@ -50,7 +50,7 @@ class HpglPen {
   bool draws() const { return has_pen_ && is_chosen_; }
   void put(HpglSpot spot, double bulge_before = 0);
   void dashed_to(HpglSpot to);
-  SourcePlace place() const { return {line_, line_ == 0 ? 0U : 1U, 1}; }
+  SourceLocation place() const { return {line_, line_ == 0 ? 0U : 1U, 1}; }
 
   const HpglOptions& options_;
   DrawingBuilder builder_;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "arc_fit.hpp"
-#include "cut_track.hpp"
+#include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
 #include "flat_vector.hpp"
 #include <fmt/format.h>
@@ -42,11 +42,11 @@ class OutlinePlanner {
     refuse_narrow_openings();
     find_cuts();
     order();
-    std::vector<CutTrack> tracks;
+    std::vector<ClosedToolpath> tracks;
     for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring)));
     put_tabs(tracks);
     MillTool tool{options_.cutter, options_.words, {}};
-    for (const CutTrack& track : tracks) tool.runs.push_back(run_of(track));
+    for (const ClosedToolpath& track : tracks) tool.runs.push_back(run_of(track));
     measure_loss();
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     return std::move(plan_);
@@ -58,14 +58,14 @@ class OutlinePlanner {
   void refuse_narrow_openings();
   void find_cuts();
   void order();
-  CutTrack track_of(DrawnRing ring) const;
+  ClosedToolpath track_of(DrawnRing ring) const;
   void add_dog_bones(DrawnRing& ring) const;
-  void put_tabs(std::vector<CutTrack>& tracks);
-  std::vector<double> spread_tabs(const CutTrack& track, double wide) const;
-  MillRun run_of(const CutTrack& track);
+  void put_tabs(std::vector<ClosedToolpath>& tracks);
+  std::vector<double> spread_tabs(const ClosedToolpath& track, double wide) const;
+  MillRun run_of(const ClosedToolpath& track);
   bool is_clear(DrawnPoint from, DrawnPoint to, double bulge) const;
-  std::vector<DrawnPoint> lead_of(const CutTrack& track) const;
-  void keep_way(const CutTrack& track, const std::vector<DrawnPoint>& lead, double quarter);
+  std::vector<DrawnPoint> lead_of(const ClosedToolpath& track) const;
+  void keep_way(const ClosedToolpath& track, const std::vector<DrawnPoint>& lead, double quarter);
   void measure_loss();
 
   const Region& board_;
@@ -182,7 +182,7 @@ void OutlinePlanner::add_dog_bones(DrawnRing& ring) const {
 }
 
 // Begins in the middle of the longest edge, away from corners.
-CutTrack OutlinePlanner::track_of(DrawnRing ring) const {
+ClosedToolpath OutlinePlanner::track_of(DrawnRing ring) const {
   if (options_.dog_bones) add_dog_bones(ring);
   std::size_t longest = 0;
   const auto edge_length = [&](std::size_t i) { return distance_nm(ring[i], ring[(i + 1) % ring.size()]); };
@@ -199,10 +199,10 @@ CutTrack OutlinePlanner::track_of(DrawnRing ring) const {
   ring.push_back(ring.front());
   std::vector<PathPoint> points = with_arcs(ring, {});
   points.pop_back();
-  return CutTrack(points);
+  return ClosedToolpath(points);
 }
 
-std::vector<double> OutlinePlanner::spread_tabs(const CutTrack& track, double wide) const {
+std::vector<double> OutlinePlanner::spread_tabs(const ClosedToolpath& track, double wide) const {
   std::vector<double> middles;
   const double apart = track.length() / options_.tabs;
   for (std::uint32_t k = 0; k < options_.tabs; ++k) {
@@ -221,7 +221,7 @@ std::vector<double> OutlinePlanner::spread_tabs(const CutTrack& track, double wi
   return middles;
 }
 
-void OutlinePlanner::put_tabs(std::vector<CutTrack>& tracks) {
+void OutlinePlanner::put_tabs(std::vector<ClosedToolpath>& tracks) {
   const auto wide = static_cast<double>(options_.tab_width.count + options_.cutter.count);
   std::vector<std::vector<double>> middles(tracks.size());
   for (std::size_t i = 0; i < tracks.size(); ++i) {
@@ -265,7 +265,7 @@ bool OutlinePlanner::is_clear(DrawnPoint from, DrawnPoint to, double bulge) cons
 
 // From where a quarter of a circle leads to the track's start, and to where another one leads away; empty: there is no
 // room. The waste lies to the left where the cutter climbs.
-std::vector<DrawnPoint> OutlinePlanner::lead_of(const CutTrack& track) const {
+std::vector<DrawnPoint> OutlinePlanner::lead_of(const ClosedToolpath& track) const {
   const DrawnPoint start = track.at(0);
   const double direction = track.direction(0);
   const double side = options_.climb ? 1 : -1;
@@ -283,7 +283,7 @@ std::vector<DrawnPoint> OutlinePlanner::lead_of(const CutTrack& track) const {
   return {};
 }
 
-MillRun OutlinePlanner::run_of(const CutTrack& track) {
+MillRun OutlinePlanner::run_of(const ClosedToolpath& track) {
   const auto levels =
       std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
   const std::vector<DrawnPoint> lead = options_.lead.count > 0 ? lead_of(track) : std::vector<DrawnPoint>{};
@@ -322,7 +322,7 @@ MillRun OutlinePlanner::run_of(const CutTrack& track) {
 }
 
 // A ramp may go around a small opening very often: one lap is enough to know what is cut.
-void OutlinePlanner::keep_way(const CutTrack& track, const std::vector<DrawnPoint>& lead, double quarter) {
+void OutlinePlanner::keep_way(const ClosedToolpath& track, const std::vector<DrawnPoint>& lead, double quarter) {
   if (track.length() <= 0) return;
   MillRun lap;
   if (!lead.empty()) lap.push_back({lead[0], quarter, {}});

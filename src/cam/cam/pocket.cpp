@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arc_fit.hpp"
-#include "cut_track.hpp"
+#include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
 #include "engagement.hpp"
 #include "nested_loops.hpp"
@@ -80,7 +80,7 @@ class PocketPlanner {
   void tell_narrow_parts();
   void find_offsets();
   void take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings);
-  CutTrack track_of(DrawnRing ring, DrawnPoint near) const;
+  ClosedToolpath track_of(DrawnRing ring, DrawnPoint near) const;
   bool may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const;
   void add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs);
   void measure();
@@ -250,11 +250,11 @@ void PocketPlanner::sweep(const PeelWay& way) {
 
 // A helix down to each layer, or straight down, and then all runs there.
 void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
-  const CutTrack lap = [&] {
+  const ClosedToolpath lap = [&] {
     std::vector<PathPoint> points;
     for (const MillPoint& point : way.entry) points.push_back({point.at, point.bulge});
     points.pop_back();
-    return CutTrack(points);
+    return ClosedToolpath(points);
   }();
   Nanometres z{};
   for (std::int64_t level = 1; level <= levels(); ++level) {
@@ -317,7 +317,7 @@ void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector
 }
 
 // Begins at the ring's place nearest to `near`. Short edges may be chords of an arc, and stay whole.
-CutTrack PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
+ClosedToolpath PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
   std::size_t best = 0;
   DrawnPoint begin = ring.front();
   double least = distance_nm(begin, near);
@@ -341,7 +341,7 @@ CutTrack PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
   ring.push_back(ring.front());
   std::vector<PathPoint> points = with_arcs(ring, {});
   points.pop_back();
-  return CutTrack(points);
+  return ClosedToolpath(points);
 }
 
 // Whether the cutter may go straight from the end of the run to a loop: near walls never, through ground that nobody
@@ -356,10 +356,10 @@ bool PocketPlanner::may_go_on(const MillRun& run, DrawnPoint to, bool is_free) c
 // Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
 void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs) {
   plan_.loops += rings.size();
-  std::vector<CutTrack> tracks;
+  std::vector<ClosedToolpath> tracks;
   DrawnPoint at = rings.front().front();
   for (DrawnRing& ring : rings) {
-    CutTrack track = track_of(std::move(ring), at);
+    ClosedToolpath track = track_of(std::move(ring), at);
     if (track.length() <= 0) continue;
     at = track.at(0);
     // A ramp may go around often: one lap is enough to know what is cut.
@@ -373,7 +373,7 @@ void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>&
   for (std::int64_t level = 1; level <= levels(); ++level) {
     const Nanometres next{options_.depth.count * level / levels()};
     bool is_first = true;
-    for (const CutTrack& track : tracks) {
+    for (const ClosedToolpath& track : tracks) {
       const DrawnPoint start = track.at(0);
       const bool goes_on = may_go_on(run, start, is_first);
       if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "arc_fit.hpp"
-#include "cut_track.hpp"
+#include "closed_toolpath.hpp"
 #include "nested_loops.hpp"
 #include <fmt/format.h>
 
@@ -180,7 +180,7 @@ void ProfilePlanner::cut_on(const std::vector<PathPoint>& points, bool is_closed
     closed.back().bulge = row.size() > 1 ? -row[row.size() - 2].bulge : 0;
     for (std::size_t i = row.size() - 1; i-- > 1;) closed.push_back({row[i].at, -row[i - 1].bulge});
   }
-  CutTrack track(closed);
+  ClosedToolpath track(closed);
   const OutlineOptions& cut = options_.cut;
   if (track.length() <= 0) return;
   const double there = is_closed ? track.length() : track.length() / 2;

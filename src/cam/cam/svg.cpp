@@ -81,7 +81,7 @@ class SvgExpansion {
   void put_arc(DrawnPath& path, const SvgElement& element, const Place& place, const SvgArc& arc);
   void put_curve(DrawnPath& path, const SvgElement& element, const Place& place, SvgSpot from, const SvgPiece& piece);
   void refuse(const SvgElement& element, std::string code, std::string message, std::string expected);
-  static SourcePlace place_of(const SvgElement& element) { return {element.line, element.line == 0 ? 0U : 1U, 1}; }
+  static SourceLocation place_of(const SvgElement& element) { return {element.line, element.line == 0 ? 0U : 1U, 1}; }
 
   const std::string& name_;
   const SvgDocument& document_;

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "held_removal.hpp"
 #include "relief_passes.hpp"
+#include "removal_rate_control.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -58,7 +58,7 @@ class ReliefProgram {
   NodeLattice lattice_;
   ReliefReport report_;
   std::optional<StockInWork> stock_;
-  HeldRemoval removal_;
+  RemovalRateControl removal_;
   bool wants_carved_ = false;
   int tools_ = 1;
   int tool_ = 0;
@@ -133,10 +133,10 @@ void ReliefProgram::record(const ReliefTool& tool, Mm overrun, const std::functi
 }
 
 void ReliefProgram::finish() {
-  if (options_.way == FinishWay::contours) cut(finish_contours, surface_, false);
-  if (options_.way == FinishWay::spiral) cut(finish_spiral, surface_, false);
-  if (options_.way == FinishWay::rows || options_.way == FinishWay::both) cut(finish_rows, surface_, false);
-  if (options_.way == FinishWay::columns || options_.way == FinishWay::both) {
+  if (options_.way == FinishStrategy::contours) cut(finish_contours, surface_, false);
+  if (options_.way == FinishStrategy::spiral) cut(finish_spiral, surface_, false);
+  if (options_.way == FinishStrategy::rows || options_.way == FinishStrategy::both) cut(finish_rows, surface_, false);
+  if (options_.way == FinishStrategy::columns || options_.way == FinishStrategy::both) {
     cut(finish_rows, surface_.transposed(), true);
   }
 }
@@ -144,8 +144,8 @@ void ReliefProgram::finish() {
 // Only where somebody asks for it: it costs time.
 void ReliefProgram::watch_stock() {
   const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
-  const bool is_asked = options_.way == FinishWay::contours || options_.finish.removal > 0 ||
-                        (options_.roughing && options_.roughing->way == RoughWay::offsets) ||
+  const bool is_asked = options_.way == FinishStrategy::contours || options_.finish.removal > 0 ||
+                        (options_.roughing && options_.roughing->way == RoughStrategy::offsets) ||
                         holds(options_.roughing) || holds(options_.rest);
   if (!is_asked) return;
   Mm beyond = finishing_overrun(options_);
@@ -165,7 +165,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
     report_.carved.heights.assign(surface_.heights.size(), 0.0F);
   }
   tools_ = 1 + (options_.roughing ? 1 : 0) + (options_.rest ? 1 : 0);
-  parts_ = tools_ + (options_.way == FinishWay::both ? 1 : 0);
+  parts_ = tools_ + (options_.way == FinishStrategy::both ? 1 : 0);
   begin();
   watch_stock();
   const auto nodes_step = [&](const ReliefTool& tool, bool is_roughing, Mm pitch) {
@@ -174,15 +174,16 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   if (options_.roughing) {
     const ReliefTool& tool = options_.roughing->tool;
     begin_tool("roughing", tool);
-    record(tool, roughing_overrun(options_),
-           [&] { cut(options_.roughing->way == RoughWay::offsets ? rough_by_offsets : rough_out, surface_, false); });
+    record(tool, roughing_overrun(options_), [&] {
+      cut(options_.roughing->way == RoughStrategy::offsets ? rough_by_offsets : rough_out, surface_, false);
+    });
     end_tool("roughing", tool, nodes_step(tool, true, surface_.pitch_y));
   }
   begin_tool("finishing", options_.finish);
   record(options_.finish, finishing_overrun(options_), [&] { finish(); });
-  end_tool(
-      "finishing", options_.finish,
-      nodes_step(options_.finish, false, options_.way == FinishWay::columns ? surface_.pitch_x : surface_.pitch_y));
+  end_tool("finishing", options_.finish,
+           nodes_step(options_.finish, false,
+                      options_.way == FinishStrategy::columns ? surface_.pitch_x : surface_.pitch_y));
   if (options_.rest) {
     const ReliefTool& tool = options_.rest->tool;
     begin_tool("rest finishing", tool);

@@ -123,7 +123,7 @@ double curvature_on(const HeightMap::Cell& cell, const Arc& arc) {
 
 }  // namespace
 
-std::vector<LevelledPiece> level_line(const HeightMap& map, const LevelPlace& from, const LevelPlace& to,
+std::vector<LevelledPiece> level_line(const HeightMap& map, const LevelPoint& from, const LevelPoint& to,
                                       double tolerance) {
   const double dx = to.x - from.x;
   const double dy = to.y - from.y;
@@ -153,7 +153,7 @@ std::vector<LevelledPiece> level_line(const HeightMap& map, const LevelPlace& fr
   return pieces;
 }
 
-std::vector<LevelledPiece> level_arc(const HeightMap& map, const LevelPlace& from, const LevelPlace& to,
+std::vector<LevelledPiece> level_arc(const HeightMap& map, const LevelPoint& from, const LevelPoint& to,
                                      double center_x, double center_y, double sweep, double tolerance) {
   const Arc arc{.center_x = center_x,
                 .center_y = center_y,

@@ -101,7 +101,7 @@ std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
   return {
       {"rough", &a.rough, text, "roughing cutter, which works level by level"},
       {"rough-way",
-       &a.rough_way,
+       &a.rough_strategy,
        choice,
        "roughing strategy: rows, or offsets of each level's outline",
        {.choices = {"rows", "offsets"}, .matters_to = experts}},

@@ -13,7 +13,7 @@ constexpr double least_step = 1e-5;   // mm, that is written
 // A piece of an arc that is shorter is written as a line: its ends might be one place as they are written.
 constexpr double shortest_arc = 1e-3;  // mm
 
-LevelPlace level_place(const Point& place) {
+LevelPoint level_point(const Point& place) {
   return {place[Axis::x], place[Axis::y], place[Axis::z]};
 }
 
@@ -90,8 +90,8 @@ void LevelledWriter::begin_at_height(const LevelledMove& move) {
 void LevelledWriter::emit_move(const LevelledMove& move) {
   PlainMove plain{
       .rapid = move.rapid, .feed = move.feed, .named = move.named, .absolute = move.absolute, .to = move.to};
-  const LevelPlace from = level_place(move.from);
-  const LevelPlace to = level_place(move.to);
+  const LevelPoint from = level_point(move.from);
+  const LevelPoint to = level_point(move.to);
   if (move.is_arc && !move.levelled) return emit_arc_piece(move, 0, {.end = to});
   const bool is_whole = (move.from_anywhere || move.from_above) && !move.is_arc;
   if (!move.levelled || is_whole || move.is_upright()) {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "known_work_position.hpp"
 #include "levelled_writer.hpp"
 #include "off_codes.hpp"
-#include "said_place.hpp"
 
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/frame_blocks.hpp"
@@ -92,7 +92,7 @@ class Leveller {
   WrittenFrame written_;
   std::uint64_t homing_ = 0;  // the block whose homing move has begun
   Point place_;               // position of the original program, work coordinates
-  SaidPlace said_;
+  KnownWorkPosition said_;
   operation::FeedPerSecond feed_;
   operation::SetPathMode path_mode_;
   KeptCycle cycle_;

@@ -55,12 +55,12 @@ void watch_loads(const MotionItem& item, MarginSurvey& survey, const JudgeWatche
 
 }  // namespace
 
-void LineLoads::add(std::uint32_t line, double load) {
+void LineTorques::add(std::uint32_t line, double load) {
   if (line >= loads_.size()) loads_.resize(line + 1, -1.0F);
   loads_[line] = std::max(loads_[line], static_cast<float>(load));
 }
 
-std::string LineLoads::text() const {
+std::string LineTorques::text() const {
   std::string text = "line,load\n";
   for (std::size_t line = 0; line < loads_.size(); ++line) {
     if (loads_[line] >= 0) fmt::format_to(std::back_inserter(text), "{},{:.3f}\n", line, loads_[line]);

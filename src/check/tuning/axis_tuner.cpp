@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "calm_sweep.hpp"
+#include "stability_sweep.hpp"
 #include <fmt/format.h>
 
 #include "passo/activity/machine_plant.hpp"

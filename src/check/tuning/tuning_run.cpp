@@ -98,7 +98,7 @@ bool yield_to(const MarginVerdict& verdict, const AxisTuning& tuning, TuningWish
   const auto judged = std::ranges::find(verdict.axes, tuning.axis, &AxisMargin::axis);
   if (judged == verdict.axes.end() || !judged->worst || judged->worst->verdict == Verdict::safe) return false;
   constexpr double less = 0.9;
-  if (judged->worst->want == Want::calm) {
+  if (judged->worst->want == LossCause::calm) {
     wish.fastest = less * std::min(judged->worst->speed, tuning.velocity);
   } else {
     wish.margin = 1 - less * (1 - wish.margin);

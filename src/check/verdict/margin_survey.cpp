@@ -228,12 +228,12 @@ void MarginSurvey::judge(std::size_t motor, MarginSpot spot, const TrialFinding&
   if (!hardest || spot.load() >= hardest->load() || spot.time - hardest->time > time_to_swing) hardest = spot;
   if (finding.judged && finding.lost == 0 && finding.most_swing < safe_swing) {
     spot.verdict = Verdict::safe;
-    spot.want = Want::torque;
+    spot.want = LossCause::torque;
   } else if (finding.judged) {
     spot = *hardest;
-    if (!is_lack(motor, spot) && spot.verdict == Verdict::safe) spot.want = Want::calm;
+    if (!is_lack(motor, spot) && spot.verdict == Verdict::safe) spot.want = LossCause::calm;
     spot.verdict = finding.lost > 0 && finding.usual_out ? Verdict::lost : Verdict::doubtful;
-  } else if (spot.want == Want::jump) {
+  } else if (spot.want == LossCause::jump) {
     static_cast<void>(is_lack(motor, spot));
   }
   record(motor, spot);
@@ -281,7 +281,7 @@ void MarginSurvey::add_jump(std::size_t motor, const Moment& moment, MarginSpot&
   spot.acceleration = MmPerSecond2(std::max(std::abs(before.acceleration), std::abs(moment.acceleration)));
   if (spot.needed.value > share_ * spot.there.low.value) {
     spot.verdict = Verdict::doubtful;
-    spot.want = Want::jump;
+    spot.want = LossCause::jump;
   }
 }
 
@@ -307,14 +307,15 @@ void MarginSurvey::update_lack(std::size_t motor, const MarginSpot& spot) {
 bool MarginSurvey::is_lack(std::size_t motor, MarginSpot& spot) const {
   const std::optional<MarginSpot>& lack = states_[motor].lack;
   if (!lack || spot.time - lack->time > time_to_swing) return false;
-  spot.want = Want::torque;
-  spot.lack = Lack{.needed = lack->of_motion, .of_cut = lack->of_cut, .there = lack->there, .rate = lack->rate};
+  spot.want = LossCause::torque;
+  spot.lack =
+      TorqueShortage{.needed = lack->of_motion, .of_cut = lack->of_cut, .there = lack->there, .rate = lack->rate};
   return true;
 }
 
 // The greatest acceleration with which the moment would be safe at its speed.
 std::optional<MmPerSecond2> MarginSurvey::safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const {
-  if (spot.verdict == Verdict::safe || spot.want == Want::calm || !(spot.of_motion.value > 0)) return {};
+  if (spot.verdict == Verdict::safe || spot.want == LossCause::calm || !(spot.of_motion.value > 0)) return {};
   const double swing = spot.needed.value / spot.of_motion.value;
   const double for_each = own.inertia * own.radians_per_unit;  // N·m for mm/s²
   const double rest = spot.of_motion.value - for_each * spot.acceleration.value();
@@ -327,7 +328,7 @@ std::optional<MmPerSecond2> MarginSurvey::safe_acceleration(const SurveyedMotor&
 void MarginSurvey::find_safe_speed(MarginSpot& spot) {
   if (spot.verdict == Verdict::safe) return;
   const auto own = std::ranges::find(motors_, spot.axis, &SurveyedMotor::axis);
-  if (spot.want == Want::calm && !own->band.tried()) own->band.try_steady(own->fastest);
+  if (spot.want == LossCause::calm && !own->band.tried()) own->band.try_steady(own->fastest);
   const double swing = spot.of_motion.value > 0 ? spot.needed.value / spot.of_motion.value : 1;
   const double for_each = own->inertia * own->radians_per_unit;
   const double shaft = spot.speed.value() * own->radians_per_unit;
@@ -338,7 +339,7 @@ void MarginSurvey::find_safe_speed(MarginSpot& spot) {
     const double needed = swing * (spot.of_motion.value - for_each * std::min(turning, spot.acceleration.value()) -
                                    spot.of_cut.value * (1 - part));
     const NewtonMetres there =
-        spot.want == Want::calm ? own->band.while_steady({part * shaft}) : own->band.of_curve({part * shaft}).low;
+        spot.want == LossCause::calm ? own->band.while_steady({part * shaft}) : own->band.of_curve({part * shaft}).low;
     if (needed > share_ * there.value) continue;
     spot.safe_path_speed = part * spot.path_speed;
     break;

@@ -23,7 +23,7 @@ std::string rounded_down(double value) {
 }  // namespace
 
 std::string cause_of(const MarginSpot& spot) {
-  if (spot.want == Want::calm) {
+  if (spot.want == LossCause::calm) {
     return fmt::format(
         "{} has enough torque at {} steps/s (needs {:.3g} N\u00B7m, has {:.3g} to {:.3g}), but the motor may lose "
         "steps there through resonance (mid-band instability)",
@@ -32,7 +32,7 @@ std::string cause_of(const MarginSpot& spot) {
   }
   std::string words = fmt::format("{} needs {:.3g} N\u00B7m at {} steps/s", letter_of(spot.axis), spot.needed.value,
                                   with_commas(spot.rate.value()));
-  if (spot.want == Want::jump) words += " to damp the oscillation after a jump of its torque";
+  if (spot.want == LossCause::jump) words += " to damp the oscillation after a jump of its torque";
   constexpr double notable = 5e-4;  // N·m
   if (spot.of_cut.value >= notable) words += fmt::format(", {:.3g} of it for the cut", spot.of_cut.value);
   words += fmt::format(", and has {:.3g} to {:.3g}", spot.there.low.value, spot.there.high.value);
@@ -56,8 +56,9 @@ std::string cure_of(const MarginSpot& spot) {
 }
 
 bool is_torque_enough(const MarginVerdict& margin) {
-  return std::ranges::none_of(
-      margin.worst, [](const MarginSpot& spot) { return spot.verdict != Verdict::safe && spot.want == Want::torque; });
+  return std::ranges::none_of(margin.worst, [](const MarginSpot& spot) {
+    return spot.verdict != Verdict::safe && spot.want == LossCause::torque;
+  });
 }
 
 }  // namespace passo

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
-#include "passo/diagnostics/shown_place.hpp"
+#include "passo/diagnostics/shown_location.hpp"
 
 namespace passo {
 namespace {
@@ -51,7 +51,7 @@ Window window_around(std::string_view line, std::size_t offset, std::size_t leng
   return window;
 }
 
-void append_calls(const std::vector<CallPlace>& calls, std::string& out) {
+void append_calls(const std::vector<CallLocation>& calls, std::string& out) {
   for (std::size_t i = 0; i < calls.size(); ++i) {
     const std::size_t left_out = calls.size() > 2 * calls_shown ? calls.size() - 2 * calls_shown : 0;
     if (left_out > 1 && i == calls_shown) {
@@ -79,8 +79,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-SourcePlace shown_place(const Diagnostic& diagnostic) {
-  SourcePlace place = diagnostic.place;
+SourceLocation shown_location(const Diagnostic& diagnostic) {
+  SourceLocation place = diagnostic.place;
   const std::string_view text = diagnostic.text;
   if (place.column == 0 || place.column > text.size()) return place;
   const std::size_t before = place.column - 1;
@@ -147,11 +147,11 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
     return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
   };
   const bool is_error = diagnostic.severity == Severity::error;
-  const SourcePlace& place = diagnostic.place;
+  const SourceLocation& place = diagnostic.place;
 
   std::string where = diagnostic.file;
   if (place.line > 0) where += fmt::format(":{}", place.line);
-  if (place.line > 0 && place.column > 0) where += fmt::format(":{}", shown_place(diagnostic).column);
+  if (place.line > 0 && place.column > 0) where += fmt::format(":{}", shown_location(diagnostic).column);
 
   std::string out = where.empty() ? std::string() : paint("1", where) + ": ";
   out += fmt::format("{}: {} [{}]\n", is_error ? paint("1;31", "error") : paint("1;35", "warning"),
@@ -159,7 +159,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   if (place.line > 0 && place.column > 0 && !diagnostic.text.empty()) {
     const Window window = window_around(diagnostic.text, place.column - 1, place.length);
     const std::size_t room = characters(window.text) > window.caret ? characters(window.text) - window.caret : 1;
-    const std::size_t length = std::clamp<std::size_t>(shown_place(diagnostic).length, 1, room);
+    const std::size_t length = std::clamp<std::size_t>(shown_location(diagnostic).length, 1, room);
     out += fmt::format("{:>5} | {}\n", place.line, window.text);
     out += fmt::format("      | {}{}\n", std::string(window.caret, ' '),
                        paint("1;32", "^" + std::string(length - 1, '~')));

@@ -62,7 +62,7 @@ void PathRecorder::watch(const MotionItem& item, const Point& machine_minus_work
 
 void PathRecorder::change_tool(std::int32_t tool) {
   const auto itself = [tool] { return tool; };
-  tool_ = static_cast<std::uint8_t>(place_of_tool(tools_, tool, std::identity(), most_tools, itself));
+  tool_ = static_cast<std::uint8_t>(index_of_tool(tools_, tool, std::identity(), most_tools, itself));
 }
 
 void PathRecorder::watch_move(const PlannedMove& move, const Point& origin) {

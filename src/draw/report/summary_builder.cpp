@@ -151,7 +151,7 @@ class SummaryBuilder::Implementation {
 
   ToolSummary& tool_of(std::int32_t number) {
     const auto fresh = [number] { return ToolSummary{.tool = number}; };
-    return sum_.tools[place_of_tool(sum_.tools, number, &ToolSummary::tool, ToolTable::most_tools, fresh)];
+    return sum_.tools[index_of_tool(sum_.tools, number, &ToolSummary::tool, ToolTable::most_tools, fresh)];
   }
 
   void add_work(std::size_t system, RunSummary& summary) const {

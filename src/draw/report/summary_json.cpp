@@ -117,7 +117,7 @@ void add_probes(const RunSummary& summary, const ProbeSummary& probes, Json& jso
 }
 
 void add_tails(const RunSummary& summary, Json& json) {
-  for (const TailSummary& tail : summary.tails) {
+  for (const StopRampSummary& tail : summary.tails) {
     json["tails"].push_back({{"rest_s", tail.rest.value()},
                              {"position_mm", places(summary, tail.place)},
                              {"resumed_s", tail.resumed.value()}});

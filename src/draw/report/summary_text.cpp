@@ -170,7 +170,7 @@ class Text {
 
   void tails(const RunSummary& summary) {
     heading("Stopped without the computer", "s");
-    for (const TailSummary& tail : summary.tails) {
+    for (const StopRampSummary& tail : summary.tails) {
       out_ += fmt::format("  stopped at {:.3f} at", tail.rest.value());
       add_place(summary, tail.place);
       out_ += fmt::format("; continued at {:.3f}\n", tail.resumed.value());

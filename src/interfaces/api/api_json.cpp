@@ -153,7 +153,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
   return json;
 }
 
-Json as_json(const MotionOwner& owner) {
+Json as_json(const MachineControl& owner) {
   static constexpr const char* kinds[] = {"nobody", "sender", "client"};
   return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}, {"taken", owner.changes()}};
 }
@@ -166,7 +166,7 @@ Json as_json(const ApiJob& job) {
 }
 
 Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at) {
-  const ModesInForce modes = mdi.modes();
+  const ActiveModes modes = mdi.modes();
   Json codes = modes.codes;
   codes.push_back(modes.spindle == SpindleDirection::off         ? "M5"
                   : modes.spindle == SpindleDirection::clockwise ? "M3"

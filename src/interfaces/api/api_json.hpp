@@ -11,8 +11,8 @@
 #include "passo/activity/homing_repeats.hpp"
 #include "passo/api/api_job.hpp"
 #include "passo/api/api_routes.hpp"
+#include "passo/api/machine_control.hpp"
 #include "passo/api/mdi_lines.hpp"
-#include "passo/api/motion_owner.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
@@ -40,7 +40,7 @@ double rounded(double value);
 
 Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
-Json as_json(const MotionOwner& owner);
+Json as_json(const MachineControl& owner);
 Json as_json(const ApiJob& job);
 // Returns the modal state of the MDI lines, and the tool position derived from it.
 Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at);

@@ -4,7 +4,7 @@
 #include "kept_offsets.hpp"
 
 #include "passo/api/api_options.hpp"
-#include "passo/api/motion_owner.hpp"
+#include "passo/api/machine_control.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
@@ -14,7 +14,7 @@ namespace passo {
 struct ApiShared {
   const MachineDescription& machine;
   MachineSession& session;
-  MotionOwner& owner;
+  MachineControl& owner;
   const ApiOptions& options;
   ProgramStore& programs;
   KeptOffsets& offsets;

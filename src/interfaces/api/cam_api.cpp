@@ -14,12 +14,12 @@ namespace {
 constexpr std::size_t most_options = 60;
 constexpr std::size_t most_values = 200;
 
-const char* name_of(MakeResult::State state) {
+const char* name_of(CamResult::State state) {
   switch (state) {
-    case MakeResult::State::none: return "none";
-    case MakeResult::State::running: return "running";
-    case MakeResult::State::done: return "done";
-    case MakeResult::State::failed: return "failed";
+    case CamResult::State::none: return "none";
+    case CamResult::State::running: return "running";
+    case CamResult::State::done: return "done";
+    case CamResult::State::failed: return "failed";
   }
   return "";
 }
@@ -77,8 +77,8 @@ Result<std::string, std::string> profile_of(const CamOperation& operation, const
 }
 
 // The error: the body is no order. `kept`: names of the files that were sent.
-Result<MakeOrder, std::string> order_from(const Json& said, const std::vector<std::string>& kept) {
-  MakeOrder order;
+Result<CamOrder, std::string> order_from(const Json& said, const std::vector<std::string>& kept) {
+  CamOrder order;
   const Json job = said.value("job", Json());
   const CamOperation* const operation = job.is_string() ? find_cam_operation(job.get<std::string>()) : nullptr;
   if (operation == nullptr) return Failure{"\"job\": expected one of GET /cam"};
@@ -111,8 +111,8 @@ Result<MakeOrder, std::string> order_from(const Json& said, const std::vector<st
 
 WebAnswer CamApi::state_answer(unsigned status) {
   poll();
-  const Maker& maker = *shared_.options.maker;
-  const MakeResult& result = shared_.options.maker->result();
+  const CamService& maker = *shared_.options.maker;
+  const CamResult& result = shared_.options.maker->result();
   const Json report = Json::parse(result.report, nullptr, false);
   Json jobs = Json::array();
   for (const CamOperation& operation : cam_operations()) jobs.push_back(operation.name);
@@ -140,8 +140,8 @@ WebAnswer CamApi::operations(const ApiCall&) {
 }
 
 WebAnswer CamApi::picture(const ApiCall& call) {
-  const MakeResult& result = shared_.options.maker->result();
-  const bool done = result.state == MakeResult::State::done && !result.picture_type.empty();
+  const CamResult& result = shared_.options.maker->result();
+  const bool done = result.state == CamResult::State::done && !result.picture_type.empty();
   const std::string_view digits = call.query("number");
   std::size_t number = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -184,13 +184,13 @@ WebAnswer CamApi::begin(const ApiCall& call) {
       return bad_body("there is no \"" + name.substr(0, 40) + "\"");
   }
   if (shared_.options.maker == nullptr) return no_maker();
-  Maker& maker = *shared_.options.maker;
+  CamService& maker = *shared_.options.maker;
   auto order = order_from(said, maker.files());
   if (!order) return bad_body(order.error());
   const MachineFileAccess& file = shared_.options.machine_access;
   if (!find_cam_operation(order->job)->parts.empty() && file.read) order->machine = file.read().value_or("");
   if (!maker.begin(*order)) {
-    if (maker.result().state == MakeResult::State::running)
+    if (maker.result().state == CamResult::State::running)
       return error_answer(409, "make.busy", "another program is being generated");
     return error_answer(507, "make.no-room", "there is no room for the generated files: free disk space");
   }
@@ -201,10 +201,10 @@ WebAnswer CamApi::begin(const ApiCall& call) {
 
 void CamApi::poll() {
   if (making_.empty()) return;
-  const MakeResult& result = shared_.options.maker->result();
-  if (result.state == MakeResult::State::running) return;
+  const CamResult& result = shared_.options.maker->result();
+  if (result.state == CamResult::State::running) return;
   const std::string source = std::exchange(making_, {});
-  if (result.state != MakeResult::State::done) return;
+  if (result.state != CamResult::State::done) return;
   ProgramStore& programs = shared_.programs;
   const ApiJob& job = jobs_.job();
   const bool runs = job.state == JobState::checking || job.state == JobState::running;

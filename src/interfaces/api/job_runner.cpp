@@ -211,7 +211,7 @@ void JobRunner::name_job() {
                          : kept_->begin({.history = job_.history,
                                          .text = program.text_to_keep(),
                                          .path = program.path,
-                                         .place = begins_.way ? begins_.way->at.place : PathPlace(),
+                                         .place = begins_.way ? begins_.way->at.place : PathPosition(),
                                          .start = goes_on_ ? parked_->start : stands,
                                          .probes = goes_on_ ? parked_->probes : std::vector<ProbeOutcome>()});
   if (begun) {

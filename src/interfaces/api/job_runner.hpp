@@ -93,7 +93,7 @@ class JobRunner {
   ApiJob job_;
   // The parameters of the start of the job.
   struct Beginning {
-    std::uint64_t owner = 0;             // MotionOwner::changes() when the job was requested
+    std::uint64_t owner = 0;             // MachineControl::changes() when the job was requested
     bool resumes = false;                // the interrupted job is resumed
     bool reenters = false;               // it is resumed by a reentry move to its path
     std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning

@@ -18,7 +18,7 @@ void KeptOffsets::adopt(const SavedParameters& parameters, const ToolTable& all_
 
 bool KeptOffsets::adopt(const SavedParameters& parameters) {
   SavedParameters all = programs_.parameters();
-  set_lasting_offsets(all, parameters);
+  replace_persistent_offsets(all, parameters);
   if (all == programs_.parameters()) return false;
   programs_.set_offsets(all, programs_.tools());
   return true;

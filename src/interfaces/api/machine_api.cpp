@@ -197,8 +197,8 @@ void MachineApi::poll() {
     begin_with_g54(parameters);
     shared_.offsets.adopt(parameters, mdi_.tools());
   }
-  const MotionOwner& owner = shared_.owner;
-  if (std::exchange(mdi_owner_, owner.changes()) == owner.changes() || owner.kind() == MotionOwner::Kind::client) {
+  const MachineControl& owner = shared_.owner;
+  if (std::exchange(mdi_owner_, owner.changes()) == owner.changes() || owner.kind() == MachineControl::Kind::client) {
     return;
   }
   if (mdi_.streams()) static_cast<void>(shared_.session.request(request::Stop{}).has_value());

@@ -63,7 +63,7 @@ class MachineApi {
   const ProgramTimes& times_;
   MdiLines& mdi_;
   HomingRecord homing_;
-  std::uint64_t mdi_owner_ = 0;  // value of MotionOwner::changes() for the MDI lines
+  std::uint64_t mdi_owner_ = 0;  // value of MachineControl::changes() for the MDI lines
   const WebServer* server_ = nullptr;
   std::uint64_t alarms_ = 0;
   std::uint64_t late_ = 0;  // number of stops because a queue update was late

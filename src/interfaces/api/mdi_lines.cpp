@@ -54,8 +54,8 @@ MdiLines::MdiLines(const MachineDescription& machine, MachineSession& session, P
 }
 
 void MdiLines::make_program() {
-  program_ = std::make_shared<OpenProgram>(machine_, programs_.options_of(Dialect::linuxcnc),
-                                           session_.status().position.place);
+  program_ = std::make_shared<StreamedProgram>(machine_, programs_.options_of(Dialect::linuxcnc),
+                                               session_.status().position.place);
   ++version_;
 }
 
@@ -73,8 +73,8 @@ void MdiLines::apply_offsets() {
   ++version_;
 }
 
-ModesInForce MdiLines::modes() const {
-  ModesInForce modes = program_->modes();
+ActiveModes MdiLines::modes() const {
+  ActiveModes modes = program_->modes();
   if (!streams()) {
     modes.spindle = SpindleDirection::off;
     modes.mist = modes.flood = false;

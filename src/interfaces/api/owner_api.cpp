@@ -22,15 +22,15 @@ void OwnerApi::gone(std::uint64_t client) {
 
 // An owner who once spoke by the stream is there as long as one of its streams is, or it asks by HTTP.
 bool OwnerApi::is_gone() const {
-  if (shared_.owner.kind() != MotionOwner::Kind::client) return false;
+  if (shared_.owner.kind() != MachineControl::Kind::client) return false;
   if (!streams_.empty() || !stream_lost_) return false;
-  return shared_.session.now() - std::max(*stream_lost_, heard_) > MotionOwner::returns_within;
+  return shared_.session.now() - std::max(*stream_lost_, heard_) > MachineControl::returns_within;
 }
 
 // The machine rests, and nothing moves it without somebody's wish.
 bool OwnerApi::may_pass_on() const {
   const MachineSession& session = shared_.session;
-  if (shared_.owner.kind() == MotionOwner::Kind::nobody || !session.busy() || is_gone()) return true;
+  if (shared_.owner.kind() == MachineControl::Kind::nobody || !session.busy() || is_gone()) return true;
   const MachineState state = session.state();
   const bool rests = session.status().rests;
   return rests && (state == MachineState::await_line || state == MachineState::hold || state == MachineState::door);
@@ -38,7 +38,7 @@ bool OwnerApi::may_pass_on() const {
 
 // A sender's program that waits for its next line ends here.
 WebAnswer OwnerApi::claim(const ApiCall& call) {
-  MotionOwner& owner = shared_.owner;
+  MachineControl& owner = shared_.owner;
   MachineSession& session = shared_.session;
   if (!may_pass_on() || jobs_.is_checking()) {
     return error_answer(
@@ -74,8 +74,8 @@ WebAnswer OwnerApi::release(const ApiCall& call) {
 }
 
 void OwnerApi::poll() {
-  if (shared_.owner.kind() != MotionOwner::Kind::client || shared_.session.busy()) return;
-  const bool is_silent = shared_.session.now() - heard_ > MotionOwner::silent_for;
+  if (shared_.owner.kind() != MachineControl::Kind::client || shared_.session.busy()) return;
+  const bool is_silent = shared_.session.now() - heard_ > MachineControl::silent_for;
   if (is_silent || is_gone()) shared_.owner.release();
 }
 

@@ -169,7 +169,7 @@ void ProgramPath::add_reach(const Box& machine, const Box& work) {
 
 std::uint16_t ProgramPath::tool_flags(double zero_z, bool feeds) {
   const auto fresh = [&] { return UsedTool{tool_, zero_z}; };
-  const std::size_t index = place_of_tool(tools_, tool_, &UsedTool::number, most_tools, fresh);
+  const std::size_t index = index_of_tool(tools_, tool_, &UsedTool::number, most_tools, fresh);
   tools_[index].feeds |= feeds;
   return static_cast<std::uint16_t>(index << 1U);
 }

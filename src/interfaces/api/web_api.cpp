@@ -40,7 +40,7 @@ std::size_t longest_of(BodyKind kind) {
     case BodyKind::json: return small_body;
     case BodyKind::program: return ProgramStore::longest_program;
     case BodyKind::table: return longest_map;
-    case BodyKind::bytes: return Maker::longest_file;
+    case BodyKind::bytes: return CamService::longest_file;
   }
   return 0;
 }
@@ -50,7 +50,7 @@ std::size_t longest_of(BodyKind kind) {
 // What answers, in the order in which one needs the other.
 class WebApi::Parts {
  public:
-  Parts(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions all_options)
+  Parts(const MachineDescription& machine, MachineSession& session, MachineControl& owner, ApiOptions all_options)
       : options(std::move(all_options)), mdi(machine, session, programs), offsets(programs, options), shared{machine,
                                                                                                              session,
                                                                                                              owner,
@@ -119,7 +119,7 @@ class WebApi::Parts {
   Seconds keeps_again_{0};  // what could not be written is tried again then
 };
 
-WebApi::WebApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options)
+WebApi::WebApi(const MachineDescription& machine, MachineSession& session, MachineControl& owner, ApiOptions options)
     : parts_(std::make_unique<Parts>(machine, session, owner, std::move(options))) {}
 
 WebApi::~WebApi() = default;

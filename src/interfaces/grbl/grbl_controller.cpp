@@ -38,7 +38,7 @@ bool is_question(const std::string& line) {
 
 }  // namespace
 
-GrblController::GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program)
+GrblController::GrblController(const MachineDescription& machine, MachineSession& session, StreamedProgram& program)
     : machine_(machine), session_(session), program_(program), store_(machine) {
   alarm_ = has_lost_place();
 }
@@ -46,7 +46,7 @@ GrblController::GrblController(const MachineDescription& machine, MachineSession
 void GrblController::connect() {
   is_here_ = true;
   input_.clear();
-  report_turns_.begin();
+  report_rotation_.begin();
   lease_.end();
   say(std::string(grbl_banner));
   if (!drives_) say("[MSG:Another client is in control]\r\n");

@@ -82,7 +82,7 @@ void GrblController::report_status() {
   report.feed_override = percent(status.overrides.feed);
   report.rapid_override = percent(status.overrides.rapids);
   report.spindle_override = percent(status.overrides.spindle);
-  report_turns_.choose(report, status.overrides, is_idle() || alarm_);
+  report_rotation_.choose(report, status.overrides, is_idle() || alarm_);
   say(status_text(report, units(), store_.memory().choices.status_mask));
 }
 

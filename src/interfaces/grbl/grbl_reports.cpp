@@ -62,7 +62,7 @@ std::string status_text(const GrblStatus& status, const GrblUnits& units, unsign
   return text + ">\r\n";
 }
 
-std::string modes_text(const ModesInForce& modes, const GrblUnits& units) {
+std::string modes_text(const ActiveModes& modes, const GrblUnits& units) {
   std::string text = "[GC:";
   for (const std::string& code : modes.codes) text += code + " ";
   switch (modes.spindle) {
@@ -83,7 +83,7 @@ std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits
   return fmt::format("[PRB:{}:{}]\r\n", places_text(touched ? probe->contact : Point(), units), touched ? 1 : 0);
 }
 
-std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
+std::string offsets_text(const SavedParameters& parameters, const ActiveModes& modes,
                          const std::optional<ProbeOutcome>& probe, const GrblUnits& units) {
   std::string text;
   for (int system = 1; system <= shown_systems; ++system) {

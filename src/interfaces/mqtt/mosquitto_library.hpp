@@ -2,13 +2,13 @@
 // the time of a program start, and which no other command needs (decision 0166). Private to mqtt/.
 #pragma once
 
-#include "late_library.hpp"
+#include "lazy_library.hpp"
 #include <mosquitto.h>
 
 namespace passo {
 
 struct MosquittoLibrary {
-  LateLibrary library{PASSO_MOSQUITTO_NAME};
+  LazyLibrary library{PASSO_MOSQUITTO_NAME};
   PASSO_FUNCTION(mosquitto_lib_init);
   PASSO_FUNCTION(mosquitto_lib_cleanup);
   PASSO_FUNCTION(mosquitto_new);

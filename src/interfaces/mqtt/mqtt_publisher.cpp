@@ -18,7 +18,7 @@ constexpr int looks_between_attempts = 20;
 }  // namespace
 
 struct MqttPublisher::Client {
-  Client(const MqttPlace& its_place, const MosquittoLibrary& its_library)
+  Client(const MqttOptions& its_place, const MosquittoLibrary& its_library)
       : library(its_library), place(its_place), online(place.topic + "/online") {
     library.mosquitto_lib_init();
     line = library.mosquitto_new(nullptr, true, this);
@@ -55,7 +55,7 @@ struct MqttPublisher::Client {
   }
 
   const MosquittoLibrary& library;
-  MqttPlace place;
+  MqttOptions place;
   std::string online;
   mosquitto* line = nullptr;
   std::atomic<unsigned> connections = 0;
@@ -66,8 +66,8 @@ struct MqttPublisher::Client {
 MqttPublisher::MqttPublisher(std::unique_ptr<Client> client) : client_(std::move(client)) {}
 MqttPublisher::~MqttPublisher() = default;
 
-Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttPlace& place) {
-  const MosquittoLibrary* const library = late_library<MosquittoLibrary>();
+Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttOptions& place) {
+  const MosquittoLibrary* const library = lazy_library<MosquittoLibrary>();
   if (library == nullptr)
     return Failure{std::string("libmosquitto is not installed: scripts/install.sh --build gets it")};
   auto client = std::make_unique<Client>(place, *library);

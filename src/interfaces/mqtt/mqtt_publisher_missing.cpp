@@ -8,7 +8,7 @@ struct MqttPublisher::Client {};
 MqttPublisher::MqttPublisher(std::unique_ptr<Client> client) : client_(std::move(client)) {}
 MqttPublisher::~MqttPublisher() = default;
 
-Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttPlace&) {
+Result<std::unique_ptr<MqttPublisher>, std::string> MqttPublisher::open(const MqttOptions&) {
   return Failure{std::string("this passo was built without libmosquitto: scripts/install.sh --build gets it")};
 }
 unsigned MqttPublisher::connections() const {

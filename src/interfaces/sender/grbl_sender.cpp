@@ -158,7 +158,7 @@ void GrblSender::check_silence() {
 // Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.
 void GrblSender::check_lost_bytes() {
   const bool is_locked = report()->state == "Alarm";
-  const LineWindow::Line* const oldest = window_.oldest();
+  const UnacknowledgedLines::Line* const oldest = window_.oldest();
   const bool waits = oldest != nullptr || (is_locked && has_work());
   if ((report()->state != "Idle" && !is_locked) || !waits) {
     idle_since_ = now_;
@@ -365,7 +365,7 @@ void GrblSender::answer(std::optional<std::string_view> error) {
   if (window_.oldest() == nullptr) return;  // of what another sender has left
   // The same, if it comes late: the answer to $I tells the version.
   if (stage_ == Stage::asking && machine_.version.empty()) return;
-  const LineWindow::Line line = *window_.take_answered();
+  const UnacknowledgedLines::Line line = *window_.take_answered();
   answered_ = progress_ = now_;
   if (!error) {
     window_.note_held(line.line, machine_.blocks + 8);

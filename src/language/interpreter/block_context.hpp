@@ -15,19 +15,19 @@ namespace passo {
 
 struct BlockContext {
   BlockContext(ProgramState& machine, Parameters& values, OperationQueue& queue, Reporter& findings,
-               const MachineAnswers& machine_answers)
+               const MachineResults& machine_results)
       : state(machine),
         parameters(values),
         operations(queue),
         reporter(findings),
-        answers(machine_answers),
+        answers(machine_results),
         cutter(queue) {}
 
   ProgramState& state;
   Parameters& parameters;
   OperationQueue& operations;
   Reporter& reporter;
-  const MachineAnswers& answers;
+  const MachineResults& answers;
   CutterCompensation cutter;
   InterpreterOptions options;
 

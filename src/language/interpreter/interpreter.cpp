@@ -33,7 +33,7 @@ struct IsWork {
 class Interpreter::Implementation {
  public:
   Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
-                 const MachineAnswers& answers)
+                 const MachineResults& answers)
       : saved_(options.parameters),
         parameters_(symbols_, state_, options.machine_units, options.settings),
         reporter_(diagnostics),
@@ -94,8 +94,8 @@ class Interpreter::Implementation {
   int motion() const { return state_.modal[ModalGroup::motion]; }
   void set_motion(int tenths) { state_.modal.set(ModalGroup::motion, static_cast<CodeNumber>(tenths)); }
   void stand_at(const Point& machine) { state_.position = state_.frame.work_from_machine(machine); }
-  ModesInForce modes() const {
-    ModesInForce modes;
+  ActiveModes modes() const {
+    ActiveModes modes;
     constexpr ModalGroup shown[] = {ModalGroup::motion,       ModalGroup::work_system, ModalGroup::plane,
                                     ModalGroup::length_units, ModalGroup::distance,    ModalGroup::feed_mode};
     for (const ModalGroup group : shown) modes.codes.push_back(spelling('G', state_.modal[group]));
@@ -224,7 +224,7 @@ class Interpreter::Implementation {
 };
 
 Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
-                         const MachineAnswers& answers)
+                         const MachineResults& answers)
     : implementation_(std::make_unique<Implementation>(std::move(reader), options, diagnostics, answers)) {}
 Interpreter::~Interpreter() = default;
 
@@ -276,7 +276,7 @@ void Interpreter::stand_at(const Point& machine) {
   implementation_->stand_at(machine);
 }
 
-ModesInForce Interpreter::modes() const {
+ActiveModes Interpreter::modes() const {
   return implementation_->modes();
 }
 

@@ -75,7 +75,7 @@ std::string parameter_file_text(const SavedParameters& parameters) {
   return text;
 }
 
-void set_lasting_offsets(SavedParameters& into, const SavedParameters& from) {
+void replace_persistent_offsets(SavedParameters& into, const SavedParameters& from) {
   const auto lasts = [](int number) {
     const bool is_of_g92 = number >= g92_active_parameter && number < work_system_parameter;
     return is_always_saved(number) && !is_of_g92 && number != work_system_parameter;

@@ -335,9 +335,9 @@ bool ProgramFlow::may_go_on_with_cycle(Span repeated) {
 
 // False: the loop went round too often.
 bool ProgramFlow::may_go_round(const Open& loop) {
-  const ProgramBounds::Reached reached = bounds_.count_pass();
-  if (reached == ProgramBounds::Reached::nothing) return true;
-  const bool idles = reached == ProgramBounds::Reached::idle;
+  const RunawayGuard::Reached reached = bounds_.count_pass();
+  if (reached == RunawayGuard::Reached::nothing) return true;
+  const bool idles = reached == RunawayGuard::Reached::idle;
   lines_.seek(loop.at);
   (void)lines_.read();
   reporter_.error("gcode.endless-loop", lines_.block().control ? lines_.block().control->span : Span{1, 1},
@@ -411,7 +411,7 @@ bool ProgramFlow::argument(const Control& control, double& value) {
 }
 
 void ProgramFlow::report_unclosed(const Open& open) {
-  if (lines_.doubtful_labels().has(open.label)) return;
+  if (lines_.unreadable_labels().has(open.label)) return;
   const ReaderPosition here = lines_.after();
   std::string_view text;
   std::uint32_t line = open.at.line;
@@ -464,7 +464,7 @@ bool ProgramFlow::is_closed_further_on(const Open& open) {
 }
 
 bool ProgramFlow::stray(Symbol label, const Control& control, FindingWords message, FindingWords expected) {
-  if (lines_.doubtful_labels().has(label)) return false;
+  if (lines_.unreadable_labels().has(label)) return false;
   reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
   return false;
 }

@@ -19,10 +19,10 @@
 #include "block_watcher.hpp"
 #include "block_words.hpp"
 #include "parameters.hpp"
-#include "program_bounds.hpp"
 #include "program_lines.hpp"
 #include "program_state.hpp"
 #include "reporter.hpp"
+#include "runaway_guard.hpp"
 #include "subprogram_jump.hpp"
 
 #include "passo/gcode/block_parser.hpp"
@@ -37,7 +37,7 @@ class ProgramFlow final : public CallStack {
  public:
   struct Options {
     ProgramLines::Options lines;
-    ProgramBounds::Limits bounds;
+    RunawayGuard::Limits bounds;
     bool numbered_programs = true;  // false if [RS274NGC]DISABLE_FANUC_STYLE_SUB is set
   };
   enum class End : std::uint8_t { none, file, percent, error };
@@ -87,7 +87,7 @@ class ProgramFlow final : public CallStack {
 
   void watch(BlockWatcher& watcher) { watcher_ = &watcher; }
 
-  std::vector<CallPlace> calls() const override;
+  std::vector<CallLocation> calls() const override;
 
   std::uint64_t offset() const { return lines_.in_main_file().offset; }
 
@@ -203,7 +203,7 @@ class ProgramFlow final : public CallStack {
   Reporter& reporter_;
   Returned returned_;
   ProgramLines lines_;
-  ProgramBounds bounds_;
+  RunawayGuard bounds_;
   std::vector<Open> open_;
   std::vector<Frame> frames_;
   std::optional<std::uint32_t> left_sub_;

@@ -31,12 +31,12 @@ void ProgramFlow::call(Symbol label, const Control& control) {
 // False: calls are nested too deep, or the program called too often.
 bool ProgramFlow::may_call(Span span) {
   if (is_outermost()) bounds_.begin();
-  const ProgramBounds::Reached reached = bounds_.count_call();
-  const bool idles = reached == ProgramBounds::Reached::idle;
+  const RunawayGuard::Reached reached = bounds_.count_call();
+  const bool idles = reached == RunawayGuard::Reached::idle;
   if (frames_.size() >= deepest_call) {
     reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
                     "a subroutine that does not call itself endlessly");
-  } else if (reached != ProgramBounds::Reached::nothing) {
+  } else if (reached != RunawayGuard::Reached::nothing) {
     reporter_.error("gcode.endless-calls", span,
                     idles ? fmt::format("subroutines were called {} without any action of the machine",
                                         counted(bounds_.limits().idle_passes, "time"))
@@ -55,7 +55,7 @@ bool ProgramFlow::may_call(Span span) {
 void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
   const std::string sub = fmt::format("{}{}{}", numbered ? "O" : "o", label_text(label), numbered ? "" : " sub");
   const std::string file = std::string(symbols_.name(label)) + ".ngc";
-  if (lines_.doubtful_labels().has(label)) {
+  if (lines_.unreadable_labels().has(label)) {
     reporter_.meet_again();
   } else {
     reporter_.error("gcode.unknown-sub", span,
@@ -83,8 +83,8 @@ void ProgramFlow::leave_frame() {
   left_sub_ = frame.return_to.line - 1;
 }
 
-std::vector<CallPlace> ProgramFlow::calls() const {
-  std::vector<CallPlace> calls;
+std::vector<CallLocation> ProgramFlow::calls() const {
+  std::vector<CallLocation> calls;
   for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
     calls.push_back(
         {(frame->place.numbered ? "O" : "o") + label_text(frame->sub), frame->caller->name, frame->return_to.line - 1});

@@ -118,9 +118,9 @@ void ProgramLines::doubt_label() {
   if (!is_control && !names_control(block_->text)) return;
   const bool is_named = !faults_.all().empty() && faults_.all().front().code != "gcode.bad-o-word";
   if (is_control && is_named && block_->control && block_->control->label) {
-    doubtful_labels_.add(block_->control->label);
+    unreadable_labels_.add(block_->control->label);
   } else {
-    doubtful_labels_.add_all();
+    unreadable_labels_.add_all();
   }
 }
 

@@ -15,12 +15,12 @@
 #include <utility>
 #include <vector>
 
-#include "doubtful_labels.hpp"
 #include "kept_blocks.hpp"
 #include "parameters.hpp"
 #include "percent_signs.hpp"
 #include "program_state.hpp"
 #include "reporter.hpp"
+#include "unreadable_labels.hpp"
 
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -99,7 +99,7 @@ class ProgramLines {
   File* find_sub(Symbol label);
   std::string places_looked_at(const std::string& file) const;
 
-  DoubtfulLabels& doubtful_labels() { return doubtful_labels_; }
+  UnreadableLabels& unreadable_labels() { return unreadable_labels_; }
   PercentSigns& percent_signs() { return percent_signs_; }
   // Returns whether the rest of the main file, starting at `from`, lacks the '%' that closes the program.
   bool lacks_closing_percent(ReaderPosition from);
@@ -132,7 +132,7 @@ class ProgramLines {
   ReaderPosition block_at_;  // the line of that block
   Block line_;
   KeptBlocks kept_;
-  DoubtfulLabels doubtful_labels_;
+  UnreadableLabels unreadable_labels_;
   PercentSigns percent_signs_;
 };
 

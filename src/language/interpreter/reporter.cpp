@@ -26,7 +26,7 @@ std::string_view domain_of(std::string_view text) {
   return "a whole-number exponent, because the base is negative";
 }
 
-SourcePlace place_of(std::uint32_t line, Span span) {
+SourceLocation place_of(std::uint32_t line, Span span) {
   return {line, span.column, span.length == 0 ? 1 : span.length};
 }
 
@@ -112,7 +112,7 @@ std::string Reporter::quote(Span span) const {
 
 // A wrong line in a loop is wrong in every pass, but is reported once.
 bool Reporter::is_kept(std::string_view code, std::uint32_t line, Span span) const {
-  const SourcePlace place = place_of(line, span);
+  const SourceLocation place = place_of(line, span);
   return std::ranges::any_of(diagnostics_.all(), [&](const Diagnostic& kept) {
     return kept.place == place && kept.code == code && kept.file == *file_;
   });
@@ -141,8 +141,8 @@ void Reporter::pass_on(Diagnostics& faults) {
   faults = Diagnostics();
 }
 
-std::vector<CallPlace> Reporter::calls() const {
-  return stack_ == nullptr ? std::vector<CallPlace>() : stack_->calls();
+std::vector<CallLocation> Reporter::calls() const {
+  return stack_ == nullptr ? std::vector<CallLocation>() : stack_->calls();
 }
 
 // Six decimals, as LinuxCNC prints, and ten digits at most. What is smaller keeps six digits.

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "doubts.hpp"
+#include "consequential_errors.hpp"
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/block.hpp"
@@ -19,7 +19,7 @@ class CallStack {
  public:
   virtual ~CallStack() = default;
   // Returns the calls, the innermost first.
-  virtual std::vector<CallPlace> calls() const = 0;
+  virtual std::vector<CallLocation> calls() const = 0;
 };
 
 class Reporter {
@@ -59,7 +59,7 @@ class Reporter {
   void doubt() {
     if (!judges_alone_) doubts_.scan(block_->text);
   }
-  Doubts& doubts() { return doubts_; }
+  ConsequentialErrors& doubts() { return doubts_; }
 
   // Counts the repetition of an error that was already reported.
   void meet_again() { ++errors_; }
@@ -77,14 +77,14 @@ class Reporter {
   void add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
            FindingWords message, FindingWords expected);
   bool is_kept(std::string_view code, std::uint32_t line, Span span) const;
-  std::vector<CallPlace> calls() const;
+  std::vector<CallLocation> calls() const;
 
   Diagnostics& diagnostics_;
   const Block* block_ = nullptr;
   const std::string* file_ = nullptr;
   const CallStack* stack_ = nullptr;
   std::uint64_t errors_ = 0;
-  Doubts doubts_;
+  ConsequentialErrors doubts_;
   bool judges_alone_ = false;
 };
 

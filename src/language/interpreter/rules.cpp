@@ -150,7 +150,7 @@ constexpr std::string_view about_a_code[] = {
 
 // The chapter of the G or M code at the place of the diagnostic, as "G05.1". Empty: there is no such chapter.
 std::string_view chapter_of_the_code(const Diagnostic& diagnostic) {
-  const SourcePlace& place = diagnostic.place;
+  const SourceLocation& place = diagnostic.place;
   if (place.column == 0 || place.column > diagnostic.text.size()) return {};
   const std::string_view word = std::string_view(diagnostic.text).substr(place.column - 1, place.length);
   double number = 0;

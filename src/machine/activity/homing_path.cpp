@@ -49,7 +49,7 @@ Point home_rest(const MachineDescription& machine, const Point& start) {
   return place;
 }
 
-HomingPath::HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start)
+HomingPath::HomingPath(const MachineDescription& machine, const MachineResults& answers, const Point& start)
     : machine_(machine), kinematics_(kinematics_of(machine)), answers_(answers), start_(start), position_(start) {
   begin_turn();
 }

@@ -97,12 +97,12 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 }
 
 Program::Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                 const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole,
+                 const MachineResults& answers, Diagnostics& diagnostics, Seconds whole,
                  std::vector<ProbeOutcome> known_probes)
     : limits_(motion_limits(machine)),
       stages_(std::move(program), machine, options, answers, diagnostics, std::move(known_probes)),
       whole_(whole) {
-  stages_.operations().watch([this](const Operation& operation) { wait_words_.watch(operation, tools()); });
+  stages_.operations().watch([this](const Operation& operation) { operator_messages_.watch(operation, tools()); });
   stages_.path().watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
 }
 

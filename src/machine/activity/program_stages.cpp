@@ -5,15 +5,15 @@
 namespace passo {
 
 ProgramStages::ProgramStages(ProgramReader program, const MachineDescription& machine,
-                             const InterpreterOptions& options, const MachineAnswers& answers, Diagnostics& diagnostics,
+                             const InterpreterOptions& options, const MachineResults& answers, Diagnostics& diagnostics,
                              std::vector<ProbeOutcome> known)
     : path_options_(path_options(machine, program.name(), options.start)),
       answers_(answers, std::move(known)),
       interpreter_(std::move(program), options, diagnostics, answers_),
       operations_(interpreter_),
       path_builder_(operations_, path_options_, diagnostics, answers_),
-      good_path_(path_builder_, diagnostics),
-      path_(good_path_),
+      path_until_error_(path_builder_, diagnostics),
+      path_(path_until_error_),
       smoother_(path_, smoothness(machine)) {
   path_.watch([this](const PathItem& item) { answers_.see(item); });
 }

@@ -61,7 +61,7 @@ MotionLimits motion_limits(const MachineDescription& machine) {
 }
 
 std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place, AxisSet downs) {
-  const MotorPlace motors = kinematics_of(machine).motors(place, downs);
+  const MotorPosition motors = kinematics_of(machine).motors(place, downs);
   std::array<std::int64_t, max_motors> steps{};
   for (std::size_t m = 0; m < steps.size(); ++m) steps[m] = std::llround(motors[m]);
   return steps;

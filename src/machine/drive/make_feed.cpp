@@ -1,13 +1,13 @@
 #include "make_feed.hpp"
 
 #include "passo/drive/direct_feed.hpp"
-#include "passo/drive/refiller.hpp"
+#include "passo/drive/queue_updater.hpp"
 
 namespace passo {
 
 std::unique_ptr<Feed> make_feed(const FeedStages& stages, const StepOptions& steps, const DriveOptions& options) {
   if (options.tails) {
-    auto refiller = std::make_unique<Refiller>(stages, steps, *options.tails, options.waits_for_operator);
+    auto refiller = std::make_unique<QueueUpdater>(stages, steps, *options.tails, options.waits_for_operator);
     if (options.counts_per_turn > 0) refiller->guard_threads();
     return refiller;
   }

@@ -18,7 +18,7 @@ constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door,  
 }  // namespace
 
 MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
-                         BoardSession& board, AnswerBook& answers, const DriveOptions& options)
+                         BoardSession& board, StoredResults& answers, const DriveOptions& options)
     : board_(board),
       answers_(answers),
       pipeline_(path, limits, steps, options),
@@ -190,7 +190,7 @@ void MotionDrive::await_index(const Action& action) {
     awaits_index_ = false;
     if (!spindle_.trouble()) return;
     holds_.set(HoldReason::stop);
-    rest_in_hold();
+    stop_in_hold();
   });
 }
 
@@ -208,7 +208,7 @@ void MotionDrive::reverse_tap(const Action& action) {
 // Pulled only when all before is executed, so the machine rests.
 void MotionDrive::await_line() {
   holds_.set(HoldReason::await_line);
-  rest_in_hold();
+  stop_in_hold();
 }
 
 bool MotionDrive::pass_await_line(PathMode last) {
@@ -250,10 +250,10 @@ void MotionDrive::come_to_rest() {
   } else {
     rest_at_line();
   }
-  if (holds_.any_of(lasting_holds)) rest_in_hold();
+  if (holds_.any_of(lasting_holds)) stop_in_hold();
 }
 
-void MotionDrive::rest_in_hold() {
+void MotionDrive::stop_in_hold() {
   if (!stopped()) {
     state_ = State::held;
     return;
@@ -354,7 +354,7 @@ void MotionDrive::stop() {
     state_ = State::holding;
     return;
   }
-  rest_in_hold();
+  stop_in_hold();
 }
 
 void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {

@@ -13,7 +13,7 @@ void MotionDrive::wait_for_operator(const Action& action) {
   script_.then([this, action] {
     waits_for_ = action;
     holds_.set(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
-    rest_in_hold();
+    stop_in_hold();
   });
 }
 

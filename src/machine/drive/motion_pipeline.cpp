@@ -15,8 +15,8 @@ BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
 MotionPipeline::MotionPipeline(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
                                const DriveOptions& options)
     : path_items_(path),
-      backlash_taker_(path_items_, backlash_of(steps, options)),
-      path_(backlash_taker_),
+      backlash_compensator_(path_items_, backlash_of(steps, options)),
+      path_(backlash_compensator_),
       line_stops_(path_),
       planner_(line_stops_, limits),
       motion_(planner_),
@@ -26,7 +26,7 @@ MotionPipeline::MotionPipeline(Source<PathItem>& path, const MotionLimits& limit
   if (options.begin_at) path_.begin_at(*options.begin_at, options.lead_in);
   if (!options.tails && !options.may_stop_at_lines) path_.forget_passed();
   line_stops_.stop_at_lines(options.stops_at_lines);
-  backlash_taker_.ask_after_probe([this, motors = steps] { return backlash_at_rest(motors); });
+  backlash_compensator_.ask_after_probe([this, motors = steps] { return backlash_at_rest(motors); });
 }
 
 BacklashAtRest MotionPipeline::backlash_at_rest(const StepOptions& steps) const {

@@ -43,7 +43,7 @@ void ProbeMove::end() {
 // An axis that made no step stands where it stood, even if that is between two steps. The move was a straight line, so
 // its direction tells on which side the backlash is.
 Point ProbeMove::contact_place(const ProbeReport& report, const Point& rest) const {
-  MotorPlace motors = kinematics_.motors(start_, downs_);
+  MotorPosition motors = kinematics_.motors(start_, downs_);
   unsigned moved = 0;
   for (unsigned m = 0; m < kinematics_.motor_count(); ++m) {
     if (report.steps[m] == 0) continue;

@@ -12,7 +12,7 @@ constexpr std::size_t items_between_tails = 3;
 
 }  // namespace
 
-void PulledItems::add(const LinkItem& item, Seconds time, const SpeedForTails::Speed& speed) {
+void PulledItems::add(const LinkItem& item, Seconds time, const StopRampSpeedLimiter::Speed& speed) {
   items_.push_back({.item = item, .time = time, .speed = speed});
   time_ += time;
 }
@@ -24,8 +24,8 @@ bool PulledItems::is_far_from_last_tail() const {
   return items >= items_between_tails || time >= between_tails;
 }
 
-SpeedForTails::Speed PulledItems::highest_speed() const {
-  SpeedForTails::Speed highest;
+StopRampSpeedLimiter::Speed PulledItems::highest_speed() const {
+  StopRampSpeedLimiter::Speed highest;
   for (const Item& item : items_) {
     highest.on_path = std::max(highest.on_path, item.speed.on_path);
     highest.of_axis = std::max(highest.of_axis, item.speed.of_axis);

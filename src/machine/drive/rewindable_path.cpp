@@ -38,7 +38,7 @@ bool RewindablePath::pull(PathItem& item) {
   return true;
 }
 
-void RewindablePath::begin_at(const PathPlace& place, std::vector<PathItem> lead_in) {
+void RewindablePath::begin_at(const PathPosition& place, std::vector<PathItem> lead_in) {
   ensure(keeps_ && kept_.empty() && next_ == 0);
   left_out_ = first_ = next_ = place.item;
   rewound_ = place;
@@ -48,8 +48,8 @@ void RewindablePath::begin_at(const PathPlace& place, std::vector<PathItem> lead
   for (PathItem& item : lead_in) kept_.push_back(std::move(item));
 }
 
-PathPlace RewindablePath::behind(const PathPlace& place, const MotionItem& motion) const {
-  const PathPlace next{.item = place.item + 1};
+PathPosition RewindablePath::behind(const PathPosition& place, const MotionItem& motion) const {
+  const PathPosition next{.item = place.item + 1};
   if (const auto* action = std::get_if<Action>(&motion)) {
     return action->kind == Action::Kind::feed_hold ? place : next;
   }
@@ -58,14 +58,14 @@ PathPlace RewindablePath::behind(const PathPlace& place, const MotionItem& motio
   return {.item = place.item, .s = place.item == rewound_.item ? rewound_.s + move.to : move.to};
 }
 
-void RewindablePath::rewind(const PathPlace& place) {
+void RewindablePath::rewind(const PathPosition& place) {
   ensure(keeps_ && place.item >= first_ && place.item <= first_ + kept_.size());
   next_ = place.item;
   rewound_ = place;
   ++rewinds_;
 }
 
-Point RewindablePath::point_at(const PathPlace& place) const {
+Point RewindablePath::point_at(const PathPosition& place) const {
   ensure(place.item >= first_ && place.item < first_ + kept_.size());
   const PathItem& item = kept_[place.item - first_];
   if (const auto* action = std::get_if<Action>(&item)) return action->place;

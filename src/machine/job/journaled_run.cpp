@@ -13,7 +13,7 @@ bool JournaledRun::begin(const JournalHead& head, std::optional<JobEntry> entry)
 void JournaledRun::add_to(request::Start& start) {
   if (entry_) enter(start, *entry_);
   start.watchers.probe = [this](const ProbeOutcome& outcome) { writer_.record(outcome); };
-  start.watchers.rests = [this](const BoardRest& rest) { writer_.record(rest); };
+  start.watchers.rests = [this](const BoardStop& rest) { writer_.record(rest); };
 }
 
 }  // namespace passo

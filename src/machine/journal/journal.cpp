@@ -54,8 +54,8 @@ FileStamp stamp(RecordWords& words, std::string_view key) {
   return stamp;
 }
 
-PathPlace place(RecordWords& words) {
-  PathPlace place;
+PathPosition place(RecordWords& words) {
+  PathPosition place;
   place.item = words.number<std::uint64_t>();
   place.s = Mm(words.real());
   return place;
@@ -103,7 +103,7 @@ std::optional<JournalHead> read_head(std::string_view text) {
   return head;
 }
 
-std::string line_of(std::uint64_t serial, const BoardRest& rest) {
+std::string line_of(std::uint64_t serial, const BoardStop& rest) {
   std::string line = fmt::format("{:20} {:5} {:20} {:24} {:20} {:24} ", serial, rest.executed, rest.place.item,
                                  rest.place.s.value(), rest.done.item, rest.done.s.value());
   line += record_check(line);
@@ -112,7 +112,7 @@ std::string line_of(std::uint64_t serial, const BoardRest& rest) {
 
 struct Noted {
   std::uint64_t serial = 0;
-  BoardRest rest;
+  BoardStop rest;
 };
 
 std::optional<Noted> read_line(std::string_view line) {
@@ -156,7 +156,7 @@ void JournalWriter::begin(const JournalHead& head) {
   failed_ = !store_.replace(text);
 }
 
-void JournalWriter::record(const BoardRest& rest) {
+void JournalWriter::record(const BoardStop& rest) {
   const std::size_t place = noted_ % rests;
   const std::string line = line_of(noted_, rest);
   ensure(head_size_ > 0 && line.size() == line_size);  // read_line() takes no other
@@ -207,15 +207,15 @@ SessionNumbers::Stage Journal::stage_of(const BoardStatus& status) const {
 
 // The motion that a line calls done may still lag by a segment. When the next line is noted, a refill later, it is
 // done.
-PathPlace Journal::done() const {
+PathPosition Journal::done() const {
   return rests_.size() < 2 ? head_.place : rests_[1].done;
 }
 
-PathPlace Journal::farthest() const {
+PathPosition Journal::farthest() const {
   return rests_.empty() ? head_.place : rests_.front().place;
 }
 
-std::optional<PathPlace> Journal::place_of(const BoardStatus& status) const {
+std::optional<PathPosition> Journal::place_of(const BoardStatus& status) const {
   using Stage = SessionNumbers::Stage;
   switch (stage_of(status)) {
     case Stage::another: return {};
@@ -224,7 +224,7 @@ std::optional<PathPlace> Journal::place_of(const BoardStatus& status) const {
     case Stage::in_session: break;
   }
   const auto found = std::find_if(rests_.begin(), rests_.end(),
-                                  [&](const BoardRest& rest) { return rest.executed == status.executed; });
+                                  [&](const BoardStop& rest) { return rest.executed == status.executed; });
   if (found != rests_.end()) return found->place;
   // No items were sent, or none arrived.
   const SessionNumbers& numbers = head_.numbers;

@@ -1,6 +1,6 @@
 // PathOfProgram: the path of a program up to the drive. Private to journal/.
 //
-//   ProgramStages -> BacklashTaker -> RewindablePath
+//   ProgramStages -> BacklashCompensator -> RewindablePath
 #pragma once
 
 #include <utility>
@@ -13,7 +13,7 @@
 #include "passo/drive/rewindable_path.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -40,11 +40,11 @@ class PathOfProgram {
 
  private:
   PathOfProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const MachineAnswers& answers, const std::vector<ProbeOutcome>& known)
+                const MachineResults& answers, const std::vector<ProbeOutcome>& known)
       : steps_(steps_from(machine, options.start)),
         stages_(std::move(program), machine, options, answers, diagnostics_, known),
-        backlash_taker_(stages_.smooth_path(), backlash_options(steps_, true)),
-        path_(backlash_taker_) {
+        backlash_compensator_(stages_.smooth_path(), backlash_options(steps_, true)),
+        path_(backlash_compensator_) {
     path_.keep();
   }
   static StepOptions steps_from(const MachineDescription& machine, const Point& start) {
@@ -52,15 +52,15 @@ class PathOfProgram {
     steps.start = start;
     return steps;
   }
-  static const MachineAnswers& nothing_found() {
-    static const AnswerBook book;
+  static const MachineResults& nothing_found() {
+    static const StoredResults book;
     return book;
   }
 
   Diagnostics diagnostics_;
   StepOptions steps_;
   ProgramStages stages_;
-  BacklashTaker backlash_taker_;
+  BacklashCompensator backlash_compensator_;
   RewindablePath path_;
 };
 

@@ -50,7 +50,7 @@ class VisitsOfLines {
 
   // Where the motion of this line begins, or that of the next line with motion. If that visit was merged, where the
   // merged one begins.
-  Result<PathPlace, LineProblem> find(std::uint32_t line, std::uint32_t pass) const {
+  Result<PathPosition, LineProblem> find(std::uint32_t line, std::uint32_t pass) const {
     std::uint32_t next = UINT32_MAX;
     for (const Visit& visit : visits_) {
       if (visit.line >= line) next = std::min(next, visit.line);
@@ -74,10 +74,10 @@ class VisitsOfLines {
     std::uint32_t line = 0;
     bool is_after_probe = false;
   };
-  Result<PathPlace, LineProblem> begin_of(std::size_t visit) const {
+  Result<PathPosition, LineProblem> begin_of(std::size_t visit) const {
     for (;; --visit) {
       if (visits_[visit].is_after_probe) return Failure{LineProblem{ReentryRefusal::after_probe}};
-      if (visits_[visit].item != none) return PathPlace{.item = visits_[visit].item};
+      if (visits_[visit].item != none) return PathPosition{.item = visits_[visit].item};
       if (visit == 0) return Failure{LineProblem{ReentryRefusal::path_changed}};
     }
   }
@@ -88,8 +88,8 @@ class VisitsOfLines {
 };
 
 // The place so much farther along the path. What a probe move finds is not known.
-Result<PathPlace, LineProblem> farther(const ProgramReader& program, const MachineDescription& machine,
-                                       const InterpreterOptions& options, const PathPlace& from, Mm after) {
+Result<PathPosition, LineProblem> farther(const ProgramReader& program, const MachineDescription& machine,
+                                          const InterpreterOptions& options, const PathPosition& from, Mm after) {
   if (after <= Mm(0)) return from;
   PathOfProgram chain(program.again(), machine, options);
   RewindablePath& path = chain.path();
@@ -102,7 +102,7 @@ Result<PathPlace, LineProblem> farther(const ProgramReader& program, const Machi
       continue;
     }
     const Mm length = std::get<Segment>(item).curve.length();
-    if (after < length) return PathPlace{.item = number, .s = after};
+    if (after < length) return PathPosition{.item = number, .s = after};
     after -= length;
   }
   return Failure{LineProblem{ReentryRefusal::beyond_end}};
@@ -299,7 +299,7 @@ void widen(Box& box, const Box& other) {
 }  // namespace
 
 std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
-                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last,
+                                 const InterpreterOptions& options, const PathPosition& first, const PathPosition& last,
                                  const std::vector<ProbeOutcome>& probes) {
   PathOfProgram chain(std::move(program), machine, options, probes);
   RewindablePath& path = chain.path();

@@ -94,7 +94,7 @@ class PointFinder {
   PointFinder(const PointFinder&) = delete;
   PointFinder& operator=(const PointFinder&) = delete;
 
-  std::optional<ResumePoint> find(PathPlace place) {
+  std::optional<ResumePoint> find(PathPosition place) {
     while (next_ < place.item) {
       if (!look_ahead()) return {};
       pass();
@@ -130,7 +130,7 @@ class PointFinder {
     has_item_ = false;
   }
 
-  std::optional<ResumePoint> amid_path(const PathPlace& place) {
+  std::optional<ResumePoint> amid_path(const PathPosition& place) {
     if (point_.probes > probes_.size()) return {};  // nobody knows where the path goes on
     Point beside;                                   // of the motors, amid a segment that takes up backlash
     if (place.s > Mm(0)) {
@@ -154,7 +154,7 @@ class PointFinder {
   std::optional<ResumePoint> before_probe() {
     while (is_amid_probe_ && !before_probe_.probe && look_ahead()) pass();
     if (!before_probe_.probe) return {};
-    const PathPlace begins = before_probe_.place;
+    const PathPosition begins = before_probe_.place;
     point_ = before_probe_;
     return point_at(begins, {});
   }
@@ -163,7 +163,7 @@ class PointFinder {
     const auto* segment = std::get_if<Segment>(&item_);
     if (segment != nullptr) before_probe_.probe = {.end = segment->curve.end(), .speed = segment->speed};
   }
-  std::optional<ResumePoint> point_at(const PathPlace& place, const Point& beside) {
+  std::optional<ResumePoint> point_at(const PathPosition& place, const Point& beside) {
     point_.place = place;
     if (has_item_ && !point_.probe) point_.line = std::visit([](const auto& what) { return what.source.line; }, item_);
     const std::span<const MotorRow> motors = chain_.steps().kinematics.rows();
@@ -190,7 +190,7 @@ class PointFinder {
 }  // namespace
 
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
-                                             const InterpreterOptions& options, const PathPlace& place,
+                                             const InterpreterOptions& options, const PathPosition& place,
                                              const std::vector<ProbeOutcome>& probes) {
   PathOfProgram chain(std::move(program), machine, options, probes);
   return PointFinder(chain, machine, options.start, probes).find(place);
@@ -204,13 +204,13 @@ std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& f
   return {segment};
 }
 
-BoardRest without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardRest rest) {
-  for (PathPlace* const place : {&rest.place, &rest.done}) {
+BoardStop without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardStop rest) {
+  for (PathPosition* const place : {&rest.place, &rest.done}) {
     const std::uint64_t first = from.place.item + lead_in;
     const bool is_amid = place->item == first;
     *place = place->item < first
                  ? from.place
-                 : PathPlace{.item = place->item - lead_in, .s = place->s + (is_amid ? from.place.s : Mm(0))};
+                 : PathPosition{.item = place->item - lead_in, .s = place->s + (is_amid ? from.place.s : Mm(0))};
   }
   return rest;
 }

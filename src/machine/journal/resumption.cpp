@@ -78,15 +78,15 @@ namespace {
 constexpr double beside_line = 1.5;
 
 // The steps of each motor on the way of an unknown probe move.
-MotorPlace steps_of_probe(const ResumePoint& point, const MachineDescription& machine) {
+MotorPosition steps_of_probe(const ResumePoint& point, const MachineDescription& machine) {
   const Kinematics kinematics = kinematics_of(machine);
-  MotorPlace way = kinematics.motors(point.probe->end);
-  const MotorPlace from = kinematics.motors(point.point);
+  MotorPosition way = kinematics.motors(point.probe->end);
+  const MotorPosition from = kinematics.motors(point.point);
   for (std::size_t m = 0; m < way.steps.size(); ++m) way[m] -= from[m];
   return way;
 }
 
-bool stands_on_way(const MotorPlace& from_point, const MotorPlace& way, std::size_t motors) {
+bool stands_on_way(const MotorPosition& from_point, const MotorPosition& way, std::size_t motors) {
   std::size_t most = 0;
   for (std::size_t m = 1; m < motors; ++m) {
     if (std::abs(way[m]) > std::abs(way[most])) most = m;
@@ -104,7 +104,7 @@ bool stands_on_way(const MotorPlace& from_point, const MotorPlace& way, std::siz
 
 bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                const MachineDescription& machine) {
-  MotorPlace from_point;
+  MotorPosition from_point;
   bool is_there = true;
   for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
     const std::int64_t steps = status.positions[m] - head.job_counts[m] - point.steps[m];
@@ -117,7 +117,7 @@ bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardSta
 
 Point place_by_counts(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                       const MachineDescription& machine) {
-  const MotorPlace motors = steps_since(head.job_counts, status.positions);
+  const MotorPosition motors = steps_since(head.job_counts, status.positions);
   unsigned moved = 0;
   for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
     if (motors[m] != static_cast<double>(point.steps[m])) moved |= 1U << m;

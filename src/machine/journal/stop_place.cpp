@@ -49,7 +49,7 @@ std::optional<StopPlace> find_stop(const ProgramReader& program, const MachineDe
                                    const InterpreterOptions& options, std::uint64_t number,
                                    const std::vector<ProbeOutcome>& probes) {
   StopPlace stop;
-  std::optional<PathPlace> behind;
+  std::optional<PathPosition> behind;
   {
     PathOfProgram chain(program.again(), machine, options, probes);
     ZeroWatch zero(options.parameters, number, stop);
@@ -61,7 +61,7 @@ std::optional<StopPlace> find_stop(const ProgramReader& program, const MachineDe
     for (std::uint64_t next = 1; !behind && path.next(item); ++next) {
       const auto* const action = std::get_if<Action>(&item);
       if (action == nullptr || !is_program_stop(*action) || ++stops < number) continue;
-      behind = PathPlace{.item = next};
+      behind = PathPosition{.item = next};
       stop.line = action->source.line;
     }
     if (chain.any_error() || !behind) return {};

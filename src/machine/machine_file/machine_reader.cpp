@@ -58,8 +58,8 @@ class MachineReader {
   struct AxisEntry {
     AxisDescription description;
     std::optional<std::size_t> motor;
-    SourcePlace place;        // of the axis's table
-    SourcePlace motor_place;  // of the motor number in it
+    SourceLocation place;           // of the axis's table
+    SourceLocation motor_position;  // of the motor number in it
   };
 
   void read_board(const TomlEntry& entry);
@@ -274,7 +274,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   description.alarm_input = read_alarm_input(reader);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
-    result.motor_place = reader.place_of(motor_key.name);
+    result.motor_position = reader.place_of(motor_key.name);
   }
   if (reader.has(motor_key.name) && !result.motor) motors_are_readable_ = false;
   finish(reader);
@@ -463,13 +463,13 @@ void MachineReader::number_motors() {
       good = false;
     } else if (*entry.motor >= axes_.size()) {
       reporter_.error(
-          "machine.motor", entry.motor_place,
+          "machine.motor", entry.motor_position,
           machine_file_says::no_such_motor.with(
               {{"axis", std::string(1, letter)}, {"motor", std::to_string(*entry.motor)}}),
           fmt::format("0 to {}: the motors of {} axes, numbered without a gap", axes_.size() - 1, axes_.size()));
       good = false;
     } else if (taken[*entry.motor] != nullptr) {
-      reporter_.error("machine.motor", entry.motor_place,
+      reporter_.error("machine.motor", entry.motor_position,
                       machine_file_says::motor_taken.with(
                           {{"motor", std::to_string(*entry.motor)},
                            {"axis", std::string(1, letter_of(taken[*entry.motor]->description.axis))}}),

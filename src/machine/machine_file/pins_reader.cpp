@@ -71,7 +71,7 @@ std::optional<int> read_alarm_input(TableReader& reader) {
   return std::nullopt;
 }
 
-void check_alarm_input(const TomlReporter& reporter, const SourcePlace& place, const MachineDescription& machine,
+void check_alarm_input(const TomlReporter& reporter, const SourceLocation& place, const MachineDescription& machine,
                        std::size_t index) {
   const AxisDescription& axis = machine.axes[index];
   if (!axis.alarm_input || *axis.alarm_input >= static_cast<int>(most_motors)) return;

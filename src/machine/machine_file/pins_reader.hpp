@@ -10,7 +10,7 @@ namespace passo {
 void read_inputs(TableReader& reader, PinsDescription& pins);
 // Reads the alarm input of an axis' drive. That input must not be used for homing.
 std::optional<int> read_alarm_input(TableReader& reader);
-void check_alarm_input(const TomlReporter& reporter, const SourcePlace& place, const MachineDescription& machine,
+void check_alarm_input(const TomlReporter& reporter, const SourceLocation& place, const MachineDescription& machine,
                        std::size_t index);
 void read_outputs(TableReader& reader, PinsDescription& pins);
 void read_windings(TableReader& reader, BoardDescription& board);

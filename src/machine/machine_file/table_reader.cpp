@@ -21,7 +21,7 @@ Sentence range_in_words(const SentenceRow& row, const NumberKey& key) {
 
 }  // namespace
 
-TableReader::TableReader(const TomlTable& table, std::string path, const SourcePlace& place,
+TableReader::TableReader(const TomlTable& table, std::string path, const SourceLocation& place,
                          const TomlReporter& reporter)
     : table_(table), path_(std::move(path)), place_(place), reporter_(reporter) {}
 
@@ -29,7 +29,7 @@ std::string TableReader::full_name(std::string_view key) const {
   return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
-SourcePlace TableReader::place_of(std::string_view key) const {
+SourceLocation TableReader::place_of(std::string_view key) const {
   const TomlEntry* entry = find(table_, key);
   return entry != nullptr ? entry->value.place : place_;
 }
@@ -56,7 +56,7 @@ void TableReader::wrong_type(const TomlEntry& entry, std::string expected) const
                   std::move(expected));
 }
 
-bool TableReader::in_range(const NumberKey& key, double value, const SourcePlace& place) const {
+bool TableReader::in_range(const NumberKey& key, double value, const SourceLocation& place) const {
   if (value >= key.least && value <= key.most) return true;  // a NaN gives false
   reporter_.error("machine.out-of-range", place,
                   machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", value)}}),

@@ -34,11 +34,11 @@ class TableReader {
  public:
   // `path` is the table's name in the file ("axis.X"; empty for the top of the file). An absent table is read as an
   // empty one.
-  TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const TomlReporter& reporter);
+  TableReader(const TomlTable& table, std::string path, const SourceLocation& place, const TomlReporter& reporter);
 
   bool has(std::string_view key) const { return find(table_, key) != nullptr; }
-  SourcePlace place_of(std::string_view key) const;  // the position of its value; that of the table if there is no
-                                                     // value
+  SourceLocation place_of(std::string_view key) const;  // the position of its value; that of the table if there is no
+                                                        // value
 
   std::optional<double> number(const NumberKey& key, Need need);
   // Reads a number without reporting errors; another reader of this table reports them.
@@ -80,14 +80,14 @@ class TableReader {
   const TomlEntry* ask(std::string_view key, std::string example, Need need);
   std::optional<LowHigh> pair_of(const NumberKey& key, const TomlValue& value, const std::string& expected) const;
   void wrong_type(const TomlEntry& entry, std::string expected) const;
-  bool in_range(const NumberKey& key, double value, const SourcePlace& place) const;
+  bool in_range(const NumberKey& key, double value, const SourceLocation& place) const;
   void report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys);
   void forgive_missing(std::string_view key);
   void report_missing_keys() const;
 
   const TomlTable& table_;
   std::string path_;
-  SourcePlace place_;
+  SourceLocation place_;
   const TomlReporter& reporter_;
   std::vector<std::string_view> known_;
   std::vector<MissingKey> missing_;

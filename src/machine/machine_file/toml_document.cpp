@@ -14,7 +14,7 @@ namespace {
 
 TomlTable convert(const toml::table& table, const TomlReporter& reporter);
 
-SourcePlace place_of(const toml::source_region& region, const TomlReporter& reporter) {
+SourceLocation place_of(const toml::source_region& region, const TomlReporter& reporter) {
   const bool one_line = region.begin.line == region.end.line;
   const std::uint32_t end = one_line ? region.end.column : UINT16_MAX;
   return reporter.place(region.begin.line, region.begin.column, end);
@@ -73,12 +73,12 @@ std::string advice(std::string_view line, std::size_t offset) {
 
 void report(const toml::parse_error& error, const TomlReporter& reporter) {
   std::string_view description = error.description();
-  const SourcePlace place = place_of(error.source(), reporter);
+  const SourceLocation place = place_of(error.source(), reporter);
   if (const std::size_t start = description.find("cannot redefine existing "); start != std::string_view::npos) {
     const std::size_t quote = std::min(description.find('\'', start), description.size());
     const std::string_view line = reporter.line(place.line);
     const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
-    SourcePlace whole = place;
+    SourceLocation whole = place;
     whole.column = static_cast<std::uint32_t>(first + 1);
     whole.length = static_cast<std::uint32_t>(std::max<std::size_t>(1, std::min(line.find('#'), line.size()) - first));
     reporter.error("machine.duplicate", whole, fmt::format("{} is given twice", description.substr(quote)),

@@ -25,12 +25,12 @@ struct TomlDate {};
 
 struct TomlValue {
   std::variant<TomlDate, bool, double, std::string, TomlArray, TomlTable> content;
-  SourcePlace place;
+  SourceLocation place;
 };
 
 struct TomlEntry {
   std::string key;
-  SourcePlace place;  // position of the key
+  SourceLocation place;  // position of the key
   TomlValue value;
 };
 

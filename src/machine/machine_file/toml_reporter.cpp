@@ -44,7 +44,7 @@ TomlReporter::TomlReporter(std::string_view text, std::string file, Diagnostics&
   }
 }
 
-void TomlReporter::error(std::string_view code, const SourcePlace& place, const FindingWords& message,
+void TomlReporter::error(std::string_view code, const SourceLocation& place, const FindingWords& message,
                          const FindingWords& expected) const {
   diagnostics_.add({.severity = Severity::error,
                     .code = kind_.area + std::string(code.substr(std::min(code.find('.'), code.size()))),
@@ -59,7 +59,8 @@ std::string_view TomlReporter::line(std::uint32_t number) const {
   return number == 0 || number > lines_.size() ? std::string_view() : lines_[number - 1];
 }
 
-SourcePlace TomlReporter::place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const {
+SourceLocation TomlReporter::place(std::uint32_t line, std::uint32_t first_character,
+                                   std::uint32_t end_character) const {
   const std::size_t first = bytes_before(this->line(line), first_character);
   const std::size_t end = bytes_before(this->line(line), std::max(first_character + 1, end_character));
   return {.line = line,

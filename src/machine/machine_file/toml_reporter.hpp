@@ -21,7 +21,7 @@ class TomlReporter {
   // `text` must outlive the reporter.
   TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics, TomlFileKind kind = {});
 
-  void error(std::string_view code, const SourcePlace& place, const FindingWords& message,
+  void error(std::string_view code, const SourceLocation& place, const FindingWords& message,
              const FindingWords& expected) const;
 
   const std::string& kind_in_words() const { return kind_.words; }
@@ -29,7 +29,7 @@ class TomlReporter {
   // The line without its line end. Lines count from 1.
   std::string_view line(std::uint32_t number) const;
   // Converts columns in characters, as used by the TOML parser, to columns in bytes.
-  SourcePlace place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const;
+  SourceLocation place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const;
 
  private:
   std::vector<std::string_view> lines_;

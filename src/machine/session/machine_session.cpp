@@ -318,8 +318,8 @@ MachineStatus MachineSession::status() const {
   status.state = state_;
   status.position = position();
   status.lost_place = lost_place().has_value();
-  status.now_at = live_place_.at();
-  status.speed_now = live_place_.speed();
+  status.now_at = live_position_.at();
+  status.speed_now = live_position_.speed();
   status.ahead = position().place;
   status.inputs = board_.inputs();
   status.overrides = overrides_;
@@ -360,7 +360,7 @@ const Program* MachineSession::program() const {
 const HomingPath* MachineSession::homing() const {
   return work_ ? work_->homing : nullptr;
 }
-const RefillLedger* MachineSession::ledger() const {
+const QueueUpdateLedger* MachineSession::ledger() const {
   return work_ && work_->drive ? work_->drive->ledger() : nullptr;
 }
 

@@ -48,7 +48,7 @@ void MachineSession::update_door() {
 }
 
 void MachineSession::report_tails() {
-  const RefillLedger* const tails = work_->drive->ledger();
+  const QueueUpdateLedger* const tails = work_->drive->ledger();
   for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
     publish({.kind = MachineChange::Kind::rested_by_tail});
   }

@@ -25,20 +25,20 @@ std::optional<Refusal> MachineSession::lost_place() const {
 // Asks the board where it is, and takes over what it has told.
 void MachineSession::poll_place() {
   if (!options_.tells_place) return;
-  if (!busy()) return live_place_.rest_at(position().place);
+  if (!busy()) return live_position_.rest_at(position().place);
   // At rest the drive knows the place itself: a question of before the rest may be answered after the rest.
   const bool rests = work_->drive && work_->drive->state() == MotionDrive::State::held;
-  if (rests) live_place_.rest_at(place_.point_of(work_->drive->place(), work_->drive->downs()));
+  if (rests) live_position_.rest_at(place_.point_of(work_->drive->place(), work_->drive->downs()));
   if (board_.error() || !zero_counts()) return;
   const auto heard = board_.status() ? std::optional(board_.status_time()) : std::nullopt;
-  if (!rests && heard && live_place_.is_news(*heard)) {
-    const MotorPlace motors = steps_since(*zero_counts(), board_.status()->positions);
-    live_place_.hear(kinematics_of(machine_).axes(motors, position().downs, live_place_.at()), *heard);
+  if (!rests && heard && live_position_.is_news(*heard)) {
+    const MotorPosition motors = steps_since(*zero_counts(), board_.status()->positions);
+    live_position_.hear(kinematics_of(machine_).axes(motors, position().downs, live_position_.at()), *heard);
   }
   const Seconds between = options_.over_a_line ? between_places_over_a_line : between_places;
   const bool is_asked = work_->stage == Work::Stage::asks_counts;
-  if (is_asked || !board_.settled() || !live_place_.is_due(now(), heard, between)) return;
-  live_place_.on_asked(now());
+  if (is_asked || !board_.settled() || !live_position_.is_due(now(), heard, between)) return;
+  live_position_.on_asked(now());
   board_.ask();
 }
 

@@ -15,7 +15,7 @@ constexpr Seconds a_wait_for_lines{0.001};
 // Lets a program that comes line by line go on when there are lines. True: the turn was spent waiting for more lines,
 // so that the look-ahead sees them.
 bool MachineSession::poll_lines(Seconds most) {
-  OpenProgram* const lines = work_->lines;
+  StreamedProgram* const lines = work_->lines;
   if (lines == nullptr) return false;
   MotionDrive& drive = *work_->drive;
   if (drive.holds().has(HoldReason::await_line)) {

@@ -140,7 +140,7 @@ MachineSession::Answer MachineSession::handle(request::Start& start) {
   // Over a line, a tap does not follow the spindle while it reverses: the tool rests meanwhile, and a floating holder
   // makes up the difference. Under a limit of jerk, a change of speed must be complete before the next one, which is
   // too slow to follow a reversing spindle.
-  work->answers = AnswerBook(
+  work->answers = StoredResults(
       {.probes = start.answers_probes, .taps = !options_.over_a_line && counts > 0 && !has_jerk_limit(machine_)});
   InterpreterOptions interpretation = start.options;
   if (!start.from) interpretation.start = position().place;
@@ -163,7 +163,7 @@ MachineSession::Answer MachineSession::handle(request::Start& start) {
   Watchers& watchers = start.watchers;
   if (!options.lead_in.empty() && watchers.rests) {
     watchers.rests = [from = *start.from, lead_in = options.lead_in.size(),
-                      tell = watchers.rests](const BoardRest& rest) { tell(without_lead_in(from, lead_in, rest)); };
+                      tell = watchers.rests](const BoardStop& rest) { tell(without_lead_in(from, lead_in, rest)); };
   }
   put_on_drive(*work, options, watchers, start.live, start.live ? start.nominal_time : Seconds(0));
   if (is_on_path && work->drive->ledger() != nullptr) {
@@ -179,7 +179,7 @@ MachineSession::Answer MachineSession::handle(request::Stream& stream) {
   if (auto refused = lost_place(); refused && !stream.program->jogs()) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->lines = stream.program;
-  work->activity = std::make_unique<OpenRun>(*stream.program, machine_);
+  work->activity = std::make_unique<StreamedProgramRun>(*stream.program, machine_);
   DriveOptions options = drive_options();
   options.waits_for_operator = true;
   put_on_drive(*work, options, stream.watchers);
@@ -197,16 +197,16 @@ MachineSession::Answer MachineSession::handle(request::DropLines&) {
 }
 
 Seconds MachineSession::clock_of(const Work& work) const {
-  const RefillLedger* const ledger = work.drive->ledger();
+  const QueueUpdateLedger* const ledger = work.drive->ledger();
   return ledger != nullptr ? ledger->executed_time() : now();
 }
 
 // Puts the work's activity on a drive, and connects all watchers.
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers, bool knows_ahead,
                                   Seconds nominal_time) {
-  AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
+  StoredResults& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
   const MotionLimits limits = motion_limits(machine_);
-  work.path = std::make_unique<LeftOutTime>(*work.activity, limits, options.begin_at.value_or(PathPlace()));
+  work.path = std::make_unique<SkippedTime>(*work.activity, limits, options.begin_at.value_or(PathPosition()));
   work.ahead.begin(position().place, options.lead_in, limits, nominal_time);
   work.drive = std::make_unique<MotionDrive>(*work.path, limits, step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
@@ -215,7 +215,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, const
       const auto* move = std::get_if<PlannedMove>(&item);
       const auto* action = std::get_if<Action>(&item);
       const Seconds time = move != nullptr ? move->duration() : action->dwell;
-      const RefillLedger* const ledger = work.drive->ledger();
+      const QueueUpdateLedger* const ledger = work.drive->ledger();
       const Seconds ends = ledger != nullptr ? ledger->given_time() : now() + work.drive->committed();
       if (move != nullptr) work.ahead.plan(*move, limits, ends - time, ends, clock_of(work));
       if (action != nullptr) work.ahead.plan(*action, ends - time, ends, clock_of(work));
@@ -230,7 +230,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, const
     if (watcher) watcher(outcome);
     publish({.kind = MachineChange::Kind::probed, .probe = outcome});
   });
-  if (RefillLedger* const ledger = drive.ledger()) {
+  if (QueueUpdateLedger* const ledger = drive.ledger()) {
     if (watchers.motion) ledger->watch_motion(watchers.motion);
     if (watchers.executed) ledger->watch_executed(watchers.executed);
     if (watchers.rests) ledger->watch_rests(watchers.rests);
@@ -257,7 +257,7 @@ MachineSession::Answer MachineSession::handle(request::Jog& jog) {
 }
 
 // Has no effect on a jog that has begun to brake.
-MachineSession::Answer MachineSession::handle(request::RenewLease&) {
+MachineSession::Answer MachineSession::handle(request::RenewKeepAlive&) {
   if (state_ != MachineState::jog) return refusal(RefusalReason::no_jog);
   work_->lease.renew(now());
   return at_once();
@@ -400,7 +400,7 @@ MachineSession::Answer MachineSession::handle(request::OperatorDone&) {
   if (!busy() || !work_->drive || !work_->drive->waits_for()) {
     return refusal(RefusalReason::not_waiting);
   }
-  if (WaitWords* const words = work_->wait_words()) words->pass(work_->drive->waits_for()->source.line);
+  if (OperatorMessages* const words = work_->operator_messages()) words->pass(work_->drive->waits_for()->source.line);
   work_->drive->done();
   update_holds();
   return at_once();

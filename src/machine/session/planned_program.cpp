@@ -5,7 +5,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 
 namespace passo {
 namespace {

@@ -16,9 +16,9 @@
 namespace passo {
 
 // Passes a path on, and adds up the nominal time of everything skipped before the point where the motion begins.
-class LeftOutTime final : public Source<PathItem> {
+class SkippedTime final : public Source<PathItem> {
  public:
-  LeftOutTime(Source<PathItem>& path, const MotionLimits& limits, const PathPlace& begin)
+  SkippedTime(Source<PathItem>& path, const MotionLimits& limits, const PathPosition& begin)
       : path_(path), limits_(limits), items_(begin.item), left_out_(begin.s) {}
   [[nodiscard]] bool next(PathItem& item) override {
     if (!path_.next(item)) return false;

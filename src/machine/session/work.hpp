@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "jog_lease.hpp"
+#include "jog_keep_alive.hpp"
 #include "planned_ahead.hpp"
-#include "rest_in_hold.hpp"
+#include "stop_in_hold.hpp"
 
 #include "passo/activity/homing_path.hpp"
 #include "passo/activity/program.hpp"
@@ -30,11 +30,13 @@ class MachineSession::Work {
   // Whether this is a program, which can be held and resumed.
   bool is_program() const { return program != nullptr || lines != nullptr; }
 
-  WaitWords* wait_words() const {
-    return program != nullptr ? &program->wait_words() : lines != nullptr ? &lines->wait_words() : nullptr;
+  OperatorMessages* operator_messages() const {
+    return program != nullptr ? &program->operator_messages()
+           : lines != nullptr ? &lines->operator_messages()
+                              : nullptr;
   }
   std::string words_at(std::uint32_t line) const {
-    const WaitWords* const words = wait_words();
+    const OperatorMessages* const words = operator_messages();
     return words != nullptr ? words->at(line) : std::string();
   }
 
@@ -43,21 +45,21 @@ class MachineSession::Work {
   std::uint64_t stops_before = 0;  // stops of the program before the point at which it was started in the middle of its
                                    // path
   bool stopped = false;            // a stop was requested
-  RestInHold rest;                 // for a program
+  StopInHold rest;                 // for a program
   int recoveries_told = 0;
   std::optional<std::uint32_t> standstill_line;  // program line, when a standstill during motion was reported
-  JogLease lease;                                // for a jog
+  JogKeepAlive lease;                            // for a jog
 
   // The order matters: each member uses members above it.
   Diagnostics own_findings;  // used if the caller does not collect the findings
   Diagnostics* findings = &own_findings;
-  AnswerBook answers;
+  StoredResults answers;
   std::unique_ptr<Activity> activity;
-  Program* program = nullptr;    // the activity, if it is a program
-  OpenProgram* lines = nullptr;  // the program behind the activity, if it arrives line by line
-  bool drops = false;            // queued items are being dropped
+  Program* program = nullptr;        // the activity, if it is a program
+  StreamedProgram* lines = nullptr;  // the program behind the activity, if it arrives line by line
+  bool drops = false;                // queued items are being dropped
   HomingPath* homing = nullptr;
-  std::unique_ptr<LeftOutTime> path;  // the activity's path, as passed to the drive
+  std::unique_ptr<SkippedTime> path;  // the activity's path, as passed to the drive
   std::unique_ptr<MotionDrive> drive;
   std::unique_ptr<ProgramChecker> checker;  // for a check, which has no activity
   PlannedAhead ahead;                       // for motion with immediate reactions

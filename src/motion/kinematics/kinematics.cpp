@@ -94,13 +94,13 @@ void Kinematics::add(const MotorRow& row) {
   if (count_ < max_motors) rows_[count_++] = row;
 }
 
-MotorPlace Kinematics::motors(const Point& axes, AxisSet downs) const {
-  MotorPlace place;
+MotorPosition Kinematics::motors(const Point& axes, AxisSet downs) const {
+  MotorPosition place;
   for (std::size_t m = 0; m < count_; ++m) place[m] = rows_[m].steps_at(axes, downs);
   return place;
 }
 
-Point Kinematics::axes(const MotorPlace& motors, AxisSet downs, const Point& others) const {
+Point Kinematics::axes(const MotorPosition& motors, AxisSet downs, const Point& others) const {
   Point place = others;
   AxisSet known;
   bool shares = false;
@@ -115,7 +115,7 @@ Point Kinematics::axes(const MotorPlace& motors, AxisSet downs, const Point& oth
   return place;
 }
 
-void Kinematics::find_shared(const MotorPlace& motors, AxisSet known, Point& place) const {
+void Kinematics::find_shared(const MotorPosition& motors, AxisSet known, Point& place) const {
   SharedAxes shared;
   AxisSet unknown;
   for (const MotorRow& row : rows()) {
@@ -137,7 +137,7 @@ void Kinematics::find_shared(const MotorPlace& motors, AxisSet known, Point& pla
   shared.solve(place);
 }
 
-Point Kinematics::axes_after(const Point& from, const MotorPlace& motors, unsigned moved, AxisSet downs) const {
+Point Kinematics::axes_after(const Point& from, const MotorPosition& motors, unsigned moved, AxisSet downs) const {
   const Point there = axes(motors, downs, from);
   Point place = from;
   for (std::size_t m = 0; m < count_; ++m) {

@@ -53,7 +53,7 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 }  // namespace
 
 PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics,
-                         const MachineAnswers& answers)
+                         const MachineResults& answers)
     : operations_(operations),
       options_(options),
       diagnostics_(diagnostics),
@@ -138,13 +138,13 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
             return false;
           },
           [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
-          [&](const operation::OrientSpindle&) { return lacks(Lack::orientation), false; },
+          [&](const operation::OrientSpindle&) { return lacks(TorqueShortage::orientation), false; },
           [&](const operation::AwaitSpindle&) { return false; },  // already reported with OrientSpindle
-          [&](const operation::SetDigitalOutput&) { return lacks(Lack::outputs), false; },
-          [&](const operation::SetAnalogOutput&) { return lacks(Lack::outputs), false; },
-          [&](const operation::UserCode&) { return lacks(Lack::user_codes), false; },
+          [&](const operation::SetDigitalOutput&) { return lacks(TorqueShortage::outputs), false; },
+          [&](const operation::SetAnalogOutput&) { return lacks(TorqueShortage::outputs), false; },
+          [&](const operation::UserCode&) { return lacks(TorqueShortage::user_codes), false; },
           [&](const operation::ReadInput& input) {
-            lacks(Lack::inputs);
+            lacks(TorqueShortage::inputs);
             return input.timeout > Seconds(0) && act(Action::Kind::dwell, input.timeout);
           },
           [&](const operation::SetSpindleSpeed& speed) {
@@ -203,20 +203,20 @@ bool PathBuilder::next_probe_step(PathItem& item) {
 }
 
 // Each thing that the machine lacks is reported once.
-void PathBuilder::lacks(Lack what) {
+void PathBuilder::lacks(TorqueShortage what) {
   if (std::exchange(told_[static_cast<std::size_t>(what)], true)) return;
   switch (what) {
-    case Lack::orientation:
+    case TorqueShortage::orientation:
       return report(Severity::error, "path.no-orientation", "the machine cannot turn its spindle to an angle (M19)",
                     "a program without M19");
-    case Lack::outputs:
+    case TorqueShortage::outputs:
       return report(Severity::warning, "path.no-outputs", "the machine has no such output, so nothing is switched",
                     "a program without M62 to M65, M67 and M68");
-    case Lack::inputs:
+    case TorqueShortage::inputs:
       return report(Severity::warning, "path.no-inputs",
                     "the machine has no inputs: reading one gives 0, and waiting for one lasts until the timeout",
                     "a program without M66");
-    case Lack::user_codes:
+    case TorqueShortage::user_codes:
       return report(Severity::warning, "path.no-user-codes", "user codes run no program, so nothing happens",
                     "a program without M100 to M199");
   }
@@ -396,7 +396,7 @@ OutputState PathBuilder::outputs() const {
 }
 
 // A thread heeds no factor on the feed and no feed hold.
-Heeds PathBuilder::heeds() const {
+OverridePermissions PathBuilder::heeds() const {
   if (!synchronised_pitch_) return heeds_;
   return {.feed_override = false,
           .spindle_override = heeds_.spindle_override && !options_.threads_hold_speed,

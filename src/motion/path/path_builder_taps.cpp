@@ -18,7 +18,7 @@ constexpr double more_turns = 2;
 // The tap goes down in step with the spindle, goes on until the spindle has reversed, and goes back in step to where
 // the tap began.
 bool PathBuilder::begin_tap(const operation::RigidTap& tap, PathItem& item) {
-  if (answers_.tap_rest() == nullptr) return expand(tap), false;
+  if (answers_.tap_reversal() == nullptr) return expand(tap), false;
   tap_start_ = position_;
   if (!add_line(tap.end, false, item)) return false;
   auto& down = std::get<Segment>(item);
@@ -43,7 +43,7 @@ bool PathBuilder::next_tap_step(PathItem& item) {
     }
     case TapStep::back: {
       followed_tap_ = TapStep::end;
-      position_ = *answers_.tap_rest();
+      position_ = *answers_.tap_reversal();
       if (add_curve(Curve::line(position_, tap_start_), false, item)) {
         std::get<Segment>(item).mode = PathMode::exact_stop;
         return true;

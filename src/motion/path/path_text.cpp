@@ -65,7 +65,7 @@ std::string name_of(const Action& action) {
 namespace {
 
 // The settings that differ from those at the start of a program.
-std::string to_text(const Heeds& heeds) {
+std::string to_text(const OverridePermissions& heeds) {
   std::string text;
   if (!heeds.feed_override) text += " no feed override";
   if (!heeds.spindle_override) text += " no spindle override";

@@ -328,8 +328,8 @@ void TimeBound::end_stretch(bool steady) {
   x_ = 0;
 }
 
-JerkWays::Rides TimeBound::rides_in(const Cell& cell, double entry, double exit) const {
-  JerkWays::Rides rides;
+JerkTimeBound::Rides TimeBound::rides_in(const Cell& cell, double entry, double exit) const {
+  JerkTimeBound::Rides rides;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double steepest = std::max(cell.entry.slope[i], cell.exit.slope[i]);
     if (!(steepest > cell.standing)) continue;

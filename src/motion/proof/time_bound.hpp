@@ -14,8 +14,8 @@
 // and at least the time of the whole cell at the largest x in it. The only inaccuracy is that different axes may limit
 // the motion in different parts of a cell; so the bound can be slightly too small, and never too large.
 //
-// Jerk limits raise the bound where an axis, or a straight line, moves from one point to another (JerkWays), and where
-// the path bends (time_bound_turns.cpp).
+// Jerk limits raise the bound where an axis, or a straight line, moves from one point to another (JerkTimeBound), and
+// where the path bends (time_bound_turns.cpp).
 //
 // The path stops where the program requires it: at actions, exact stops and the ends, and where the direction jumps by
 // more than rounding. There x is limited by the start-stop velocities of the axes. Memory: a window of cells, many
@@ -28,7 +28,7 @@
 
 #include "axis_ramp.hpp"
 #include "exact_curve.hpp"
-#include "jerk_ways.hpp"
+#include "jerk_time_bound.hpp"
 #include "speed_limit.hpp"
 
 #include "passo/proof/motion_proof.hpp"
@@ -114,7 +114,7 @@ class TimeBound {
   void raise_by_line(bool steady);
   void add_to_line(const Segment& segment, const Place& place);
   bool goes_back(const Joint& before, const Joint& after) const;
-  JerkWays::Rides rides_in(const Cell& cell, double entry, double exit) const;
+  JerkTimeBound::Rides rides_in(const Cell& cell, double entry, double exit) const;
   void plan_backwards(double last);
 
   Place place_at(const ExactCurve& curve, double s) const;
@@ -138,7 +138,7 @@ class TimeBound {
   std::optional<Joint> joint_;
   double x_ = 0;  // at the start of the first cell
   double time_ = 0;
-  JerkWays ways_;
+  JerkTimeBound ways_;
   // The section as long as it is a single straight line. Its limits are those along the line.
   struct Line {
     double began = 0;  // the bound of the time up to its start

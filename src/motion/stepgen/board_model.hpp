@@ -24,11 +24,11 @@ class BoardModel {
     position_[motor] = steps * whole_step + (position_[motor] & (whole_step - 1));
   }
 
-  void set_place(const BoardPlace& place) {
+  void set_place(const BoardPosition& place) {
     time_ = place.tick;
     position_ = place.motors;
   }
-  BoardPlace place() const { return {.motors = position_, .tick = static_cast<std::uint16_t>(time_)}; }
+  BoardPosition place() const { return {.motors = position_, .tick = static_cast<std::uint16_t>(time_)}; }
 
   void play(const BoardSegment& segment) {
     time_ += duration(segment, most_events);

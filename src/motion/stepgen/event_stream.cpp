@@ -24,7 +24,7 @@ EventStream::EventStream(const StepOptions& options)
       screws_(options) {
   divide_below(Exactness{}.least_rate);
   std::ranges::copy(options.kinematics.rows(), motors_.begin());
-  const MotorPlace start = options.kinematics.motors(options.start, options.downs);
+  const MotorPosition start = options.kinematics.motors(options.start, options.downs);
   for (unsigned m = 0; m < motor_count_; ++m) end_[m] = (start[m] + 0.5) * place_per_step;
   here_ = at_last_event_ = end_;
 }

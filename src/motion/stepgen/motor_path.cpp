@@ -53,7 +53,7 @@ void MotorPath::start(const Curve& curve, double end, std::span<const MotorRow> 
       terms_[m] = round_term(motor, curve.arc_data());
     } else if (curve.shape() == Curve::Shape::cubic && !goes_straight(curve.cubic_data(), motor.steps)) {
       terms_[m].way = Way::cubic;
-      cubics_[m] = CubicPlace(curve, motor, end);
+      cubics_[m] = CubicMotorPosition(curve, motor, end);
     } else {
       terms_[m] = straight_term(motor);
     }
@@ -236,7 +236,7 @@ void MotorPath::look_ahead(unsigned motor, double target, double step, double fr
 
 void MotorPath::places(unsigned motor, const Spots& spots, Lanes& places) const {
   const Term term = terms_[motor];
-  const CubicPlace cubic = cubics_[motor];
+  const CubicMotorPosition cubic = cubics_[motor];
   const auto fill = [&](const auto& place) {
     for (std::size_t i = 0; i < lane_count; ++i) places[i] = place(spots[i]);
   };
@@ -249,7 +249,7 @@ void MotorPath::places(unsigned motor, const Spots& spots, Lanes& places) const 
 
 void MotorPath::slopes(unsigned motor, const Spots& spots, Lanes& slopes) const {
   const Term term = terms_[motor];
-  const CubicPlace cubic = cubics_[motor];
+  const CubicMotorPosition cubic = cubics_[motor];
   const auto fill = [&](const auto& slope) {
     for (std::size_t i = 0; i < lane_count; ++i) slopes[i] = slope(spots[i]);
   };

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cubic_place.hpp"
+#include "cubic_motor_position.hpp"
 #include "lanes.hpp"
 #include "place.hpp"
 
@@ -155,7 +155,7 @@ class MotorPath {
 
   unsigned motors_ = 0;
   std::array<Term, max_motors> terms_;
-  std::array<CubicPlace, max_motors> cubics_;  // for motors that move along a cubic
+  std::array<CubicMotorPosition, max_motors> cubics_;  // for motors that move along a cubic
   const Curve* curve_ = nullptr;
   double end_ = 0;
   // Data of an arc. For other curves, turn_ is 0.

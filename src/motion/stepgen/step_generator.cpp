@@ -24,7 +24,7 @@ class StepGenerator::Implementation {
         stream_(options),
         board_(options.kinematics.motor_count()),
         fitter_(options.kinematics.motor_count(), stream_.shortest_interval(), options.bends) {
-    const MotorPlace start = options.kinematics.motors(options.start, options.downs);
+    const MotorPosition start = options.kinematics.motors(options.start, options.downs);
     for (unsigned m = 0; m < motors_; ++m) board_.set_steps(m, std::llround(start[m]));
     if (options.place) board_.set_place(*options.place);
   }
@@ -59,7 +59,7 @@ class StepGenerator::Implementation {
     stream_.go_back_to(stream_.now() - left);
     return Seconds(static_cast<double>(left) / whole_tick / tick_rate_.value());
   }
-  BoardPlace place() const { return board_.place(); }
+  BoardPosition place() const { return board_.place(); }
   AxisSet downs() const { return stream_.downs(); }
 
   bool next(BoardItem& item) {
@@ -241,7 +241,7 @@ bool StepGenerator::waits_at_rest() const {
 Seconds StepGenerator::cut_dwell() {
   return implementation_->cut_dwell();
 }
-BoardPlace StepGenerator::place() const {
+BoardPosition StepGenerator::place() const {
   return implementation_->place();
 }
 AxisSet StepGenerator::downs() const {

@@ -141,7 +141,7 @@ class AccelerationLaw final : public SpeedLaw {
   }
 
   // The limits at the start of the next segment, where the path rests.
-  RestSpeeds::Pair rest_before(const Segment& segment, bool is_first) {
+  StopSpeeds::Pair rest_before(const Segment& segment, bool is_first) {
     const Point direction = segment.curve.tangent(Mm(0));
     if (is_first) return {.start = rests_.at_start(direction, stopped_)};
     return rests_.between(end_direction(next_segment_ - 1), direction);
@@ -365,13 +365,13 @@ class AccelerationLaw final : public SpeedLaw {
   PathAhead& path_;
   const MidRunWishes& wishes_;
   CellCutter cutter_;
-  RestSpeeds rests_;
+  StopSpeeds rests_;
 
   CellQueue cells_;
   std::uint64_t next_segment_ = 0;  // the first segment of which no cell is cut
   bool cutting_ = false;
   bool at_rest_ = true;          // the next cell begins at rest
-  RestSpeeds::Pair rest_;        // then: the limits there
+  StopSpeeds::Pair rest_;        // then: the limits there
   double cut_feed_squared_ = 0;  // of the segment that is being cut
   double reached_squared_ = 0;   // the square of the highest speed at which it may begin
   std::size_t decided_ = 0;      // cells at the head whose exit speed no later cell can change

@@ -21,11 +21,11 @@ struct FeedFactors {
   double top = std::numeric_limits<double>::infinity();  // mm/s: limits all speeds, including rapids
 
   // Returns the chosen feed factor, without the spindle: a slow spindle does not stop the motion.
-  double chosen(const Heeds& heeds) const {
+  double chosen(const OverridePermissions& heeds) const {
     return (heeds.feed_override ? override : 1) * (heeds.adaptive_feed ? adaptive : 1);
   }
   // Returns the factor for planning. While the motion is stopped, the remaining path is planned for the slowest feed.
-  double planned(const Heeds& heeds, SpindleLock lock) const {
+  double planned(const OverridePermissions& heeds, SpindleLock lock) const {
     return std::max(chosen(heeds) * (lock != SpindleLock::none ? spindle : 1), least_feed_factor);
   }
   // The programmed or rapid speed with the factors, in mm/s.

@@ -1,10 +1,10 @@
-// JerkLift: makes the rows of the limits. Rows of bends have factors that hold for speeds near the present ones.
+// JerkOptimizer: makes the rows of the limits. Rows of bends have factors that hold for speeds near the present ones.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "arithmetic.hpp"
-#include "jerk_lift.hpp"
+#include "jerk_optimizer.hpp"
 
 namespace passo {
 namespace {
@@ -41,7 +41,7 @@ constexpr std::array<double, 4> x_out = {0, 0, 1, 0};
 }  // namespace
 
 // From rest with jerk j the motion is at h = j t³/6 with v = j t²/2 and a = j t. So a = 2 x / 3 h.
-void JerkLift::tie(Four& along) const {
+void JerkOptimizer::tie(Four& along) const {
   if (cell_ == tied_first_.node && tied_first_.factor != 0) {
     along[0] += tied_first_.factor * std::exchange(along[1], 0);
   }
@@ -50,19 +50,19 @@ void JerkLift::tie(Four& along) const {
   }
 }
 
-void JerkLift::add_row(Row row) {
+void JerkOptimizer::add_row(Row row) {
   tie(row.along);
   rows_.push_back(row);
 }
 
-void JerkLift::add_jolt_row(JoltRow row) {
+void JerkOptimizer::add_jolt_row(JoltRow row) {
   tie(row.along);
   jolt_rows_.push_back(row);
 }
 
 // The greatest x at the node of the cell that is no rest. With the jerk the same in all of the cell, a³ = 6 h j², and
 // each demand of an axis is a power of a.
-double JerkLift::highest_beside_rest(const Stretch& stretch, std::size_t cell, bool begins) const {
+double JerkOptimizer::highest_beside_rest(const Stretch& stretch, std::size_t cell, bool begins) const {
   const JerkCell& own = stretch.cells[cell];
   const double h = own.length;
   const double by_jerk = 1 / std::sqrt(6 * h);
@@ -93,13 +93,13 @@ double JerkLift::highest_beside_rest(const Stretch& stretch, std::size_t cell, b
 }
 
 // In the first cell after a rest, or the last cell before one, only x at the other node is unknown.
-void JerkLift::add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins) {
+void JerkOptimizer::add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins) {
   const std::size_t node = begins ? cell + 1 : cell;
   const double cap = std::min(stretch.node_cap[node], highest_beside_rest(stretch, cell, begins)) / 2;
   rows_.push_back({.along = begins ? x_out : x_in, .offset = cap, .limit = cap});
 }
 
-void JerkLift::add_straight_rows(const JerkCell& cell, double share, double in_share) {
+void JerkOptimizer::add_straight_rows(const JerkCell& cell, double share, double in_share) {
   const Forms forms(cell.length);
   if (cell.acceleration < infinity) {
     const double limit = cell.acceleration * share;
@@ -114,7 +114,7 @@ void JerkLift::add_straight_rows(const JerkCell& cell, double share, double in_s
 }
 
 // Where the limit falls, the row uses the line that is the highest at the present speed: |force| + fall w <= at rest.
-void JerkLift::add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place) {
+void JerkOptimizer::add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place) {
   add_row(row);
   if (!axis.falls_at(place.weight * place.cap)) return;
   const AccelerationCurve::Line& line = axis.line_at(place.weight * place.x);
@@ -126,7 +126,7 @@ void JerkLift::add_force_rows(const Row& row, const LimitedAxis& axis, const Fou
 // An axis is left out if the limits of other axes keep it far from its own limits. With the largest |q'|, |q''| and
 // |q'''| of each axis in the cell, and with the smallest |q'|, an axis limits the acceleration along the path to
 // (A + |q''| x) / |q'|, and the jerk to (J + 3 |q''| v a + |q'''| v³) / |q'|.
-JerkLift::Binding JerkLift::binding_in(const Stretch& stretch, std::size_t cell) const {
+JerkOptimizer::Binding JerkOptimizer::binding_in(const Stretch& stretch, std::size_t cell) const {
   const double share = stretch.share[cell];
   const double x = std::max({stretch.node_cap[cell], stretch.cap[cell], stretch.node_cap[cell + 1]});
   const double v = std::sqrt(x);
@@ -176,7 +176,7 @@ JerkLift::Binding JerkLift::binding_in(const Stretch& stretch, std::size_t cell)
   return binding;
 }
 
-void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first) {
+void JerkOptimizer::add_rows(const Stretch& stretch, std::size_t cell, bool is_first) {
   const JerkCell& own = stretch.cells[cell];
   const double share = stretch.share[cell];
   const double in_share = cell > 0 ? std::min(share, stretch.share[cell - 1]) : share;
@@ -230,7 +230,7 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
   }
 }
 
-void JerkLift::make_rows(const Stretch& stretch, std::size_t first, std::size_t last) {
+void JerkOptimizer::make_rows(const Stretch& stretch, std::size_t first, std::size_t last) {
   cells_.clear();
   rows_.clear();
   jolt_rows_.clear();
@@ -241,7 +241,7 @@ void JerkLift::make_rows(const Stretch& stretch, std::size_t first, std::size_t 
   }
 }
 
-void JerkLift::add_cell(const Stretch& stretch, std::size_t cell) {
+void JerkOptimizer::add_cell(const Stretch& stretch, std::size_t cell) {
   const bool begins = here_[0] == 0;
   const bool has_rest = begins || here_[2] == 0;
   const double h = stretch.cells[cell].length;
@@ -264,7 +264,7 @@ void JerkLift::add_cell(const Stretch& stretch, std::size_t cell) {
 }
 
 // Where a cell bends, its rows have factors that hold for speeds near the present ones. Slacks and prices stay.
-void JerkLift::make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last) {
+void JerkOptimizer::make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last) {
   old_rows_.swap(rows_);
   old_jolt_rows_.swap(jolt_rows_);
   make_rows(stretch, first, last);

@@ -7,8 +7,8 @@
 namespace passo {
 namespace {
 
-// Shares of the limits. Demands are larger between the places that JerkLift looks at. Of 400 random programs those with
-// limits of jerk take up to 0.8 % less time than with 0.985 in bends, for 5 % more instructions.
+// Shares of the limits. Demands are larger between the places that JerkOptimizer looks at. Of 400 random programs those
+// with limits of jerk take up to 0.8 % less time than with 0.985 in bends, for 5 % more instructions.
 constexpr double planned_velocity = 0.9999;
 constexpr double planned_share = 0.998;
 // A guess needs room on all sides, or the lift begins with steps that are hardly any.

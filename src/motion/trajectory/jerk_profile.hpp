@@ -5,7 +5,7 @@
 // of constant jerk and equal time, which lead from the state at its start to the state at its end.
 //
 //   1. A guess: a motion below all speed limits that accelerates and decelerates gently.
-//   2. JerkLift optimises the guess to nearly the fastest motion.
+//   2. JerkOptimizer optimises the guess to nearly the fastest motion.
 //   3. The phases are checked against every axis, exactly as they will be returned. Cells that exceed a limit are
 //      optimised again with a smaller fraction of the limits, together with the cells around them. If that does not
 //      help, the cells are too long for the rate of change of the motion: they are halved, and planning starts again.
@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "jerk_cell.hpp"
-#include "jerk_lift.hpp"
+#include "jerk_optimizer.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -148,7 +148,7 @@ class JerkProfile {
   bool in_motion_ = false;      // the window begins in motion, in the first of the states
   std::size_t planned_ = 0;     // cells for which the states are a plan to a stop
   bool fell_back_ = false;
-  JerkLift lift_;
+  JerkOptimizer lift_;
 };
 
 }  // namespace passo

@@ -26,9 +26,9 @@ inline bool rests_between(const Segment& before, const Segment& after) {
 // The squares of the path speeds at which a motion may begin and end at a stop. At these speeds no axis exceeds its
 // start-stop velocity, and no axis' velocity jumps by more than that. An axis that can jump to any velocity is no
 // limit.
-class RestSpeeds {
+class StopSpeeds {
  public:
-  explicit RestSpeeds(const MotionLimits& limits)
+  explicit StopSpeeds(const MotionLimits& limits)
       : limits_(limits),
         any_(std::ranges::any_of(limits.start_stop.values, [](MmPerSecond v) { return v > MmPerSecond(0); })) {}
 

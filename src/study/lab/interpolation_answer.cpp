@@ -3,9 +3,9 @@
 #include "json_text.hpp"
 
 #include "passo/lab/answers.hpp"
-#include "passo/study/beats.hpp"
 #include "passo/study/ideal_path.hpp"
 #include "passo/study/measure.hpp"
+#include "passo/study/pulse_details.hpp"
 
 namespace passo {
 namespace {
@@ -75,7 +75,7 @@ void add_row(const std::vector<T>& row, std::vector<std::vector<T>>& columns) {
 PulseColumns columns_of(const Method& method, const StepMove& move, std::int64_t pulses, double way) {
   PulseColumns columns;
   const auto source = start(method, move);
-  const Beats beats(method, move, pulses);
+  const PulseDetails beats(method, move, pulses);
   std::array<SpeedClock, speed_rules> clocks = {SpeedClock(SpeedRule::beats, pulses, way),
                                                 SpeedClock(SpeedRule::roots, pulses, way),
                                                 SpeedClock(SpeedRule::exact, pulses, way)};
@@ -133,7 +133,7 @@ std::string interpolation_answer(const Method& method, const StepMove& move) {
     way += way_of((*source)->next());
   }
   const PulseColumns columns = columns_of(method, move, pulses, way);
-  const Beats beats(method, move, pulses);
+  const PulseDetails beats(method, move, pulses);
   JsonText json;
   add_method(method, json);
   json.number("length", IdealPath(move).length());

@@ -6,8 +6,8 @@
 
 #include "passo/base/counted.hpp"
 #include "passo/interpolate/arcs.hpp"
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
@@ -36,10 +36,10 @@ void values_of(const MasterSlave<most_axes>& line, std::size_t axes, Values& val
   for (std::uint8_t axis = 0; axis < axes; ++axis) values.push_back(line.middle(axis));
 }
 
-Names names_of(const Lean<most_axes>&, std::size_t axes) {
+Names names_of(const BresenhamLine<most_axes>&, std::size_t axes) {
   return per_axis("decision", axes);
 }
-void values_of(const Lean<most_axes>& line, std::size_t axes, Values& values) {
+void values_of(const BresenhamLine<most_axes>& line, std::size_t axes, Values& values) {
   for (std::uint8_t axis = 0; axis < axes; ++axis) values.push_back(line.decision(axis));
 }
 
@@ -169,7 +169,7 @@ Result<std::unique_ptr<PulseSource>, std::string> start(const Method& method, co
   if (move.arc) return start_arc(method, move);
   switch (method.name) {
     case MethodName::master_slave: return source(MasterSlave<most_axes>(distances(move).all), move);
-    case MethodName::lean: return source(Lean<most_axes>(distances(move).all), move);
+    case MethodName::lean: return source(BresenhamLine<most_axes>(distances(move).all), move);
     case MethodName::dda: return start_dda(method, move);
     case MethodName::midpoint: return Failure{std::string("is for arcs, so it needs a centre")};
     default: return start_two_axes(method, move);

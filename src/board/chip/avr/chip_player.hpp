@@ -9,13 +9,13 @@
 // only one player, and all of its data is static: data at a fixed address costs half as much as data behind a pointer.
 #pragma once
 
-#include "begun_items.hpp"
+#include "direction_change_queue.hpp"
 #include "event_ring.hpp"
 #include "output_actions.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
+#include "started_items.hpp"
 #include "step_interrupt.hpp"
-#include "turn_queue.hpp"
 
 #include "passo/wire/board_segment.hpp"
 
@@ -42,11 +42,11 @@ class ChipPlayer {
     expansion.motors = motors;
     RingTimes::restart();
     OutputActions::clear();
-    TurnQueue::clear();
+    DirectionChangeQueue::clear();
     turns_ = left_ = 0;
     turning_ = fresh_ = slipped_ = false;
     made_ = 0;
-    BegunItems::clear();
+    StartedItems::clear();
     // The last host may have driven more motors.
     _Pragma("clang loop unroll(disable)") for (uint8_t m = 0; m < pins.motors; ++m) {
       expansion.accumulators[m] = 0x8000;
@@ -73,8 +73,8 @@ class ChipPlayer {
 
   // Whether the player can accept the next item.
   static bool ready() {
-    if (left_ != 0 || BegunItems::count() >= most_begun || OutputActions::full()) return false;
-    return BegunItems::count() < few_begun || waiting() < worth_more_begun;
+    if (left_ != 0 || StartedItems::count() >= most_begun || OutputActions::full()) return false;
+    return StartedItems::count() < few_begun || waiting() < worth_more_begun;
   }
   // True if more short items can begin while the oldest ones wait to be counted.
   static constexpr bool begins_many() { return most_begun > few_begun; }
@@ -86,7 +86,7 @@ class ChipPlayer {
   // The motors are stopped before the next segment loaded, so an empty ring until then does not count as late.
   static void begin_from_rest() { fresh_ = true; }
   static void load(const Segment& segment) {
-    for (uint8_t m = 0; m < BegunItems::motors(); ++m) expansion.increments[m] = segment.increments[m];
+    for (uint8_t m = 0; m < StartedItems::motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
     MotorOutputs::load(segment.flips, segment.directions);
@@ -106,7 +106,7 @@ class ChipPlayer {
       plan_watch(segment);
     }
     SerialLine::breathe();
-    BegunItems::add(segment, static_cast<uint16_t>(made_ + left_));
+    StartedItems::add(segment, static_cast<uint16_t>(made_ + left_));
     if (step_port_count > 1) SerialLine::breathe();
   }
   // Computes how far ahead events may be made, and whether the interrupt reads every received byte.
@@ -131,27 +131,27 @@ class ChipPlayer {
     SerialLine::breathe();
     OutputActions::put(outputs, rests);
     SerialLine::breathe();
-    BegunItems::add_outputs(made_);
+    StartedItems::add_outputs(made_);
   }
 
   // Whether the oldest item is done.
-  static bool finished() { return BegunItems::set_over(BegunItems::count() != 0 && is_over()); }
+  static bool finished() { return StartedItems::set_over(StartedItems::count() != 0 && is_over()); }
   // Drops the oldest item after its steps were counted.
   static void forget() {
-    if (BegunItems::events() == 0) OutputActions::forget();
-    BegunItems::forget();
+    if (StartedItems::events() == 0) OutputActions::forget();
+    StartedItems::forget();
     if (step_port_count > 1) SerialLine::breathe();
   }
   // For the oldest item: the events played, and the signed number of steps of a motor in these events.
   static uint8_t played() {
-    const uint8_t events = BegunItems::events();
-    if (BegunItems::is_over()) return events;
+    const uint8_t events = StartedItems::events();
+    if (StartedItems::is_over()) return events;
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
-  static int16_t steps(uint8_t motor) { return BegunItems::steps(played(), motor); }
+  static int16_t steps(uint8_t motor) { return StartedItems::steps(played(), motor); }
   // Adds the steps of the oldest item to the motors' positions, and finishes the item.
-  static void add_steps(int32_t* positions) { BegunItems::add_steps(played(), positions); }
+  static void add_steps(int32_t* positions) { StartedItems::add_steps(played(), positions); }
 
   // Makes some events, and starts the timer if it is stopped. `follows`: another item, or part of one, is available.
   // After a standstill, the Uno first fills half of the ring; otherwise the ring would run empty again at once.
@@ -211,10 +211,10 @@ class ChipPlayer {
   static bool is_over() {
     const uint8_t ahead = waiting();
     if (captured()) on_capture();  // after reading the ring, because a capture may come at any time
-    const uint16_t end = BegunItems::end();
+    const uint16_t end = StartedItems::end();
     if (noted_) return static_cast<int16_t>(end - captured_at_) <= 0;
     const int16_t since = static_cast<int16_t>(made_ - end);
-    return since >= 0 && BegunItems::last().is_played(ahead, static_cast<uint16_t>(since));
+    return since >= 0 && StartedItems::last().is_played(ahead, static_cast<uint16_t>(since));
   }
   // Events of the oldest item that are not played yet.
   static int16_t left_of_oldest() {
@@ -222,7 +222,7 @@ class ChipPlayer {
     uint16_t played = RingTimes::played(now, (head_ - now) & ring_mask, made_);
     if (captured()) on_capture();  // after reading the ring, because a capture may come at any time
     if (noted_) played = captured_at_;
-    return static_cast<int16_t>(BegunItems::end() - played);
+    return static_cast<int16_t>(StartedItems::end() - played);
   }
   // Stores the event of a capture, which follows from the ring's entry. Call before the interrupt has passed once
   // through the whole ring.
@@ -300,7 +300,7 @@ class ChipPlayer {
     expansion.address = entry_address(first);
     made_ = static_cast<uint16_t>(made_ + count);
     RingTimes::make_near(count);
-    if (left_ == 0) BegunItems::record_last();
+    if (left_ == 0) StartedItems::record_last();
     finish_piece(first, count);
   }
   [[gnu::always_inline]] static void finish_piece(uint8_t first, uint8_t count) {
@@ -346,18 +346,18 @@ class ChipPlayer {
     count = RingTimes::make(count, left_);
     SerialLine::breathe();
     made_ = static_cast<uint16_t>(made_ - left_);
-    if (left_ == 0) BegunItems::record_last();
+    if (left_ == 0) StartedItems::record_last();
     finish_piece(first, count);
   }
 
   static bool queue_turn() {
-    if (!TurnQueue::put(turns_)) return false;
+    if (!DirectionChangeQueue::put(turns_)) return false;
     turns_ = 0;
     turning_ = true;
     return true;
   }
   [[gnu::noinline]] static void reverse_now(uint8_t toggles) {
-    TurnQueue::make_next();
+    DirectionChangeQueue::make_next();
     set_fetched_toggles(RingTimes::toggles_of(toggles));
   }
 

@@ -12,7 +12,7 @@
 namespace passo {
 namespace {
 
-constexpr LineCare care{.answer_within = Seconds(0.1), .patience = Seconds(5)};
+constexpr LinkTimeouts care{.answer_within = Seconds(0.1), .patience = Seconds(5)};
 
 // A port whose time goes on by a hundredth of a second with each wait and a little with each frame, and a peer that is
 // told and asked in between.

@@ -197,7 +197,7 @@ TEST(Dxf, binary_files_read_as_their_texts) {
 TEST(Dxf, what_is_wrong_is_told_with_its_place) {
   const ReadDxf number = read_text("0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n10\nwide\n");
   EXPECT_EQ(first_code(number), "dxf.bad-number");
-  EXPECT_EQ(number.found.all().front().place, (SourcePlace{8, 1, 4}));
+  EXPECT_EQ(number.found.all().front().place, (SourceLocation{8, 1, 4}));
   const ReadDxf code = read_text("0\nSECTION\n2\nENTITIES\nten\n1\n");
   EXPECT_EQ(first_code(code), "dxf.bad-code");
   EXPECT_EQ(code.found.all().front().place.line, 5U);

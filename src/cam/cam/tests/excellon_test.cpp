@@ -113,7 +113,7 @@ TEST(Excellon, what_is_wrong_is_told_with_its_place) {
   EXPECT_EQ(early.found.all().front().place.line, 5U);
   const ReadDrill digits = read_drill("M48\nMETRIC\nT1C1.0\n%\nT1\nX1.0Y1.0.0\nM30\n");
   EXPECT_EQ(first_code(digits), "excellon.bad-number");
-  EXPECT_EQ(digits.found.all().front().place, (SourcePlace{6, 5, 6}));
+  EXPECT_EQ(digits.found.all().front().place, (SourceLocation{6, 5, 6}));
   EXPECT_EQ(first_code(read_drill("M48\nMETRIC\nT1C1.0\n%\nT1\nhello\nM30\n")), "excellon.unknown-command");
   EXPECT_EQ(first_code(read_drill("M48\nMETRIC\nT1C1.0\n%\nT1\nX1.0\nM02X5.0Y5.0\nM30\n")), "excellon.unsupported");
   EXPECT_EQ(first_code(read_drill("M48\nMETRIC\nT1C1.0\n%\nT1\nX99999999.0\nM30\n")), "drawing.too-far");

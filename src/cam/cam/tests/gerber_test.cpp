@@ -241,10 +241,10 @@ TEST(Gerber, what_old_programs_write_beside_the_format_is_read) {
 TEST(Gerber, what_is_wrong_is_told_with_its_place) {
   const ReadGerber early = read_mm("D12*\nX0Y0D03*\n");
   EXPECT_EQ(gerber_code(early), "gerber.no-aperture");
-  EXPECT_EQ(early.found.all().front().place, (SourcePlace{4, 1, 7}));
+  EXPECT_EQ(early.found.all().front().place, (SourceLocation{4, 1, 7}));
   const ReadGerber digits = read_mm("%ADD10C,1*%D10*\nX0\nY1-2D03*\n");
   EXPECT_EQ(gerber_code(digits), "gerber.bad-number");
-  EXPECT_EQ(digits.found.all().front().place, (SourcePlace{5, 1, 4})) << "a command on two lines";
+  EXPECT_EQ(digits.found.all().front().place, (SourceLocation{5, 1, 4})) << "a command on two lines";
   EXPECT_EQ(digits.found.all().front().text, "Y1-2D03*");
   EXPECT_EQ(gerber_code(read_mm("hello*")), "gerber.unknown-command");
   EXPECT_EQ(gerber_code(read_mm("%ZZ*%")), "gerber.unknown-command");

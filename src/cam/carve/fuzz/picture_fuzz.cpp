@@ -21,12 +21,12 @@ void check_program(const LevelPicture& picture) {
   const HeightGrid grid = relief_of(picture, {.width = Mm(20), .depth = Mm(4), .gamma = 1.5}, "it", findings);
   if (findings.any_error()) return;
   ReliefProgramOptions options;
-  constexpr FinishWay ways[] = {FinishWay::both, FinishWay::spiral, FinishWay::contours};
+  constexpr FinishStrategy ways[] = {FinishStrategy::both, FinishStrategy::spiral, FinishStrategy::contours};
   options.way = ways[picture.levels.front() % 3];
   options.finish.step_over = Mm(1);
   options.finish.removal = picture.levels.front() % 5 == 0 ? 100 : 0;
   options.roughing = ReliefRoughing{};
-  options.roughing->way = picture.levels.back() % 2 == 0 ? RoughWay::offsets : RoughWay::rows;
+  options.roughing->way = picture.levels.back() % 2 == 0 ? RoughStrategy::offsets : RoughStrategy::rows;
   options.rest = ReliefRest{};
   std::string text;
   const ReliefReport report = write_relief(

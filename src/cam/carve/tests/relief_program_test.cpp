@@ -18,8 +18,8 @@ using testing::Not;
 
 TEST(ReliefProgram, never_cuts_into_a_random_surface) {
   std::mt19937_64 random(seed());
-  const FinishWay ways[] = {FinishWay::contours, FinishWay::rows, FinishWay::columns, FinishWay::both,
-                            FinishWay::spiral};
+  const FinishStrategy ways[] = {FinishStrategy::contours, FinishStrategy::rows, FinishStrategy::columns,
+                                 FinishStrategy::both, FinishStrategy::spiral};
   std::size_t i = 0;
   for (const OracleCutter& cutter : oracle_cutters()) {
     const HeightGrid grid = random_surface(random, 40, 30, Mm(0.2), Mm(0.25));
@@ -147,7 +147,7 @@ TEST(ReliefProgram, goes_on_level_beside_the_surface_unless_that_is_a_body) {
     }
     return lowest;
   };
-  for (const FinishWay way : {FinishWay::both, FinishWay::spiral}) {
+  for (const FinishStrategy way : {FinishStrategy::both, FinishStrategy::spiral}) {
     ReliefProgramOptions options = three_tools();
     options.way = way;
     EXPECT_NEAR(lowest_beside(written(grid, options).text), 0, 1e-3);
@@ -158,7 +158,7 @@ TEST(ReliefProgram, goes_on_level_beside_the_surface_unless_that_is_a_body) {
 
 TEST(ReliefProgram, is_placed_by_its_origin_and_cuts_its_edges) {
   const HeightGrid grid = hills(11, 21, 0.5);
-  for (const FinishWay way : {FinishWay::rows, FinishWay::columns, FinishWay::spiral}) {
+  for (const FinishStrategy way : {FinishStrategy::rows, FinishStrategy::columns, FinishStrategy::spiral}) {
     ReliefProgramOptions options = options_of("ball:3");
     options.way = way;
     options.x0 = Mm(-2.5);

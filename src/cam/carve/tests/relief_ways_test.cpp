@@ -15,8 +15,8 @@ using testing::HasSubstr;
 
 ReliefProgramOptions new_ways(bool has_arcs) {
   ReliefProgramOptions options = three_tools();
-  options.way = FinishWay::contours;
-  options.roughing->way = RoughWay::offsets;
+  options.way = FinishStrategy::contours;
+  options.roughing->way = RoughStrategy::offsets;
   options.arcs = has_arcs;
   return options;
 }
@@ -27,9 +27,9 @@ TEST(ReliefWays, of_contours_and_offsets_never_cut_into_a_random_surface) {
   for (const OracleCutter& cutter : oracle_cutters()) {
     const HeightGrid grid = random_surface(random, 26, 22, Mm(0.2), Mm(0.25));
     ReliefProgramOptions options = options_of(cutter.text);
-    options.way = FinishWay::contours;
+    options.way = FinishStrategy::contours;
     options.roughing = ReliefRoughing{.tool = {.cutter = options.finish.cutter, .step_over = Mm(0.9)},
-                                      .way = RoughWay::offsets,
+                                      .way = RoughStrategy::offsets,
                                       .step_down = Mm(1.5),
                                       .stock = Mm(0.1)};
     options.ramps = i++ % 3 != 2;
@@ -98,7 +98,7 @@ TEST(ReliefWays, make_circles_of_a_cone) {
     grid.heights.push_back(grid_height(Mm(std::max(-6.0, -1.6 * away))));
   }
   ReliefProgramOptions options = options_of("ball:3");
-  options.way = FinishWay::contours;
+  options.way = FinishStrategy::contours;
   const ReliefPart arcs = written(grid, options).report.parts[0];
   options.arcs = false;
   const ReliefPart lines = written(grid, options).report.parts[0];
@@ -119,12 +119,12 @@ TEST(ReliefWays, make_upright_arcs_of_rows_over_cylinders) {
   ReliefProgramOptions options = options_of("ball:3");
   options.tolerance = Mm(0.01);
   options.finish.plunge = options.finish.feed;  // else an arc that goes down is slower than its lines
-  for (const FinishWay way : {FinishWay::rows, FinishWay::columns}) {
-    const HeightGrid& surface = way == FinishWay::rows ? grid : grid.transposed();
+  for (const FinishStrategy way : {FinishStrategy::rows, FinishStrategy::columns}) {
+    const HeightGrid& surface = way == FinishStrategy::rows ? grid : grid.transposed();
     options.way = way;
     options.arcs = true;
     const Written program = written(surface, options);
-    EXPECT_THAT(program.text, HasSubstr(way == FinishWay::rows ? "G18 G" : "G19 G"));
+    EXPECT_THAT(program.text, HasSubstr(way == FinishStrategy::rows ? "G18 G" : "G19 G"));
     expect_no_gouge(surface, program.text, {oracle_of("ball:3")}, 17);
     options.arcs = false;
     EXPECT_LT(program.report.parts[0].moves * 2, written(surface, options).report.parts[0].moves);

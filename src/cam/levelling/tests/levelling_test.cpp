@@ -114,8 +114,8 @@ TEST(LevelledMove, random_moves_keep_the_tolerance_everywhere) {
   for (int trial = 0; trial < 400; ++trial) {
     const HeightMap map = random_map(random, trial % 2 == 0 ? 0.2 : 5);
     const double tolerance = trial % 3 == 0 ? 0.1 : 0.003;
-    const LevelPlace from{place(random), place(random), place(random)};
-    LevelPlace to{place(random), place(random), place(random)};
+    const LevelPoint from{place(random), place(random), place(random)};
+    LevelPoint to{place(random), place(random), place(random)};
     const bool is_arc = trial % 4 != 0;
     const double center_x = place(random);
     const double center_y = place(random);

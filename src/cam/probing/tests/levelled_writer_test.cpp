@@ -1,8 +1,8 @@
-// The parts of Leveller: LevelledWriter, SaidPlace and OffCodes.
+// The parts of Leveller: LevelledWriter, KnownWorkPosition and OffCodes.
 #include "../levelled_writer.hpp"
 
+#include "../known_work_position.hpp"
 #include "../off_codes.hpp"
-#include "../said_place.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -65,8 +65,8 @@ TEST_F(LevelledWriterTest, takes_a_retract_of_the_machine_for_the_end_of_a_hole)
   EXPECT_EQ(writer_.height(), -3);
 }
 
-TEST(SaidPlace, is_known_by_what_the_program_names) {
-  SaidPlace said;
+TEST(KnownWorkPosition, is_known_by_what_the_program_names) {
+  KnownWorkPosition said;
   EXPECT_EQ(said.height(), LevelHeight::of_machine);
   said.note_move(x_and_y, false);
   EXPECT_TRUE(said.has_all(x_and_y));
@@ -79,8 +79,8 @@ TEST(SaidPlace, is_known_by_what_the_program_names) {
   EXPECT_EQ(said.height(), LevelHeight::known);
 }
 
-TEST(SaidPlace, is_lost_axis_by_axis) {
-  SaidPlace said;
+TEST(KnownWorkPosition, is_lost_axis_by_axis) {
+  KnownWorkPosition said;
   said.note_move(AxisSet(0b111), true);
   said.lose(x_and_y);
   EXPECT_FALSE(said.has(Axis::x));
@@ -93,8 +93,8 @@ TEST(SaidPlace, is_lost_axis_by_axis) {
   EXPECT_EQ(said.height(), LevelHeight::of_machine);
 }
 
-TEST(SaidPlace, is_known_in_x_and_y_after_a_cycle) {
-  SaidPlace said;
+TEST(KnownWorkPosition, is_known_in_x_and_y_after_a_cycle) {
+  KnownWorkPosition said;
   said.note_cycle(LevelHeight::of_machine);
   EXPECT_TRUE(said.has_all(x_and_y));
   EXPECT_FALSE(said.has(Axis::z));

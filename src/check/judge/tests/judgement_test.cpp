@@ -42,7 +42,7 @@ TEST(Judgements, know_the_motors_and_give_the_load_to_all_who_watch) {
   ASSERT_FALSE(alone.margin.worst.empty());
   PathRecorder path;
   LoadTrack track;
-  LineLoads lines;
+  LineTorques lines;
   const Judgement watched = program.judge({.path = &path, .track = &track, .lines = &lines});
   EXPECT_EQ(watched.margin.verdict, alone.margin.verdict) << "watching changes nothing";
   EXPECT_EQ(watched.summary.time(), alone.summary.time());
@@ -93,8 +93,8 @@ TEST(Judgements, are_those_of_watchers_that_see_one_item_after_the_other) {
   }
 }
 
-TEST(LineLoads, are_the_greatest_of_each_line_that_moves) {
-  LineLoads loads;
+TEST(LineTorques, are_the_greatest_of_each_line_that_moves) {
+  LineTorques loads;
   loads.add(3, 0.25);
   loads.add(1, 0);
   loads.add(3, 0.5);

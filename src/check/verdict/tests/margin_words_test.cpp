@@ -38,7 +38,7 @@ TEST(MarginWords, tell_swings_from_a_lack_of_torque) {
   MarginSpot spot = doubtful_spot();
   MarginVerdict margin{.verdict = Verdict::doubtful, .axes = {}, .worst = {spot}};
   EXPECT_FALSE(is_torque_enough(margin));
-  margin.worst.front().want = Want::jump;
+  margin.worst.front().want = LossCause::jump;
   EXPECT_TRUE(is_torque_enough(margin));
   spot.verdict = Verdict::safe;
   margin.worst.push_back(spot);
@@ -48,11 +48,11 @@ TEST(MarginWords, tell_swings_from_a_lack_of_torque) {
 TEST(MarginWords, name_the_swing) {
   MarginSpot spot = doubtful_spot();
   spot.rate = Hertz(1234567);
-  spot.want = Want::jump;
+  spot.want = LossCause::jump;
   EXPECT_EQ(cause_of(spot),
             "Y needs 0.31 N\u00B7m at 1,234,567 steps/s to damp the oscillation after a jump of its torque, and has "
             "0.28 to 0.4");
-  spot.want = Want::calm;
+  spot.want = LossCause::calm;
   // Without a contradiction: the torque is not what is too small.
   EXPECT_EQ(cause_of(spot),
             "Y has enough torque at 1,234,567 steps/s (needs 0.31 N\u00B7m, has 0.28 to 0.4), but the motor may lose "

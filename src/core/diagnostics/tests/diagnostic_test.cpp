@@ -1,4 +1,4 @@
-#include "passo/diagnostics/shown_place.hpp"
+#include "passo/diagnostics/shown_location.hpp"
 
 namespace passo {
 namespace {
@@ -67,11 +67,11 @@ TEST(Render, columns_count_characters_and_not_bytes) {
       "e) G0 X\xE2\x88\x92"
       "5";
   diagnostic.place = {.line = 3, .column = 15, .length = 4};
-  EXPECT_EQ(shown_place(diagnostic).column, 13U);
-  EXPECT_EQ(shown_place(diagnostic).length, 2U);
+  EXPECT_EQ(shown_location(diagnostic).column, 13U);
+  EXPECT_EQ(shown_location(diagnostic).length, 2U);
   EXPECT_EQ(render(diagnostic, false).substr(0, 14), "part.ngc:3:13:");
   diagnostic.text.clear();
-  EXPECT_EQ(shown_place(diagnostic).column, 15U) << "nothing is known of the line";
+  EXPECT_EQ(shown_location(diagnostic).column, 15U) << "nothing is known of the line";
 }
 
 TEST(Render, tells_the_rule_and_the_ends_of_a_long_stack_of_calls) {

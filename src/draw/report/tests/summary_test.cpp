@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/interpreter/frame.hpp"
-#include "passo/report/line_load.hpp"
+#include "passo/report/link_peak_rate.hpp"
 #include "passo/report/summary_builder.hpp"
 
 namespace passo {
@@ -59,8 +59,8 @@ RunSummary small_job(LengthUnits units = LengthUnits::mm) {
   return summary;
 }
 
-TEST(LineLoad, is_that_of_the_busiest_second) {
-  LineLoad load;
+TEST(LinkPeakRate, is_that_of_the_busiest_second) {
+  LinkPeakRate load;
   std::uint64_t sent = 5000;                 // the queue is filled at once
   for (int tick = 0; tick <= 500; ++tick) {  // 5 s; 2 kB/s, in the fourth second 8 kB/s
     load.update(Seconds(0.01 * tick), sent);

@@ -69,7 +69,7 @@ class Bench {
   }
 
   FuzzedSession world_{Trust::commanded};
-  MotionOwner owner_;
+  MachineControl owner_;
   WebApi api_{
       fuzzed_machine(), world_.session, owner_, {.version = "1", .openapi = "{}", .make_key = [] { return key; }}};
 };

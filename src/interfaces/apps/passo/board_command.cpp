@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // An Arduino whose line was just opened is in its boot loader for a second or two. So it is asked again and again.
-constexpr LineCare inquiry_care{.answer_within = Seconds(0.25), .patience = Seconds(3600)};
+constexpr LinkTimeouts inquiry_care{.answer_within = Seconds(0.25), .patience = Seconds(3600)};
 
 // The names of this computer's serial lines. Names in by-id stay the same wherever a board is plugged in. If there are
 // none, the kernel's names are used.

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "background_process.hpp"
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
 #include "check_page.hpp"
-#include "low_process.hpp"
 #include "progress_display.hpp"
 #include "unfinished_job.hpp"
 
@@ -89,7 +89,7 @@ std::optional<Seconds> time_of(const std::string& program, const MachineDescript
                                const WorkProgress& progress) {
   ProgramArguments arguments;
   arguments.program = program;
-  std::optional<ProgramReader> reader = open_program(arguments);
+  std::optional<ProgramReader> reader = streamed_program(arguments);
   const std::optional<InterpreterOptions> options = machine_options(arguments);
   if (!reader || !options) return std::nullopt;
   Diagnostics findings;

@@ -98,18 +98,18 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.name = arguments.output.empty() ? "relief" : std::filesystem::path(arguments.output).filename().string();
   program.finish =
       tool_of(read, "--cutter", arguments.cutter, arguments.step, arguments.feed, arguments.removal, arguments);
-  program.way = arguments.way == "columns"    ? FinishWay::columns
-                : arguments.way == "both"     ? FinishWay::both
-                : arguments.way == "spiral"   ? FinishWay::spiral
-                : arguments.way == "contours" ? FinishWay::contours
-                                              : FinishWay::rows;
+  program.way = arguments.way == "columns"    ? FinishStrategy::columns
+                : arguments.way == "both"     ? FinishStrategy::both
+                : arguments.way == "spiral"   ? FinishStrategy::spiral
+                : arguments.way == "contours" ? FinishStrategy::contours
+                                              : FinishStrategy::rows;
   program.steep = {arguments.steep * std::numbers::pi / 180};
   program.arcs = arguments.moves == "arcs";
   if (!arguments.rough.empty()) {
     program.roughing =
         ReliefRoughing{.tool = tool_of(read, "--rough", arguments.rough, arguments.rough_step, arguments.rough_feed,
                                        arguments.rough_removal, arguments),
-                       .way = arguments.rough_way == "offsets" ? RoughWay::offsets : RoughWay::rows,
+                       .way = arguments.rough_strategy == "offsets" ? RoughStrategy::offsets : RoughStrategy::rows,
                        .step_down = read.length("--rough-down", arguments.rough_down, Mm(0.01), deepest_relief),
                        .stock = read.length("--rough-stock", arguments.rough_stock, Mm(0), Mm(50))};
   }

@@ -16,7 +16,7 @@ constexpr std::size_t written_at_once = 65'536;
 }  // namespace
 
 int canon(const CanonArguments& arguments) {
-  std::optional<ProgramReader> program = open_program(arguments.program);
+  std::optional<ProgramReader> program = streamed_program(arguments.program);
   std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);

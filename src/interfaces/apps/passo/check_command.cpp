@@ -12,7 +12,7 @@
 #include "commands.hpp"
 #include "cut_words.hpp"
 #include "fit_proposals.hpp"
-#include "line_cost.hpp"
+#include "link_delay.hpp"
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
 #include "picture_names.hpp"
@@ -252,7 +252,7 @@ int check(const CheckArguments& arguments) {
   const auto machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
   if (!machine) return exit_bad_machine;
-  std::optional<ProgramReader> program = open_program(arguments.program);
+  std::optional<ProgramReader> program = streamed_program(arguments.program);
   const std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);
@@ -277,7 +277,7 @@ int check(const CheckArguments& arguments) {
   std::optional<Judgement> page;
   PathRecorder path;
   LoadTrack track;
-  LineLoads loads;
+  LineTorques loads;
   if (first.result.good) {
     const bool reports = !arguments.report.empty();
     page = judge(program->again(), *machine, *options, first.result,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "line_cost.hpp"
+#include "link_delay.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

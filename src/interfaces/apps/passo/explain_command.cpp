@@ -169,7 +169,7 @@ int explain(const ExplainArguments& arguments) {
   }
   ProgramArguments program_arguments = arguments.program;
   program_arguments.program = place.file;
-  std::optional<ProgramReader> program = open_program(program_arguments);
+  std::optional<ProgramReader> program = streamed_program(program_arguments);
   const std::optional<InterpreterOptions> options = interpreter_options(program_arguments);
   if (!program || !options) return exit_bad_program;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "from_line.hpp"
-#include "opened_grbl.hpp"
+#include "grbl_connection.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
@@ -25,9 +25,9 @@ namespace {
 // Holds and overrides of the command line, at their times.
 class TimedBytes {
  public:
-  TimedBytes(const MidRunChanges& changes, Seconds begun) : changes_(changes.all()), begun_(begun) {}
+  TimedBytes(const ScheduledChanges& changes, Seconds begun) : changes_(changes.all()), begun_(begun) {}
   // True: a hold has ended the run.
-  bool look(OpenedGrbl& opened) {
+  bool look(GrblConnection& opened) {
     GrblSender& sender = opened.sender();
     const Seconds now = opened.now() - begun_;
     const bool rests = holds_ && sender.report() && sender.report()->state == "Hold" && sender.report()->detail <= 0;
@@ -53,7 +53,7 @@ class TimedBytes {
   }
 
  private:
-  const std::vector<MidRunChanges::Change>& changes_;
+  const std::vector<ScheduledChanges::Change>& changes_;
   Seconds begun_;
   std::size_t next_ = 0;
   bool holds_ = false;
@@ -64,7 +64,7 @@ class TimedBytes {
 };
 
 // The machine is idle, in known modes. False, with a message and `code`.
-bool make_ready(OpenedGrbl& opened, const std::string& board, bool homes, int& code) {
+bool make_ready(GrblConnection& opened, const std::string& board, bool homes, int& code) {
   GrblSender& sender = opened.sender();
   if (homes && !opened.home(code)) return false;
   if (sender.report()->state == "Alarm") {
@@ -108,7 +108,7 @@ struct GrblRunResult {
   std::uint64_t lines = 0;
 };
 
-void print(const GrblRunResult& result, const RunArguments& arguments, const OpenedGrbl& opened,
+void print(const GrblRunResult& result, const RunArguments& arguments, const GrblConnection& opened,
            const ProgramCheck& check) {
   const Point place = opened.sender().place().value_or(Point());
   const GrblMachine& machine = opened.sender().machine();
@@ -133,7 +133,7 @@ void print(const GrblRunResult& result, const RunArguments& arguments, const Ope
 }
 
 // `waits`: the stop at which nobody can be asked, if there is one.
-int end_broken_off(const RunArguments& arguments, OpenedGrbl& opened, const std::optional<OperatorWait>& waits) {
+int end_broken_off(const RunArguments& arguments, GrblConnection& opened, const std::optional<OperatorWait>& waits) {
   const GrblSender& sender = opened.sender();
   std::string words = interrupted_by() != 0 ? "interrupted" : "held";
   if (sender.fault()) {
@@ -152,8 +152,8 @@ int end_broken_off(const RunArguments& arguments, OpenedGrbl& opened, const std:
   return interrupted_by() != 0 ? exit_of_signal() : failed;
 }
 
-int stream(const RunArguments& arguments, OpenedGrbl& opened, GrblProgram& lines, const ProgramCheck& check,
-           const MidRunChanges& changes) {
+int stream(const RunArguments& arguments, GrblConnection& opened, GrblProgram& lines, const ProgramCheck& check,
+           const ScheduledChanges& changes) {
   GrblSender& sender = opened.sender();
   ProgressDisplay progress(arguments.program.program, !arguments.quiet);
   ProgramMessages messages(arguments.program.program, !arguments.quiet);
@@ -164,7 +164,7 @@ int stream(const RunArguments& arguments, OpenedGrbl& opened, GrblProgram& lines
   TimedBytes timed(changes, begun);
   while (!(lines.ended() && !lines.stop() && sender.at_rest()) && !sender.stopped()) {
     feed(sender, lines);
-    opened.poll(OpenedGrbl::between_looks);
+    opened.poll(GrblConnection::between_looks);
     if (interrupted_by() != 0 || timed.look(opened)) sender.stop();
     if (const std::string_view wait = opened.news_of_wait(); !wait.empty()) {
       progress.clear();
@@ -212,10 +212,10 @@ bool suits_grbl(const RunArguments& arguments) {
 }
 
 int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
-                InterpreterOptions options, const MidRunChanges& changes) {
+                InterpreterOptions options, const ScheduledChanges& changes) {
   int code = exit_done;
   brake_on_signals();
-  const auto opened = OpenedGrbl::open(arguments.board, code);
+  const auto opened = GrblConnection::open(arguments.board, code);
   if (!opened || !make_ready(*opened, arguments.board, arguments.home, code)) return code;
   const GrblSender& sender = opened->sender();
   options.start = *sender.place();
@@ -241,7 +241,7 @@ int home_grbl(const HomeArguments& arguments) {
   }
   int code = exit_done;
   brake_on_signals();
-  const auto opened = OpenedGrbl::open(arguments.board, code);
+  const auto opened = GrblConnection::open(arguments.board, code);
   if (!opened) return code;
   const Seconds begun = opened->now();
   if (!opened->home(code)) return code;

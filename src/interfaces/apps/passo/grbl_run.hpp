@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands.hpp"
-#include "mid_run_changes.hpp"
+#include "scheduled_changes.hpp"
 
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
@@ -15,7 +15,7 @@ bool suits_grbl(const RunArguments& arguments);
 // Checks the program from the current machine position and with the machine's offsets, and streams it. Returns the exit
 // code.
 int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
-                InterpreterOptions options, const MidRunChanges& changes);
+                InterpreterOptions options, const ScheduledChanges& changes);
 int home_grbl(const HomeArguments& arguments);
 
 }  // namespace passo

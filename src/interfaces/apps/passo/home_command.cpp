@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "grbl_connection.hpp"
 #include "grbl_run.hpp"
 #include "homing_run.hpp"
-#include "opened_grbl.hpp"
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ int home(const HomeArguments& arguments) {
   if (machine->homing.empty()) return fail(exit_bad_machine, words_without_homing(arguments.machine));
   end_on_signals();
   int code = exit_done;
-  const auto opened = OpenedMachine::open(*machine, {.board = arguments.board}, code);
+  const auto opened = MachineConnection::open(*machine, {.board = arguments.board}, code);
   if (!opened) return code;
   brake_on_signals();
   if (!opened->greet(opened->any_greeting(), code)) return code;

@@ -77,7 +77,7 @@ std::string words_without_homing(const std::string& machine_file) {
   return machine_file + ": no axis has a homing switch (table [axis.X.home]) [home.no-switch]";
 }
 
-HomingReport home_machine(OpenedMachine& machine, bool shows) {
+HomingReport home_machine(MachineConnection& machine, bool shows) {
   MachineSession& session = machine.session();
   HomingReport report;
   const Seconds from = session.now();

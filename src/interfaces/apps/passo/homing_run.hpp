@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 
 #include "passo/activity/homing_path.hpp"
 
@@ -21,7 +21,7 @@ struct HomingReport {
 };
 
 // Homes a connected machine. Ctrl-C brakes. With `shows`, shows the progress on standard error if that is a terminal.
-HomingReport home_machine(OpenedMachine& machine, bool shows);
+HomingReport home_machine(MachineConnection& machine, bool shows);
 // describe() explains why the machine is not homed. words_without_homing() explains why a machine with this file cannot
 // be homed.
 std::string describe(const HomingReport& report);

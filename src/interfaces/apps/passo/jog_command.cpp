@@ -9,7 +9,7 @@
 
 #include "commands.hpp"
 #include "jog_keys.hpp"
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include "stop_words.hpp"
@@ -67,7 +67,7 @@ struct Ending {
 // The button is held: the lease is renewed, and a real machine is looked at more often than that.
 constexpr Seconds between_renewals{0.02};
 
-Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArguments& arguments) {
+Ending jog_to_rest(MachineConnection& opened, const JogWords& words, const JogArguments& arguments) {
   MachineSession& session = opened.session();
   const KnownPosition from = session.status().position;
   const JogWay way{.direction = words.way,
@@ -86,7 +86,7 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
       try_request(session, request::Stop{});
     }
     const bool holds = !arguments.held || session.now() - begun < Seconds(*arguments.held);
-    if (holds && !brakes) try_request(session, request::RenewLease{});
+    if (holds && !brakes) try_request(session, request::RenewKeepAlive{});
     session.poll(opened.has_board() ? between_renewals : endless);
   }
   const Answered answered = answer_of(session.take_changes(), *ticket);
@@ -159,7 +159,7 @@ int jog(const JogArguments& arguments) {
   if (const auto wrong = wrong_numbers(arguments)) return fail(exit_bad_program, *wrong);
   int code = exit_done;
   outlive_readers();
-  const auto opened = OpenedMachine::open(*machine, {.board = arguments.board}, code);
+  const auto opened = MachineConnection::open(*machine, {.board = arguments.board}, code);
   if (!opened) return code;
   brake_on_signals();
   if (!opened->greet(opened->any_greeting(), code)) return code;

@@ -116,7 +116,7 @@ class RawTerminal {
 
 class KeyJog {
  public:
-  KeyJog(OpenedMachine& machine, const MachineDescription& description, MmPerSecond speed)
+  KeyJog(MachineConnection& machine, const MachineDescription& description, MmPerSecond speed)
       : session_(machine.session()), real_time_(machine.has_board()), description_(description), speed_(speed) {}
 
   int run() {
@@ -156,7 +156,7 @@ class KeyJog {
       const auto taken = session_.request(request::Jog{.way = way, .lease = lease});
       refusal_ = taken ? "" : "  " + taken.error().message();
     } else if (key.direction == direction_) {
-      try_request(session_, request::RenewLease{});
+      try_request(session_, request::RenewKeepAlive{});
     } else {
       try_request(session_, request::Stop{});
     }
@@ -192,7 +192,7 @@ class KeyJog {
 
 }  // namespace
 
-int jog_by_keys(OpenedMachine& machine, const MachineDescription& description, MmPerSecond speed) {
+int jog_by_keys(MachineConnection& machine, const MachineDescription& description, MmPerSecond speed) {
   return KeyJog(machine, description, speed).run();
 }
 

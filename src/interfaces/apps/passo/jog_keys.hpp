@@ -5,11 +5,11 @@
 // others: a short press makes a short move, and a held key continues after a moment.
 #pragma once
 
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 
 namespace passo {
 
 // Returns the exit code. `speed` is the initial speed; the keys + and - change it.
-int jog_by_keys(OpenedMachine& machine, const MachineDescription& description, MmPerSecond speed);
+int jog_by_keys(MachineConnection& machine, const MachineDescription& description, MmPerSecond speed);
 
 }  // namespace passo

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <poll.h>

@@ -34,7 +34,7 @@ class ProgramStops {
  private:
   std::vector<OperatorWait> stops_;  // the first stops
   std::uint64_t count_ = 0;
-  WaitWords words_;
+  OperatorMessages words_;
 };
 
 class OperatorPrompt {

@@ -66,7 +66,7 @@ int level(const LevelArguments& arguments) {
     fmt::print("{}", describe(*map));
     return exit_done;
   }
-  std::optional<ProgramReader> program = open_program(arguments.program);
+  std::optional<ProgramReader> program = streamed_program(arguments.program);
   const std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   Diagnostics findings;

@@ -12,7 +12,7 @@
 
 namespace passo {
 
-std::optional<ProgramReader> open_program(const ProgramArguments& arguments) {
+std::optional<ProgramReader> streamed_program(const ProgramArguments& arguments) {
   Result<ProgramReader, Diagnostic> reader = ProgramReader::open(arguments.program);
   if (reader) return std::move(*reader);
   Diagnostics diagnostics;

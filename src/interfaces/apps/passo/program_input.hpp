@@ -14,7 +14,7 @@
 namespace passo {
 
 // Opens the program, or reports the reason on standard error.
-std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
+std::optional<ProgramReader> streamed_program(const ProgramArguments& arguments);
 
 // Return the interpreter's options, after reading the files named in the arguments. If a file is invalid, they report
 // this on standard error and return nothing. interpreter_options() is for analysing the program, machine_options() for

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "low_process.hpp"
+#include "background_process.hpp"
 #include "terminal.hpp"
 #include <unistd.h>
 
@@ -19,11 +19,11 @@ void write_line(const std::string& text) {
 // The process that started this one hears of it only if it has asked. The pipe never fills (percent_line.hpp), and a
 // reader that is gone needs nothing.
 void tell_starter(double share) {
-  static const bool is_asked = std::getenv(LowProcess::wants_progress) != nullptr;
+  static const bool is_asked = std::getenv(BackgroundProcess::wants_progress) != nullptr;
   static PercentSender sender;
   if (!is_asked) return;
   const auto message = sender.next(share);
-  if (message && write(LowProcess::progress_pipe, &*message, sizeof *message) < 0) return;
+  if (message && write(BackgroundProcess::progress_pipe, &*message, sizeof *message) < 0) return;
 }
 
 }  // namespace

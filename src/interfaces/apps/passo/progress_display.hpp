@@ -1,5 +1,5 @@
 // ProgressDisplay: the progress of a command, on standard error of a terminal (ProgressLine) and for the process that
-// started this one (low_process.hpp). The line is removed when the work is done.
+// started this one (background_process.hpp). The line is removed when the work is done.
 #pragma once
 
 #include <chrono>

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "passo/study/beats.hpp"
 #include "passo/study/ideal_path.hpp"
+#include "passo/study/pulse_details.hpp"
 
 namespace passo {
 namespace {
@@ -22,7 +22,8 @@ Counted count(PulseSource& source) {
   return counted;
 }
 
-std::string header(const PulseSource& source, const StepMove& move, const PulseTable& table, const Beats& beats) {
+std::string header(const PulseSource& source, const StepMove& move, const PulseTable& table,
+                   const PulseDetails& beats) {
   std::vector<std::string> names = {"pulse"};
   const auto add = [&](const std::vector<std::string>& more) { names.insert(names.end(), more.begin(), more.end()); };
   if (table.beats) add(beats.judge_names());
@@ -42,7 +43,7 @@ Status<std::string> write_pulse_table(const Method& method, const StepMove& move
   if (!source) return Failure{source.error()};
   Counted whole;
   if (table.beats || table.time) whole = count(**start(method, move));
-  const Beats beats(method, move, whole.pulses);
+  const PulseDetails beats(method, move, whole.pulses);
   SpeedClock clock(table.rule, whole.pulses, whole.way);
   IdealPath path(move);
   file.write(header(**source, move, table, beats));
@@ -58,7 +59,7 @@ Status<std::string> write_pulse_table(const Method& method, const StepMove& move
     const Pulse pulse = (*source)->next();
     apply(pulse, place);
     (*source)->decisions(values);
-    if (table.beats) line += "," + Beats::feed(pulse);
+    if (table.beats) line += "," + PulseDetails::feed(pulse);
     fmt::format_to(std::back_inserter(line), ",{},{}", fmt::join(place, ","), fmt::join(values, ","));
     if (table.beats) fmt::format_to(std::back_inserter(line), ",{}", fmt::join(beats.end(k, place), ","));
     if (table.time) {

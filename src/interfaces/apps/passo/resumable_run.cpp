@@ -113,7 +113,7 @@ bool ResumableRun::suits(const Subject& subject, int& code) {
   return false;
 }
 
-std::optional<JobEntry> ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& program,
+std::optional<JobEntry> ResumableRun::find_place(MachineConnection& machine, const ProgramReader& program,
                                                  const Subject& subject, int& code) {
   if (const auto stranger = refuse_stranger(*before_, machine.before())) {
     code = refuse(*stranger);
@@ -142,7 +142,7 @@ std::optional<JobEntry> ResumableRun::find_place(OpenedMachine& machine, const P
   return entry;
 }
 
-bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code) {
+bool ResumableRun::begin(MachineConnection& machine, const ProgramReader& program, const Subject& subject, int& code) {
   MachineSession& session = machine.session();
   const bool is_ready = session.state() != MachineState::offline;
   const BoardStatus status = is_ready ? *session.board().status() : machine.before();

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "commands.hpp"
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 
 #include "passo/activity/program.hpp"
 #include "passo/job/job_identity.hpp"
@@ -42,7 +42,7 @@ class ResumableRun {
   // With --resume, waits until the board is stopped and determines the resume position. Writes the head of the new
   // journal. Then performs the handshake with the head's numbers; if the machine is already ready, only sets the
   // session number. If the program cannot begin, shows a message and returns false. Must be called after suits().
-  [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
+  [[nodiscard]] bool begin(MachineConnection& machine, const ProgramReader& program, const Subject& subject, int& code);
   void add_to(request::Start& start) { run_.add_to(start); }
   // Must be called after the run. Removes the journal if the program has reached its end, is invalid, or did not begin
   // and was not to be resumed. Otherwise the journal stays.
@@ -52,7 +52,7 @@ class ResumableRun {
   explicit ResumableRun(const std::string& path) : file_(path), run_(file_) {}
   // Evaluates an existing journal file. Returns an exit code, with a message if the run cannot begin.
   int judge_old(const RunArguments& arguments, const FoundJournal& found) const;
-  std::optional<JobEntry> find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject,
+  std::optional<JobEntry> find_place(MachineConnection& machine, const ProgramReader& program, const Subject& subject,
                                      int& code);
   bool write_head(const Subject& subject, std::optional<JobEntry> entry, int& code);
   bool stands_there(const BoardSession& board, const MachineDescription& machine, int& code) const;

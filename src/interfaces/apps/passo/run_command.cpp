@@ -9,14 +9,13 @@
 #include "commands.hpp"
 #include "disturb_option.hpp"
 #include "from_line.hpp"
+#include "grbl_connection.hpp"
 #include "grbl_run.hpp"
 #include "homing_run.hpp"
-#include "line_cost.hpp"
-#include "line_watch.hpp"
-#include "mid_run_changes.hpp"
+#include "link_delay.hpp"
+#include "link_monitor.hpp"
+#include "machine_connection.hpp"
 #include "motor_watch.hpp"
-#include "opened_grbl.hpp"
-#include "opened_machine.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
@@ -25,6 +24,7 @@
 #include "run_arguments.hpp"
 #include "run_outputs.hpp"
 #include "run_signals.hpp"
+#include "scheduled_changes.hpp"
 #include "stop_words.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
@@ -36,7 +36,7 @@
 #include "passo/geometry/euclid.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/link/await.hpp"
-#include "passo/report/line_load.hpp"
+#include "passo/report/link_peak_rate.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -55,7 +55,7 @@ struct Before {
   std::uint64_t bytes = 0;
 };
 
-Before before_program(OpenedMachine& machine) {
+Before before_program(MachineConnection& machine) {
   if (machine.session().homing() == nullptr) return {};
   return {.counts = machine.machine().counts(),
           .time = machine.machine().now(),
@@ -63,7 +63,8 @@ Before before_program(OpenedMachine& machine) {
           .bytes = machine.bytes_sent()};
 }
 
-void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine, const Before& before) {
+void add_board(RunSummary& summary, MachineConnection& opened, const MachineDescription& machine,
+               const Before& before) {
   const MachineCounts counts = opened.machine().counts();
   const BoardSession& link = opened.session().board();
   BoardSummary board;
@@ -72,7 +73,7 @@ void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescript
   board.events = static_cast<std::uint64_t>(counts.events - before.counts.events);
   board.frames = opened.frames_sent() - before.frames;
   board.bytes = opened.bytes_sent() - before.bytes;
-  if (const RefillLedger* ledger = opened.session().ledger(); ledger != nullptr && link.board()) {
+  if (const QueueUpdateLedger* ledger = opened.session().ledger(); ledger != nullptr && link.board()) {
     board.held_items = link.board()->capacity;
     board.rests = ledger->recoveries();
   }
@@ -105,7 +106,7 @@ void tell_tails(const MachineSession& session) {
 
 // A board that cannot make its events in time lets the motors stand still amid motion, without braking. The time up to
 // the rest counts all standstills.
-void note_slip(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine,
+void note_slip(RunSummary& summary, MachineConnection& opened, const MachineDescription& machine,
                const LatestMotion& motion, Seconds began) {
   if (opened.session().status().trouble != LinkError::stood_still) return;
   summary.board->stood_still = true;
@@ -148,8 +149,8 @@ bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& op
 }
 
 // Where the program begins. Empty, with a message and `code`: nobody knows.
-std::optional<Point> start_of(const RunArguments& arguments, const MachineDescription& machine, OpenedMachine& opened,
-                              const ResumableRun* resumable, int& code) {
+std::optional<Point> start_of(const RunArguments& arguments, const MachineDescription& machine,
+                              MachineConnection& opened, const ResumableRun* resumable, int& code) {
   if (resumable != nullptr && resumable->start()) return resumable->start();
   const auto known = opened.place();
   Point start = known ? known->place : Point();
@@ -178,8 +179,8 @@ struct Run {
   const RunArguments& arguments;
   const MachineDescription& machine;
   const ProgramCheck& check;
-  OpenedMachine& opened;
-  MidRunChanges& changes;
+  MachineConnection& opened;
+  ScheduledChanges& changes;
   RunOutputs& outputs;
   LatestMotion& motion;
   std::optional<Seconds> without_line = {};  // the planned time
@@ -187,7 +188,7 @@ struct Run {
 
 // Empty where the time over the line and the planned time are not of the same motion.
 std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, const ProgramReader& program,
-                                         const OpenedMachine& opened, const MidRunChanges& changes) {
+                                         const MachineConnection& opened, const ScheduledChanges& changes) {
   const bool has_line = opened.has_board() || !subject.arguments.cable_cut.empty();
   if (!has_line || subject.way || subject.check.probes || subject.arguments.resume || changes.any()) return {};
   return planned_time(program.again(), subject.machine, subject.options, subject.check);
@@ -225,9 +226,9 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   const Before before = before_program(run.opened);
   const Seconds began = session.now();
   TailWatch tails;
-  LineLoad load;
-  LineWatch line = line_watch();
-  const Seconds longest_turn = run.opened.is_on_a_line() ? LineWatch::between_looks : endless;
+  LinkPeakRate load;
+  LinkMonitor line = link_monitor();
+  const Seconds longest_turn = run.opened.is_on_a_line() ? LinkMonitor::between_looks : endless;
   OperatorPrompt prompt(run.arguments.program.program);
   run.changes.begin(session.now());
   const auto ticket = session.request(std::move(start));
@@ -273,7 +274,7 @@ std::string stopped_words(const Answered& answered, const RunSummary& summary) {
 }
 
 // Homes the machine before the program. Returns the exit code.
-int home_first(OpenedMachine& machine, bool shows) {
+int home_first(MachineConnection& machine, bool shows) {
   const HomingReport report = home_machine(machine, shows);
   if (report.code.empty()) return exit_done;
   const int failed = fail(exit_failed, describe(report));
@@ -282,7 +283,7 @@ int home_first(OpenedMachine& machine, bool shows) {
 
 // Makes the machine ready, homes it if that is asked for, and begins the journal. From here on Ctrl-C brakes. Returns
 // the exit code.
-int make_ready(const ResumableRun::Subject& subject, const ProgramReader& program, OpenedMachine& machine,
+int make_ready(const ResumableRun::Subject& subject, const ProgramReader& program, MachineConnection& machine,
                ResumableRun* resumable) {
   const RunArguments& arguments = subject.arguments;
   int code = exit_done;
@@ -358,8 +359,8 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
 }
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
-int run_checked(const ResumableRun::Subject& subject, ProgramReader program, OpenedMachine& opened,
-                ResumableRun* resumable, MidRunChanges& changes, const ProgramStops& stops) {
+int run_checked(const ResumableRun::Subject& subject, ProgramReader program, MachineConnection& opened,
+                ResumableRun* resumable, ScheduledChanges& changes, const ProgramStops& stops) {
   const RunArguments& arguments = subject.arguments;
   const std::string tools =
       subject.check.tools_change ? tool_table_file(arguments.program, subject.options) : std::string();
@@ -393,12 +394,12 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
 
 // Opens the machine, checks the program from where the machine stands, and runs the program. Returns the exit code.
 int run_program(const RunArguments& arguments, const MachineDescription& machine, const MachineWish& wish,
-                ProgramReader program, InterpreterOptions options, MidRunChanges& changes) {
+                ProgramReader program, InterpreterOptions options, ScheduledChanges& changes) {
   int code = exit_done;
   std::unique_ptr<ResumableRun> resumable;
   if (keeps_journal(arguments)) resumable = ResumableRun::open(arguments, code);
   if (code != exit_done) return code;
-  const auto opened = OpenedMachine::open(machine, wish, code);
+  const auto opened = MachineConnection::open(machine, wish, code);
   if (!opened) return code;
   const std::optional<Point> begins_at = start_of(arguments, machine, *opened, resumable.get(), code);
   if (!begins_at) return code;
@@ -426,7 +427,7 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
 
 int run(const RunArguments& arguments) {
   if (!names_are_good(arguments)) return exit_bad_program;
-  std::optional<MidRunChanges> changes = MidRunChanges::read(arguments.holds, arguments.overrides);
+  std::optional<ScheduledChanges> changes = ScheduledChanges::read(arguments.holds, arguments.overrides);
   if (!changes) return exit_bad_program;
   std::optional<CableCut> cut;
   if (!arguments.cable_cut.empty() && !(cut = read_cable_cut(arguments.cable_cut))) return exit_bad_program;
@@ -438,7 +439,7 @@ int run(const RunArguments& arguments) {
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
   const auto disturbances = read_disturbances(arguments.disturbances, *machine);
   if (!things || !disturbances) return exit_bad_program;
-  std::optional<ProgramReader> program = open_program(arguments.program);
+  std::optional<ProgramReader> program = streamed_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   options->main_passes = arguments.passes;

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "opened_grbl.hpp"
+#include "grbl_connection.hpp"
 #include "program_input.hpp"
 #include "served_status.hpp"
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "example_machine_text.hpp"
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include "serve_addresses.hpp"
@@ -27,7 +27,7 @@ namespace passo {
 namespace {
 
 // Puts a line to the others. False, with a message and `code`: it cannot be opened.
-bool add(Result<std::unique_ptr<SenderLine>, std::string> line, ServeDaemon::Lines& lines, int& code) {
+bool add(Result<std::unique_ptr<SenderConnection>, std::string> line, ServeDaemon::Lines& lines, int& code) {
   if (line) {
     lines.push_back(std::move(*line));
   } else {
@@ -43,12 +43,13 @@ bool open_lines(const ServeArguments& arguments, ServeDaemon::Lines& lines, int&
   const std::string wanted = any ? arguments.grbl_tcp : "127.0.0.1:7071";
   if (!wanted.empty()) {
     const auto address = sender_address(arguments, wanted, code);
-    if (!address || !add(SenderLine::listen(address->host, address->port), lines, code)) return false;
+    if (!address || !add(SenderConnection::listen(address->host, address->port), lines, code)) return false;
   }
-  if (!arguments.grbl_pty.empty() && !add(SenderLine::open_terminal(arguments.grbl_pty), lines, code)) return false;
+  if (!arguments.grbl_pty.empty() && !add(SenderConnection::open_terminal(arguments.grbl_pty), lines, code))
+    return false;
   if (arguments.grbl_serial.empty()) return true;
   const auto port = sender_port(arguments, code);
-  return port && add(SenderLine::open_serial(port->place, port->baud), lines, code);
+  return port && add(SenderConnection::open_serial(port->place, port->baud), lines, code);
 }
 
 // The text of the machine file. The example's, if none is named.
@@ -115,7 +116,7 @@ ServeArguments with_usual(ServeArguments arguments) {
 
 // The journal of the last job is read before the board hears of another session. Null, with a message. A virtual board
 // that had a job has died with its host: nobody knows where its machine stands (docs/decisions/0109).
-std::unique_ptr<ServedJournal> open_journal(const std::string& folder, OpenedMachine& opened,
+std::unique_ptr<ServedJournal> open_journal(const std::string& folder, MachineConnection& opened,
                                             const Greeting& greeting) {
   if (const auto words = opened.wait_for_rest()) {
     fail(exit_failed, "the board: " + *words);
@@ -156,14 +157,14 @@ int serve(const ServeArguments& given) {
   outlive_readers();
   // A board that a killed program has left brakes by itself.
   const bool keeps = !arguments.data.empty();
-  const auto opened = OpenedMachine::open(*machine,
-                                          {.board = arguments.board,
-                                           .over_a_line = keeps && arguments.board == "virtual",
-                                           .touchables = *things,
-                                           .tells_place = true,
-                                           .needs_place = true,
-                                           .may_move = keeps},
-                                          code);
+  const auto opened = MachineConnection::open(*machine,
+                                              {.board = arguments.board,
+                                               .over_a_line = keeps && arguments.board == "virtual",
+                                               .touchables = *things,
+                                               .tells_place = true,
+                                               .needs_place = true,
+                                               .may_move = keeps},
+                                              code);
   if (!opened) return code;
   brake_on_signals();
   std::unique_ptr<ServedJournal> journal;
@@ -177,14 +178,14 @@ int serve(const ServeArguments& given) {
   InterpreterOptions dialect;
   dialect.dialect = Dialect::grbl;
   dialect.more_grbl_axes = more_grbl_axes(*machine);
-  OpenProgram program(*machine, dialect, position.place);
+  StreamedProgram program(*machine, dialect, position.place);
   GrblController grbl(*machine, opened->session(), program);
   if (!arguments.machine.empty()) {
     grbl.keep_settings(*text, [&](const std::string& before, const std::string& after) {
       return replace_file(arguments.machine, before, after).empty();
     });
   }
-  MotionOwner owner;
+  MachineControl owner;
   std::unique_ptr<ServedWeb> web;
   const ServedJobs jobs{.journal = journal.get(),
                         .machine_file = stamp_of_text(arguments.machine, *text),

@@ -17,8 +17,8 @@ constexpr int most_turns = 5000;  // of one look
 
 }  // namespace
 
-ServeDaemon::ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
-                         ServiceNotice& service)
+ServeDaemon::ServeDaemon(MachineConnection& machine, GrblController& grbl, MachineControl& owner, Lines lines,
+                         ServedWeb* web, ServiceNotice& service)
     : machine_(machine),
       session_(machine.session()),
       grbl_(grbl),
@@ -72,12 +72,12 @@ void ServeDaemon::wait() {
 }
 
 // One sender at a time; others are told that they have to wait.
-bool ServeDaemon::may_read(const SenderLine& line) const {
+bool ServeDaemon::may_read(const SenderConnection& line) const {
   return grbl_.wants_more() && (driver_ == nullptr || driver_ == &line);
 }
 
 // A sender on a serial port may have gone without a sign. While nothing goes on, it gives way to another.
-void ServeDaemon::check_silent_driver(const SenderLine& line) {
+void ServeDaemon::check_silent_driver(const SenderConnection& line) {
   if (driver_ == nullptr || driver_ == &line || !line.is_connected()) return;
   if (!driver_->yields() || session_.busy()) return;
   driver_->part();
@@ -85,13 +85,13 @@ void ServeDaemon::check_silent_driver(const SenderLine& line) {
   grbl_.disconnect();
 }
 
-void ServeDaemon::attend(SenderLine& line) {
-  const SenderLine::News news = line.poll(may_read(line));
+void ServeDaemon::attend(SenderConnection& line) {
+  const SenderConnection::News news = line.poll(may_read(line));
   check_silent_driver(line);
   if (line.is_connected() && driver_ == nullptr) {
     driver_ = &line;
     driver_spoke_ = false;
-    grbl_.let_drive(owner_.kind() != MotionOwner::Kind::client);
+    grbl_.let_drive(owner_.kind() != MachineControl::Kind::client);
     grbl_.connect();
   }
   if (driver_ != &line) return;
@@ -113,7 +113,7 @@ void ServeDaemon::check_owner() {
     owner_.release();
   }
   // A sender's held program waits for the next sender, unless a client comes.
-  if (owner_.kind() != MotionOwner::Kind::nobody) grbl_.let_drive(owner_.is_sender());
+  if (owner_.kind() != MachineControl::Kind::nobody) grbl_.let_drive(owner_.is_sender());
 }
 
 void ServeDaemon::hear_changes() {

@@ -7,13 +7,13 @@
 #include <memory>
 #include <vector>
 
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 #include "serve_web.hpp"
 #include "served_status.hpp"
 
-#include "passo/api/motion_owner.hpp"
+#include "passo/api/machine_control.hpp"
 #include "passo/grbl/grbl_controller.hpp"
-#include "passo/transport/sender_line.hpp"
+#include "passo/transport/sender_connection.hpp"
 #include "passo/transport/service_notice.hpp"
 
 namespace passo {
@@ -41,10 +41,10 @@ class WallClock {
 
 class ServeDaemon {
  public:
-  using Lines = std::vector<std::unique_ptr<SenderLine>>;
+  using Lines = std::vector<std::unique_ptr<SenderConnection>>;
 
   // All references must outlive the daemon. `web` may be null.
-  ServeDaemon(OpenedMachine& machine, GrblController& grbl, MotionOwner& owner, Lines lines, ServedWeb* web,
+  ServeDaemon(MachineConnection& machine, GrblController& grbl, MachineControl& owner, Lines lines, ServedWeb* web,
               ServiceNotice& service);
 
   // Publishes the status to a broker, too. `status` must outlive the daemon; null: not published.
@@ -57,26 +57,26 @@ class ServeDaemon {
  private:
   bool works() const;  // or is getting ready
   void wait();
-  bool may_read(const SenderLine& line) const;
-  void attend(SenderLine& line);
-  void check_silent_driver(const SenderLine& line);
+  bool may_read(const SenderConnection& line) const;
+  void attend(SenderConnection& line);
+  void check_silent_driver(const SenderConnection& line);
   void check_owner();
   void poll();
   void hear_changes();
   void keep_place_if_changed();
   void reply();
 
-  OpenedMachine& machine_;
+  MachineConnection& machine_;
   MachineSession& session_;
   GrblController& grbl_;
-  MotionOwner& owner_;
+  MachineControl& owner_;
   Lines lines_;
   ServedWeb* web_;
   ServiceNotice& service_;
   ServedStatus* status_ = nullptr;
-  SenderLine* driver_ = nullptr;    // the interface with the active sender
-  bool driver_spoke_ = false;       // and the sender has identified itself as one
-  std::uint64_t kept_version_ = 0;  // version of the status with which the position was saved
+  SenderConnection* driver_ = nullptr;  // the interface with the active sender
+  bool driver_spoke_ = false;           // and the sender has identified itself as one
+  std::uint64_t kept_version_ = 0;      // version of the status with which the position was saved
   WallClock clock_;
 };
 

@@ -33,7 +33,7 @@ double seconds_since_1970() {
 }
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       Maker& maker, Studies& studies, MotionTimer& timer,
+                       CamService& maker, Studies& studies, MotionTimer& timer,
                        std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
@@ -77,7 +77,7 @@ WebLimits web_limits() {
 }  // namespace
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-                     MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
+                     MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
                      const ServedJobs& jobs)
     : session_(session),
       owner_(owner),
@@ -93,7 +93,7 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
                        })) {}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
-                                           MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
+                                           MachineSession& session, MachineControl& owner, const ServedJobs& jobs,
                                            int& code) {
   const auto place = web_place(arguments, code);
   if (!place) return nullptr;

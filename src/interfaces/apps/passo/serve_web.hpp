@@ -35,7 +35,7 @@ class ServedWeb {
  public:
   // Null, with a message and `code`, if the address or the token is invalid.
   static std::unique_ptr<ServedWeb> open(const ServeArguments& arguments, const MachineDescription& machine,
-                                         MachineSession& session, MotionOwner& owner, const ServedJobs& jobs,
+                                         MachineSession& session, MachineControl& owner, const ServedJobs& jobs,
                                          int& code);
 
   std::string name() const;
@@ -55,13 +55,13 @@ class ServedWeb {
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-            MotionOwner& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
+            MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
             const ServedJobs& jobs);
   void publish();
   std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
   MachineSession& session_;
-  MotionOwner& owner_;
+  MachineControl& owner_;
   PageFolder page_;
   bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;     // may be null

@@ -8,7 +8,7 @@
 
 namespace passo {
 
-std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, OpenedMachine& machine) {
+std::unique_ptr<ServedJournal> ServedJournal::open(const std::string& folder, MachineConnection& machine) {
   const std::string path = (std::filesystem::path(folder) / "job.journal").string();
   std::unique_ptr<ServedJournal> journal(new ServedJournal(path, machine));
   const auto claimed = journal->file_.claim();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "opened_machine.hpp"
+#include "machine_connection.hpp"
 
 #include "passo/job/interrupted_job.hpp"
 #include "passo/job/journal_file.hpp"
@@ -15,7 +15,7 @@ namespace passo {
 class ServedJournal final : public JobKeeper {
  public:
   // Null, with a message, if another program uses the journal. The machine must outlive this object.
-  static std::unique_ptr<ServedJournal> open(const std::string& folder, OpenedMachine& machine);
+  static std::unique_ptr<ServedJournal> open(const std::string& folder, MachineConnection& machine);
 
   // Must be called at standstill, before the handshake: checks whether a job was interrupted, and records that this
   // handshake comes next. Returns false, with a message, if the journal cannot be written.
@@ -31,10 +31,10 @@ class ServedJournal final : public JobKeeper {
   void name_session(std::uint16_t number) override { machine_.begin_session(number); }
 
  private:
-  ServedJournal(std::string path, OpenedMachine& machine) : file_(std::move(path)), machine_(machine) {}
+  ServedJournal(std::string path, MachineConnection& machine) : file_(std::move(path)), machine_(machine) {}
 
   JournalFile file_;
-  OpenedMachine& machine_;
+  MachineConnection& machine_;
   std::optional<BrokenOff> found_;
 };
 

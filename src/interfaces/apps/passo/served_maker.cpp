@@ -65,7 +65,7 @@ void ServedMaker::clear() {
   result_ = {};
 }
 
-bool ServedMaker::begin(const MakeOrder& order) {
+bool ServedMaker::begin(const CamOrder& order) {
   if (process_.runs() || !folder_.make()) return false;
   std::error_code none;
   fs::remove_all(folder_.path(made_folder), none);
@@ -74,7 +74,7 @@ bool ServedMaker::begin(const MakeOrder& order) {
   stem_ = order.files.empty() ? "text" : fs::path(order.files.front()).stem().string();
   std::vector<std::string> words = {"passo", "cam", order.job};
   words.insert(words.end(), order.options.begin(), order.options.end());
-  result_ = {.state = MakeResult::State::running, .job = order.job};
+  result_ = {.state = CamResult::State::running, .job = order.job};
   made_.clear();
   const auto failed = [this] {
     result_ = {};
@@ -98,16 +98,16 @@ bool ServedMaker::begin(const MakeOrder& order) {
   return process_.begin(folder_.name(), words) || failed();
 }
 
-const MakeResult& ServedMaker::result() {
+const CamResult& ServedMaker::result() {
   const std::optional<int> end = process_.poll();
   if (process_.runs()) result_.progress = process_.percent() / 100.0;
   if (!end) return result_;
-  result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
+  result_.words = content_of(folder_.path(BackgroundProcess::said_file)).substr(0, BackgroundProcess::longest_words);
   bool good = WIFEXITED(*end) && WEXITSTATUS(*end) == 0;
   if (result_.job == board_job) poll_board();
   std::error_code none;
   good = good && !made_.empty() && fs::exists(folder_.path(made_.front()), none);
-  result_.state = good ? MakeResult::State::done : MakeResult::State::failed;
+  result_.state = good ? CamResult::State::done : CamResult::State::failed;
   if (!good && result_.words.empty()) result_.words = words_of_end(*end);
   if (!good) result_.names.clear();
   if (good) result_.progress = 1;
@@ -120,7 +120,7 @@ const MakeResult& ServedMaker::result() {
 
 // A board's programs are numbered: "2-isolate-front.ngc".
 void ServedMaker::poll_board() {
-  result_.report = content_of(folder_.path(LowProcess::printed_file));
+  result_.report = content_of(folder_.path(BackgroundProcess::printed_file));
   std::error_code none;
   std::vector<std::pair<int, std::string>> found;
   for (fs::directory_iterator at(folder_.path(made_folder), none), end; !none && at != end; at.increment(none)) {

@@ -1,17 +1,17 @@
-// ServedMaker: runs `passo cam` for the API in a separate process (low_process.hpp). The files are in a temporary
-// folder.
+// ServedMaker: runs `passo cam` for the API in a separate process (background_process.hpp). The files are in a
+// temporary folder.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "low_process.hpp"
+#include "background_process.hpp"
 
-#include "passo/api/maker.hpp"
+#include "passo/api/cam_service.hpp"
 
 namespace passo {
 
-class ServedMaker final : public Maker {
+class ServedMaker final : public CamService {
  public:
   static constexpr std::size_t most_files = 32;
   static constexpr std::size_t most_bytes = std::size_t{128} << 20;
@@ -19,8 +19,8 @@ class ServedMaker final : public Maker {
   std::vector<std::string> files() const override;
   bool keep(const std::string& name, std::string_view bytes) override;
   void clear() override;
-  bool begin(const MakeOrder& order) override;
-  const MakeResult& result() override;
+  bool begin(const CamOrder& order) override;
+  const CamResult& result() override;
   std::string program(std::size_t number) const override;
   std::string picture(std::optional<std::size_t> number) const override;
   std::string page() const override;
@@ -33,12 +33,12 @@ class ServedMaker final : public Maker {
     std::size_t bytes = 0;
   };
 
-  PassingFolder folder_;
+  TemporaryFolder folder_;
   std::vector<Kept> kept_;
   std::string stem_;  // base name of the programs
-  MakeResult result_;
+  CamResult result_;
   std::vector<std::string> made_;  // the program files in the folder
-  LowProcess process_;
+  BackgroundProcess process_;
 };
 
 }  // namespace passo

@@ -16,14 +16,14 @@ namespace {
 constexpr unsigned usual_mqtt_port = 1883;
 
 // Where the broker is, and the login. Empty, with a message and `code`.
-std::optional<MqttPlace> mqtt_place(const ServeArguments& arguments, int& code) {
+std::optional<MqttOptions> mqtt_options(const ServeArguments& arguments, int& code) {
   auto address = read_address(arguments.mqtt);
   if (!address && arguments.mqtt.find(':') == std::string::npos) address = HostAndPort{arguments.mqtt, usual_mqtt_port};
   if (!address || address->port == 0 || address->host.empty()) {
     code = fail(exit_bad_program, "--mqtt: expected HOST or HOST:PORT, e.g. 127.0.0.1:1883, not " + arguments.mqtt);
     return {};
   }
-  MqttPlace place{
+  MqttOptions place{
       .host = address->host, .port = address->port, .topic = arguments.mqtt_topic, .user = {}, .password = {}};
   if (place.topic.empty() || place.topic.find_first_of("#+") != std::string::npos || place.topic.back() == '/') {
     code =
@@ -48,12 +48,12 @@ std::optional<MqttPlace> mqtt_place(const ServeArguments& arguments, int& code) 
 }  // namespace
 
 bool ServedStatus::check(const ServeArguments& arguments, int& code) {
-  return mqtt_place(arguments, code).has_value();
+  return mqtt_options(arguments, code).has_value();
 }
 
 std::unique_ptr<ServedStatus> ServedStatus::open(const ServeArguments& arguments, const MachineDescription& machine,
                                                  int& code) {
-  const auto place = mqtt_place(arguments, code);
+  const auto place = mqtt_options(arguments, code);
   if (!place) return nullptr;
   auto broker = MqttPublisher::open(*place);
   if (!broker) {

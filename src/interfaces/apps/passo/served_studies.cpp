@@ -44,8 +44,8 @@ bool ServedStudies::begin(const StudyOrder& order) {
 const StudyResult& ServedStudies::result() {
   const std::optional<int> end = process_.poll();
   if (!end) return result_;
-  result_.words = content_of(folder_.path(LowProcess::said_file)).substr(0, LowProcess::longest_words);
-  result_.report = content_of(folder_.path(LowProcess::printed_file));
+  result_.words = content_of(folder_.path(BackgroundProcess::said_file)).substr(0, BackgroundProcess::longest_words);
+  result_.report = content_of(folder_.path(BackgroundProcess::printed_file));
   // 1 and 2: it has found what is wrong, and tells it.
   const bool good = WIFEXITED(*end) && WEXITSTATUS(*end) <= 2 && result_.report.starts_with("{");
   result_.state = good ? StudyResult::State::done : StudyResult::State::failed;

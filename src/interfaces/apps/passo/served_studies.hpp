@@ -1,9 +1,9 @@
-// ServedStudies: runs `passo check` and `passo tune` for the API in a separate process (low_process.hpp).
+// ServedStudies: runs `passo check` and `passo tune` for the API in a separate process (background_process.hpp).
 #pragma once
 
 #include <string>
 
-#include "low_process.hpp"
+#include "background_process.hpp"
 
 #include "passo/api/studies.hpp"
 
@@ -17,8 +17,8 @@ class ServedStudies final : public Studies {
   std::string picture() const override;
 
  private:
-  PassingFolder folder_;
-  LowProcess process_;
+  TemporaryFolder folder_;
+  BackgroundProcess process_;
   StudyResult result_;
 };
 

@@ -89,7 +89,7 @@ std::optional<HeightField> target_of(const SimulateArguments& arguments, const W
   }
   ProgramArguments program = arguments.program;
   program.program = arguments.compare;
-  std::optional<ProgramReader> reader = open_program(program);
+  std::optional<ProgramReader> reader = streamed_program(program);
   const std::optional<InterpreterOptions> options = interpreter_options(program);
   if (!reader || !options) return std::nullopt;
   const StockJob job{std::move(*reader), *options, wishes.machine ? &*wishes.machine : nullptr};
@@ -178,7 +178,7 @@ int simulate(const SimulateArguments& arguments) {
   if (const std::string refusal = refusal_of(arguments); !refusal.empty()) return fail(exit_bad_program, refusal);
   Wishes wishes{.stock = std::move(*stock), .machine = {}};
   if (const int code = read_files(arguments, wishes); code != exit_done) return code;
-  std::optional<ProgramReader> program = open_program(arguments.program);
+  std::optional<ProgramReader> program = streamed_program(arguments.program);
   const std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);

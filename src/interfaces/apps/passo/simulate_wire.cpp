@@ -383,7 +383,7 @@ int simulate_wire(const SimulateArguments& arguments) {
     show(of_machine);
     if (!machine) return exit_bad_machine;
   }
-  std::optional<ProgramReader> program = open_program(arguments.program);
+  std::optional<ProgramReader> program = streamed_program(arguments.program);
   const std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);

@@ -14,16 +14,16 @@ namespace passo {
 namespace {
 
 // Where the motors were by the board's counts when it said `status`.
-Point counted_place(OpenedMachine& opened, const MachineDescription& machine,
+Point counted_place(MachineConnection& opened, const MachineDescription& machine,
                     const std::optional<BoardStatus>& status) {
   const MachineSession& session = opened.session();
-  MotorPlace motors = motors_of(opened.machine().counts());
+  MotorPosition motors = motors_of(opened.machine().counts());
   if (session.zero_counts() && status) motors = steps_since(*session.zero_counts(), status->positions);
   return kinematics_of(machine).axes(motors);
 }
 
 // An axis whose drive has given its alarm. Only of motors with physics; empty: none has.
-std::optional<StopCause> following_error(OpenedMachine& opened, const MachineDescription& machine) {
+std::optional<StopCause> following_error(MachineConnection& opened, const MachineDescription& machine) {
   const RotorPlant* const rotors = opened.rotors();
   if (rotors == nullptr || !rotors->following_fault()) return std::nullopt;
   const FollowingFault& fault = *rotors->following_fault();
@@ -52,7 +52,7 @@ std::string remedy_for_place(const MachineDescription& machine, const std::strin
 
 }  // namespace
 
-std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
+std::string stop_words(MachineConnection& opened, const MachineDescription& machine, const std::string& program,
                        const LatestMotion& motion, std::uint32_t known_line) {
   const std::uint16_t stopped_by = opened.session().board().stopped_by();
   const std::string closed = closed_switches(opened.session().board());
@@ -70,7 +70,7 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
                      remedy_for_place(machine, program), following ? "run.following-error" : "board.stopped", closed);
 }
 
-std::string slip_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
+std::string slip_words(MachineConnection& opened, const MachineDescription& machine, const std::string& program,
                        std::uint32_t line) {
   return fmt::format(
       "it stalled during motion{}, because it could not make its events in time; steps may be lost. The machine was "
@@ -80,7 +80,8 @@ std::string slip_words(OpenedMachine& opened, const MachineDescription& machine,
       remedy_for_place(machine, program));
 }
 
-std::uint32_t line_of_standstill(OpenedMachine& opened, const MachineDescription& machine, const LatestMotion& motion) {
+std::uint32_t line_of_standstill(MachineConnection& opened, const MachineDescription& machine,
+                                 const LatestMotion& motion) {
   return motion.line_at(counted_place(opened, machine, opened.session().board().standstill()));
 }
 

@@ -66,7 +66,7 @@ class Bench {
 
   FuzzedSession world_;
   MachineSession& session_ = world_.session;
-  OpenProgram program_{fuzzed_machine(), grbl_options(), Point()};
+  StreamedProgram program_{fuzzed_machine(), grbl_options(), Point()};
   GrblController grbl_{fuzzed_machine(), session_, program_};
   std::size_t line_ends_ = 0;
   std::size_t answers_ = 0;

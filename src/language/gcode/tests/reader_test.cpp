@@ -160,7 +160,7 @@ TEST(Reader, a_line_that_is_too_long_is_reported_and_skipped) {
       EXPECT_EQ(all_lines(*reader, diagnostics), (Lines{{1, "G0"}, {3, "G1"}}));
       ASSERT_EQ(diagnostics.all().size(), 1U);
       EXPECT_EQ(diagnostics.all()[0].code, "gcode.line-too-long");
-      EXPECT_EQ(diagnostics.all()[0].place, (SourcePlace{2, longest_line + 1, 1}));
+      EXPECT_EQ(diagnostics.all()[0].place, (SourceLocation{2, longest_line + 1, 1}));
       EXPECT_THAT(diagnostics.all()[0].message, testing::HasSubstr(std::to_string(length)));
       EXPECT_LT(diagnostics.all()[0].text.size(), 1000U);
     }
@@ -173,7 +173,7 @@ TEST(Reader, a_nul_byte_is_reported_with_its_line_and_column) {
   EXPECT_EQ(all_lines(reader, diagnostics), (Lines{{1, "G0"}, {3, "G2"}}));
   ASSERT_EQ(diagnostics.all().size(), 1U);
   EXPECT_EQ(diagnostics.all()[0].code, "gcode.nul-byte");
-  EXPECT_EQ(diagnostics.all()[0].place, (SourcePlace{2, 4, 1}));
+  EXPECT_EQ(diagnostics.all()[0].place, (SourceLocation{2, 4, 1}));
 }
 
 TEST(Reader, refuses_what_is_not_there_or_not_a_file) {

@@ -38,7 +38,7 @@ struct Interpreted {
 };
 
 inline void interpret(ProgramReader reader, const InterpreterOptions& options, Interpreted& result,
-                      const MachineAnswers& answers = no_answers()) {
+                      const MachineResults& answers = no_answers()) {
   Interpreter interpreter(std::move(reader), options, result.diagnostics, answers);
   CanonPrinter printer(options.machine_units);
   Operation operation;
@@ -58,7 +58,7 @@ inline void interpret(ProgramReader reader, const InterpreterOptions& options, I
 }
 
 inline Interpreted interpret_text(const std::string& text, const InterpreterOptions& options = {},
-                                  const MachineAnswers& answers = no_answers()) {
+                                  const MachineResults& answers = no_answers()) {
   Interpreted result;
   interpret(ProgramReader::from_text("test.ngc", text), options, result, answers);
   return result;

@@ -74,7 +74,7 @@ TEST(KeptBlocks, what_goes_wrong_in_a_later_pass_is_shown_in_its_line) {
   const Diagnostic& error = result.diagnostics.all().front();
   EXPECT_EQ(error.code, "gcode.division-by-zero");
   EXPECT_EQ(error.text, "#2=[6 / #1] (the line)");
-  EXPECT_EQ(error.place, (SourcePlace{3, 5, 6}));
+  EXPECT_EQ(error.place, (SourceLocation{3, 5, 6}));
 }
 
 TEST(KeptBlocks, a_construct_left_open_in_a_sub_is_shown_in_its_line_each_time) {

@@ -78,7 +78,7 @@ TEST(Probing, goes_on_from_where_the_machine_rests_with_what_it_found) {
   outcome.touched = true;
   outcome.contact[Axis::x] = 6;
   outcome.rest[Axis::x] = 6.25;
-  AnswerBook answers;
+  StoredResults answers;
   answers.record(outcome);
   const Interpreted result = interpret_text(
       "G21 G10 L2 P1 X1 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nG91 G0 X1\nM2\n", InterpreterOptions(), answers);
@@ -89,7 +89,7 @@ TEST(Probing, goes_on_from_where_the_machine_rests_with_what_it_found) {
 TEST(Probing, that_failed_ends_the_program_at_its_line) {
   ProbeOutcome outcome;
   const InterpreterOptions options;
-  AnswerBook answers;
+  StoredResults answers;
   for (const char* must : {"G38.2", "G38.4"}) {
     const Interpreted untouched =
         interpret_text("G21 F100\n" + std::string(must) + " X10\nG0 X11\nM2\n", options, answers);

@@ -142,7 +142,7 @@ TEST(OWords, errors_in_a_sub_of_another_file_name_that_file) {
 // "o<inner> main.ngc:3", the innermost call first.
 std::string stack_of(const Diagnostic& diagnostic) {
   std::string stack;
-  for (const CallPlace& call : diagnostic.calls) {
+  for (const CallLocation& call : diagnostic.calls) {
     stack += call.sub + " " + std::filesystem::path(call.file).filename().string() + ":" + std::to_string(call.line);
     stack += " ";
   }

@@ -1,7 +1,7 @@
-// The parts of ProgramFlow: ProgramLines, ProgramBounds, DoubtfulLabels and PercentSigns.
+// The parts of ProgramFlow: ProgramLines, RunawayGuard, UnreadableLabels and PercentSigns.
 #include "../program_lines.hpp"
 
-#include "../program_bounds.hpp"
+#include "../runaway_guard.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -87,9 +87,9 @@ TEST(ProgramLines, lack_the_closing_percent_only_if_one_has_opened_them) {
   EXPECT_TRUE(text.lines.lacks_closing_percent(text.lines.after()));
 }
 
-TEST(ProgramBounds, stop_loops_in_which_the_machine_does_nothing) {
-  using Reached = ProgramBounds::Reached;
-  ProgramBounds bounds({.idle_passes = 2, .repeated_steps = 100});
+TEST(RunawayGuard, stop_loops_in_which_the_machine_does_nothing) {
+  using Reached = RunawayGuard::Reached;
+  RunawayGuard bounds({.idle_passes = 2, .repeated_steps = 100});
   EXPECT_EQ(bounds.count_pass(), Reached::nothing);
   EXPECT_EQ(bounds.count_pass(), Reached::nothing);
   EXPECT_EQ(bounds.count_call(), Reached::nothing);  // calls count for themselves
@@ -100,9 +100,9 @@ TEST(ProgramBounds, stop_loops_in_which_the_machine_does_nothing) {
   EXPECT_EQ(bounds.count_pass(), Reached::nothing);
 }
 
-TEST(ProgramBounds, stop_a_construct_that_comes_to_too_many_steps) {
-  using Reached = ProgramBounds::Reached;
-  ProgramBounds bounds({.idle_passes = 100, .repeated_steps = 3});
+TEST(RunawayGuard, stop_a_construct_that_comes_to_too_many_steps) {
+  using Reached = RunawayGuard::Reached;
+  RunawayGuard bounds({.idle_passes = 100, .repeated_steps = 3});
   EXPECT_EQ(bounds.count_pass(), Reached::nothing);
   EXPECT_EQ(bounds.count_call(), Reached::nothing);
   bounds.count_operation(true);
@@ -113,8 +113,8 @@ TEST(ProgramBounds, stop_a_construct_that_comes_to_too_many_steps) {
   EXPECT_EQ(bounds.count_pass(), Reached::nothing);
 }
 
-TEST(ProgramBounds, let_the_main_program_run_as_often_as_is_allowed) {
-  ProgramBounds bounds({.idle_passes = 1, .repeated_steps = 3, .main_passes = 3});
+TEST(RunawayGuard, let_the_main_program_run_as_often_as_is_allowed) {
+  RunawayGuard bounds({.idle_passes = 1, .repeated_steps = 3, .main_passes = 3});
   EXPECT_TRUE(bounds.count_main_pass());
   EXPECT_TRUE(bounds.count_restart());
   EXPECT_TRUE(bounds.count_main_pass());
@@ -122,15 +122,15 @@ TEST(ProgramBounds, let_the_main_program_run_as_often_as_is_allowed) {
   EXPECT_FALSE(bounds.count_main_pass());
 }
 
-TEST(ProgramBounds, allow_a_thousand_calls_that_lead_nowhere) {
-  ProgramBounds bounds({});
+TEST(RunawayGuard, allow_a_thousand_calls_that_lead_nowhere) {
+  RunawayGuard bounds({});
   for (int call = 1; call < 1000; ++call) EXPECT_FALSE(bounds.is_last_unknown_call()) << call;
   EXPECT_TRUE(bounds.is_last_unknown_call());
 }
 
-TEST(DoubtfulLabels, are_those_that_could_not_be_read) {
+TEST(UnreadableLabels, are_those_that_could_not_be_read) {
   SymbolTable symbols;
-  DoubtfulLabels labels;
+  UnreadableLabels labels;
   labels.add(symbols.intern("7"));
   EXPECT_TRUE(labels.has(symbols.intern("7")));
   EXPECT_FALSE(labels.has(symbols.intern("8")));

@@ -148,7 +148,7 @@ TEST(UsedTools, are_in_the_order_of_their_first_use_and_the_last_stands_for_all_
   std::vector<std::int32_t> used;
   std::vector<std::size_t> places;
   for (const std::int32_t tool : {7, 3, 7, 9, 4, 3, 9}) {
-    places.push_back(place_of_tool(used, tool, std::identity(), 3, [tool] { return tool; }));
+    places.push_back(index_of_tool(used, tool, std::identity(), 3, [tool] { return tool; }));
   }
   EXPECT_THAT(used, testing::ElementsAre(7, 3, 9));
   EXPECT_THAT(places, testing::ElementsAre(0, 1, 0, 2, 2, 1, 2));

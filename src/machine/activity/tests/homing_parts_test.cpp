@@ -1,8 +1,8 @@
-// The parts of homing: HomedMotors, HomingTurn and SwitchWatch.
+// The parts of homing: HomedMotors, HomingGroup and SwitchWatch.
 #include <gtest/gtest.h>
 
 #include "passo/activity/homed_motors.hpp"
-#include "passo/activity/homing_turn.hpp"
+#include "passo/activity/homing_group.hpp"
 #include "passo/activity/switch_watch.hpp"
 
 namespace passo {
@@ -40,10 +40,10 @@ TEST(HomedMotors, are_never_less_than_not_beyond) {
   EXPECT_EQ(motors.farthest_beyond(-1), 1);
 }
 
-TEST(HomingTurn, goes_through_its_axes_in_order) {
+TEST(HomingGroup, goes_through_its_axes_in_order) {
   const AxisDescription x;
   const AxisDescription y;
-  HomingTurn turn;
+  HomingGroup turn;
   turn.add(x);
   turn.add(y);
   EXPECT_EQ(turn.after(x), &y);
@@ -53,10 +53,10 @@ TEST(HomingTurn, goes_through_its_axes_in_order) {
   EXPECT_EQ(turn.axes().front(), &y);
 }
 
-TEST(HomingTurn, knows_where_a_switch_was_met_until_its_last_axis_is_homed) {
+TEST(HomingGroup, knows_where_a_switch_was_met_until_its_last_axis_is_homed) {
   const AxisDescription x;
   const AxisDescription y;
-  HomingTurn turn;
+  HomingGroup turn;
   turn.add(x);
   turn.add(y);
   turn.seek_together();

@@ -59,25 +59,25 @@ TEST_F(RewindablePathTest, begins_again_amid_a_segment_and_then_goes_on_with_all
 
 TEST_F(RewindablePathTest, says_where_the_path_is_behind_a_motion_also_after_it_was_rewound) {
   const Curve first = next_curve();
-  EXPECT_EQ(path_.behind({}, motion(first, 4)), (PathPlace{.item = 0, .s = Mm(4)}));
-  EXPECT_EQ(path_.behind({}, motion(first, 10)), (PathPlace{.item = 1}));
+  EXPECT_EQ(path_.behind({}, motion(first, 4)), (PathPosition{.item = 0, .s = Mm(4)}));
+  EXPECT_EQ(path_.behind({}, motion(first, 10)), (PathPosition{.item = 1}));
   path_.rewind({.item = 0, .s = Mm(4)});
   const Curve rest = next_curve();
   ASSERT_EQ(rest.length(), Mm(6));
-  const PathPlace further = path_.behind({.item = 0, .s = Mm(4)}, motion(rest, 3));
-  EXPECT_EQ(further, (PathPlace{.item = 0, .s = Mm(7)})) << "on the whole curve, not on its rest";
+  const PathPosition further = path_.behind({.item = 0, .s = Mm(4)}, motion(rest, 3));
+  EXPECT_EQ(further, (PathPosition{.item = 0, .s = Mm(7)})) << "on the whole curve, not on its rest";
   path_.rewind(further);
   EXPECT_EQ(next_curve().start()[Axis::x], 7) << "and again";
 }
 
 TEST_F(RewindablePathTest, begins_at_a_place_and_counts_from_the_beginning_all_the_same) {
   path_.begin_at({.item = 1, .s = Mm(5)});
-  EXPECT_EQ(path_.place(), (PathPlace{.item = 1, .s = Mm(5)}));
+  EXPECT_EQ(path_.place(), (PathPosition{.item = 1, .s = Mm(5)}));
   const Curve rest = next_curve();
   EXPECT_EQ(rest.start()[Axis::x], 15);
-  EXPECT_EQ(path_.place(), (PathPlace{.item = 2}));
-  const PathPlace further = path_.behind({.item = 1, .s = Mm(5)}, motion(rest, 3));
-  EXPECT_EQ(further, (PathPlace{.item = 1, .s = Mm(8)}));
+  EXPECT_EQ(path_.place(), (PathPosition{.item = 2}));
+  const PathPosition further = path_.behind({.item = 1, .s = Mm(5)}, motion(rest, 3));
+  EXPECT_EQ(further, (PathPosition{.item = 1, .s = Mm(8)}));
   EXPECT_EQ(test::drain(path_).size(), 2U);
   path_.rewind(further);
   EXPECT_EQ(next_curve().start()[Axis::x], 18);
@@ -91,12 +91,12 @@ TEST_F(RewindablePathTest, hands_on_a_lead_in_before_the_place_and_counts_it) {
   EXPECT_TRUE(std::holds_alternative<Action>(item));
   const Curve way = next_curve();
   EXPECT_EQ(way.end()[Axis::x], 15);
-  const PathPlace amid = path_.behind({.item = 2}, motion(way, 3));
-  EXPECT_EQ(amid, (PathPlace{.item = 2, .s = Mm(3)}));
+  const PathPosition amid = path_.behind({.item = 2}, motion(way, 3));
+  EXPECT_EQ(amid, (PathPosition{.item = 2, .s = Mm(3)}));
   const Curve rest = next_curve();
   EXPECT_EQ(rest.start()[Axis::x], 15);
   EXPECT_EQ(rest.end()[Axis::x], 30);
-  EXPECT_EQ(path_.behind({.item = 3}, motion(rest, 3)), (PathPlace{.item = 3, .s = Mm(3)}));
+  EXPECT_EQ(path_.behind({.item = 3}, motion(rest, 3)), (PathPosition{.item = 3, .s = Mm(3)}));
   path_.rewind(amid);
   EXPECT_NEAR(next_curve().length().value(), way.length().value() - 3, 1e-9) << "of the lead-in";
   EXPECT_EQ(next_curve().start()[Axis::x], 15);
@@ -104,8 +104,8 @@ TEST_F(RewindablePathTest, hands_on_a_lead_in_before_the_place_and_counts_it) {
 }
 
 TEST_F(RewindablePathTest, an_action_is_passed_but_for_a_hold_which_is_no_part_of_it) {
-  EXPECT_EQ(path_.behind({.item = 2}, Action{.kind = Action::Kind::dwell}), (PathPlace{.item = 3}));
-  const PathPlace amid{.item = 2, .s = Mm(1)};
+  EXPECT_EQ(path_.behind({.item = 2}, Action{.kind = Action::Kind::dwell}), (PathPosition{.item = 3}));
+  const PathPosition amid{.item = 2, .s = Mm(1)};
   EXPECT_EQ(path_.behind(amid, Action{.kind = Action::Kind::feed_hold}), amid);
 }
 

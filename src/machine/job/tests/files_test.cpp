@@ -5,8 +5,8 @@
 #include "kit/folder_test.hpp"
 
 #include "passo/job/journal_file.hpp"
-#include "passo/job/kept_place.hpp"
 #include "passo/job/state_file.hpp"
+#include "passo/job/stored_position.hpp"
 
 namespace passo {
 namespace {
@@ -33,7 +33,7 @@ TEST_F(JournalFiles, keep_what_a_writer_writes) {
   head.numbers.greeting = 7;
   head.numbers.session = 99;
   writer.begin(head);
-  writer.record(BoardRest{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
+  writer.record(BoardStop{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
   ProbeOutcome touched;
   touched.touched = true;
   writer.record(touched);
@@ -43,7 +43,7 @@ TEST_F(JournalFiles, keep_what_a_writer_writes) {
   EXPECT_EQ(found.journal->head().job_counts, head.job_counts);
   EXPECT_EQ(found.journal->head().probes.size(), 1U);
   const BoardStatus status{.session = 99, .executed = 20, .state = board_trusted, .motors = 2};
-  EXPECT_EQ(found.journal->place_of(status), (PathPlace{.item = 4, .s = Mm(2)}));
+  EXPECT_EQ(found.journal->place_of(status), (PathPosition{.item = 4, .s = Mm(2)}));
   EXPECT_GT(file.written_at(), 1e9);
   file.remove();
   EXPECT_EQ(file.find().kind, Kind::none);
@@ -105,10 +105,10 @@ class KeptPlaces : public test::FolderTest {
 };
 
 TEST_F(KeptPlaces, are_known_to_the_next_program) {
-  KeptPlace kept(board_);
-  EXPECT_EQ(kept.place(machine_, status()).error(), PlaceDoubt::no_record);
+  StoredPosition kept(board_);
+  EXPECT_EQ(kept.place(machine_, status()).error(), PositionDoubt::no_record);
   EXPECT_TRUE(kept.keep(machine_, {.place = Point(), .trust = Trust::homed}, zero_counts_, numbers_));
-  const KeptPlace next(board_);
+  const StoredPosition next(board_);
   const auto place = next.place(machine_, status());
   ASSERT_TRUE(place);
   EXPECT_EQ(place->trust, Trust::homed);
@@ -117,9 +117,9 @@ TEST_F(KeptPlaces, are_known_to_the_next_program) {
 }
 
 TEST_F(KeptPlaces, are_counted_and_not_trusted_where_nobody_knows_machine_zero) {
-  KeptPlace kept(board_);
+  StoredPosition kept(board_);
   EXPECT_TRUE(kept.keep(machine_, {.place = Point(), .trust = Trust::unknown}, zero_counts_, numbers_));
-  EXPECT_EQ(kept.place(machine_, status()).error(), PlaceDoubt::no_record);
+  EXPECT_EQ(kept.place(machine_, status()).error(), PositionDoubt::no_record);
   const KnownPosition counted = kept.counted(machine_, status());
   EXPECT_EQ(counted.trust, Trust::unknown);
   EXPECT_EQ(counted.place[Axis::x], 4);
@@ -127,7 +127,7 @@ TEST_F(KeptPlaces, are_counted_and_not_trusted_where_nobody_knows_machine_zero) 
 }
 
 TEST_F(KeptPlaces, are_lost_where_the_counts_have_not_gone_on) {
-  KeptPlace kept(board_);
+  StoredPosition kept(board_);
   EXPECT_TRUE(kept.keep(machine_, {.place = Point(), .trust = Trust::homed}, zero_counts_, numbers_));
   BoardStatus stopped = status();
   stopped.state = 0;
@@ -135,18 +135,18 @@ TEST_F(KeptPlaces, are_lost_where_the_counts_have_not_gone_on) {
             (KnownPosition{.place = Point{{{4}}}, .trust = Trust::unknown, .is_lost = true}));
   BoardStatus other = status();
   other.session = 301;
-  EXPECT_EQ(kept.place(machine_, other).error(), PlaceDoubt::other_session);
+  EXPECT_EQ(kept.place(machine_, other).error(), PositionDoubt::other_session);
   EXPECT_EQ(kept.counted(machine_, other), (KnownPosition{.place = Point(), .trust = Trust::unknown, .is_lost = true}));
 }
 
 TEST_F(KeptPlaces, are_machine_zero_where_nothing_is_known) {
-  const KnownPosition nothing = KeptPlace(board_).counted(machine_, status());
+  const KnownPosition nothing = StoredPosition(board_).counted(machine_, status());
   EXPECT_EQ(nothing, (KnownPosition{.place = Point(), .trust = Trust::unknown, .is_lost = false}));
 }
 
 TEST_F(KeptPlaces, say_when_they_cannot_be_written_and_know_the_place_nevertheless) {
   put(path("passo"), "a file in the place of the folder");
-  KeptPlace kept(board_);
+  StoredPosition kept(board_);
   EXPECT_FALSE(kept.keep(machine_, {.place = Point(), .trust = Trust::homed}, zero_counts_, numbers_));
   EXPECT_TRUE(kept.place(machine_, status()));
   EXPECT_TRUE(kept.keep(machine_, {.place = Point(), .trust = Trust::homed}, zero_counts_, numbers_))
@@ -154,7 +154,7 @@ TEST_F(KeptPlaces, say_when_they_cannot_be_written_and_know_the_place_neverthele
 }
 
 TEST_F(KeptPlaces, are_in_no_file_without_a_folder_for_state) {
-  KeptPlace kept("");
+  StoredPosition kept("");
   EXPECT_TRUE(kept.keep(machine_, {.place = Point(), .trust = Trust::homed}, zero_counts_, numbers_));
   EXPECT_EQ(files(), 0U);
 }

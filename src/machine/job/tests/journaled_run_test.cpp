@@ -38,7 +38,7 @@ TEST(JournaledRuns, note_the_rests_and_probe_moves_of_the_run) {
   start.watchers.probe(ProbeOutcome());
   const auto journal = Journal::read(store.bytes);
   ASSERT_TRUE(journal);
-  EXPECT_EQ(journal->place_of(status_at_rest()), (PathPlace{.item = 4, .s = Mm(2)}));
+  EXPECT_EQ(journal->place_of(status_at_rest()), (PathPosition{.item = 4, .s = Mm(2)}));
   EXPECT_EQ(journal->head().probes.size(), 1U);
   store.works = false;
   start.watchers.probe(ProbeOutcome());
@@ -69,7 +69,7 @@ class TakenUpJobs : public testing::Test, public JobKeeper {
   TakenUpJobs() {
     JournalWriter writer(store_);
     writer.begin(some_head());
-    writer.record(BoardRest{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
+    writer.record(BoardStop{.executed = 20, .place = {.item = 4, .s = Mm(2)}});
   }
   std::optional<BrokenOff> take(bool outlives_host = true) {
     return resume_job(*this, run_, status_, {.session = 123, .number = 9}, outlives_host);
@@ -91,7 +91,7 @@ TEST_F(TakenUpJobs, rest_where_the_journal_knows_it_and_hear_of_the_greeting) {
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->refused);
   EXPECT_EQ(found->noted_at, 5);
-  EXPECT_EQ(found->done, (PathPlace{.item = 4, .s = Mm(2)}));
+  EXPECT_EQ(found->done, (PathPosition{.item = 4, .s = Mm(2)}));
   EXPECT_EQ(found->farthest, found->done);
   // The next host knows the board before and after the greeting.
   const auto journal = Journal::read(store_.bytes);

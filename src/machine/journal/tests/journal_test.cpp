@@ -50,7 +50,7 @@ class Journals : public testing::Test {
 TEST_F(Journals, give_back_what_was_written_to_the_last_bit) {
   EXPECT_EQ(journal().head(), some_head());
   note(201, 41, 1.0 / 3);
-  EXPECT_EQ(journal().place_of(status(300, 201)), (PathPlace{.item = 41, .s = Mm(1.0 / 3)}));
+  EXPECT_EQ(journal().place_of(status(300, 201)), (PathPosition{.item = 41, .s = Mm(1.0 / 3)}));
 }
 
 TEST_F(Journals, give_back_what_probe_moves_have_found_before_the_session_and_in_it) {
@@ -61,7 +61,7 @@ TEST_F(Journals, give_back_what_probe_moves_have_found_before_the_session_and_in
   writer_.record(refused);
   const std::vector<ProbeOutcome> all = {touched_at(0.1), touched_at(-1.0 / 7), refused};
   EXPECT_EQ(journal().head().probes, all);
-  EXPECT_EQ(journal().place_of(status(300, 201)), (PathPlace{.item = 41}));
+  EXPECT_EQ(journal().place_of(status(300, 201)), (PathPosition{.item = 41}));
 }
 
 // What is torn is the last outcome, behind which nothing has moved.
@@ -88,8 +88,8 @@ TEST_F(Journals, know_the_rests_of_their_session_and_no_others) {
   EXPECT_EQ(journal().place_of(status(300, 200)), some_head().place) << "nothing has arrived";
   note(230, 41, 0.5);
   note(260, 42, 0.25);
-  EXPECT_EQ(journal().place_of(status(300, 230)), (PathPlace{.item = 41, .s = Mm(0.5)}));
-  EXPECT_EQ(journal().place_of(status(300, 260)), (PathPlace{.item = 42, .s = Mm(0.25)}));
+  EXPECT_EQ(journal().place_of(status(300, 230)), (PathPosition{.item = 41, .s = Mm(0.5)}));
+  EXPECT_EQ(journal().place_of(status(300, 260)), (PathPosition{.item = 42, .s = Mm(0.25)}));
   EXPECT_FALSE(journal().place_of(status(300, 250))) << "amid a refill";
   EXPECT_FALSE(journal().place_of(status(301, 230)));
 }
@@ -99,8 +99,8 @@ TEST_F(Journals, know_what_is_surely_executed) {
   writer_.record({.executed = 230, .place = {.item = 44, .s = Mm(1)}, .done = {.item = 41, .s = Mm(0.25)}});
   EXPECT_EQ(journal().done(), some_head().place) << "a refill later";
   writer_.record({.executed = 260, .place = {.item = 46, .s = Mm(0)}, .done = {.item = 43, .s = Mm(0)}});
-  EXPECT_EQ(journal().done(), (PathPlace{.item = 41, .s = Mm(0.25)}));
-  EXPECT_EQ(journal().farthest(), (PathPlace{.item = 46, .s = Mm(0)}));
+  EXPECT_EQ(journal().done(), (PathPosition{.item = 41, .s = Mm(0.25)}));
+  EXPECT_EQ(journal().farthest(), (PathPosition{.item = 46, .s = Mm(0)}));
 }
 
 TEST_F(Journals, know_a_board_that_has_not_heard_all_of_the_greeting) {
@@ -129,7 +129,7 @@ TEST_F(Journals, do_not_grow_and_keep_the_latest) {
   EXPECT_EQ(read.torn(), 0U);
   for (unsigned i = many - JournalWriter::rests + 1; i <= many; ++i) {
     EXPECT_EQ(read.place_of(status(300, static_cast<ItemNumber>(200 + 9 * i))),
-              (PathPlace{.item = i, .s = Mm(i * 0.001)}));
+              (PathPosition{.item = i, .s = Mm(i * 0.001)}));
   }
 }
 
@@ -145,8 +145,8 @@ TEST_F(Journals, that_were_torn_anywhere_say_so_and_never_tell_another_place) {
     if (!read) continue;
     EXPECT_EQ(read->head(), some_head());
     EXPECT_EQ(read->torn(), 1U) << at;
-    EXPECT_EQ(read->place_of(status(300, 230)).value_or(PathPlace{.item = 41, .s = Mm(0.5)}).item, 41U);
-    EXPECT_EQ(read->place_of(status(300, 260)).value_or(PathPlace{.item = 42, .s = Mm(0.25)}).item, 42U);
+    EXPECT_EQ(read->place_of(status(300, 230)).value_or(PathPosition{.item = 41, .s = Mm(0.5)}).item, 41U);
+    EXPECT_EQ(read->place_of(status(300, 260)).value_or(PathPosition{.item = 42, .s = Mm(0.25)}).item, 42U);
     EXPECT_FALSE(read->place_of(status(300, 230)) && read->place_of(status(300, 260))) << at;
   }
   for (std::size_t size = 0; size < end_of_lines; ++size) {

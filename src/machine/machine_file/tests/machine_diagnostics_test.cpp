@@ -10,7 +10,7 @@ struct Mistake {
   const char* from;
   const char* to;
   const char* code;
-  SourcePlace place;
+  SourceLocation place;
   const char* message;
   const char* expected;
 };
@@ -359,11 +359,11 @@ TEST(MachineDiagnostics, columns_count_bytes_after_letters_outside_ascii) {
   EXPECT_FALSE(
       parse_machine(replaced(sound_machine, "max_rpm = 10000", "\"dr\xC3\xBC\xC3\xBC\" = 1"), "m.toml", diagnostics));
   ASSERT_EQ(diagnostics.all().size(), 1U);
-  EXPECT_EQ(diagnostics.all()[0].place, (SourcePlace{11, 1, 8}));
+  EXPECT_EQ(diagnostics.all()[0].place, (SourceLocation{11, 1, 8}));
   Diagnostics value;
   EXPECT_FALSE(
       parse_machine(replaced(sound_machine, "[tool]", "[tool]\n'\xC3\xBC' = {max_rpm='\xC3\xBC'}\n"), "m.toml", value));
-  EXPECT_EQ(value.all()[0].place, (SourcePlace{10, 1, 4}));
+  EXPECT_EQ(value.all()[0].place, (SourceLocation{10, 1, 4}));
 }
 
 TEST(MachineDiagnostics, what_a_file_says_cannot_steer_the_terminal) {

@@ -68,9 +68,9 @@ class Lines final : public Source<PathItem> {
   int count_ = 0;
 };
 
-TEST(LeftOutTime, counts_all_before_the_place_where_the_motion_begins) {
+TEST(SkippedTime, counts_all_before_the_place_where_the_motion_begins) {
   Lines lines;
-  LeftOutTime path(lines, fast(), {.item = 1, .s = Mm(4)});
+  SkippedTime path(lines, fast(), {.item = 1, .s = Mm(4)});
   PathItem item;
   int items = 0;
   while (path.next(item)) ++items;

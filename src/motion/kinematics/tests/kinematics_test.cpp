@@ -40,9 +40,9 @@ class RandomPlaces : public testing::Test {
   void expect_counts_come_back(const Kinematics& kinematics, AxisSet downs = {}) {
     for (int i = 0; i < 2000; ++i) {
       SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << random_.seed() << " trial " << i);
-      MotorPlace counts;
+      MotorPosition counts;
       for (std::size_t m = 0; m < kinematics.rows().size(); ++m) counts[m] = std::round(random_.between(-2e6, 2e6));
-      const MotorPlace back = kinematics.motors(kinematics.axes(counts, downs), downs);
+      const MotorPosition back = kinematics.motors(kinematics.axes(counts, downs), downs);
       for (std::size_t m = 0; m < kinematics.rows().size(); ++m) {
         EXPECT_NEAR(back[m], counts[m], 1e-6) << "motor " << m;
         EXPECT_EQ(std::llround(back[m]), std::llround(counts[m])) << "motor " << m;
@@ -99,7 +99,7 @@ TEST_F(RandomPlaces, are_those_of_the_first_of_two_motors_of_an_axis) {
   const Kinematics gantry = {
       {.steps = {Axis::x, 320}}, {.steps = {Axis::y, 320}}, {.steps = {Axis::z, 640}}, {.steps = {Axis::y, -320}}};
   expect_places_come_back(gantry);
-  MotorPlace motors = gantry.motors(xyz(1, 2, 3));
+  MotorPosition motors = gantry.motors(xyz(1, 2, 3));
   EXPECT_EQ(motors[1], 640);
   EXPECT_EQ(motors[3], -640);
   motors[3] += 100;  // squared against the first one
@@ -135,7 +135,7 @@ TEST(Kinematics, never_gives_a_negative_zero) {
 TEST(Kinematics, moves_only_the_axes_that_motors_have_turned) {
   const Kinematics machine = core_xy();
   const Point from = xyz(10.0001, 20.0002, 1.0003);
-  MotorPlace motors = machine.motors(from);
+  MotorPosition motors = machine.motors(from);
   motors[2] = 0;
   // Z alone: X and Y stay to the last bit, although their motors do not stand at whole steps.
   const Point lifted = machine.axes_after(from, motors, 0b100);
@@ -150,7 +150,7 @@ TEST(Kinematics, moves_only_the_axes_that_motors_have_turned) {
 TEST(Kinematics, counts_from_the_counts_at_zero) {
   const std::array<std::int32_t, max_motors> counts{100, -100, 5};
   const std::array<std::int64_t, 2> zero{-20, 30};
-  const MotorPlace place = steps_since(zero, counts);
+  const MotorPosition place = steps_since(zero, counts);
   EXPECT_EQ(place[0], 120);
   EXPECT_EQ(place[1], -130);
   EXPECT_EQ(place[2], 0);  // a motor that has no count at zero

@@ -340,9 +340,9 @@ TEST_F(PathTest, a_finding_points_at_the_words_that_the_operation_names) {
   go(0, 0, 400);
   (void)build();
   ASSERT_EQ(diagnostics_.all().size(), 3U);
-  EXPECT_EQ(diagnostics_.all()[0].place, (SourcePlace{5, 9, 4}));
-  EXPECT_EQ(diagnostics_.all()[1].place, (SourcePlace{5, 6, 7}));  // no word of Y: all that ask for the move
-  EXPECT_EQ(diagnostics_.all()[2].place, (SourcePlace{3, 0, 1}));  // no word at all: the line
+  EXPECT_EQ(diagnostics_.all()[0].place, (SourceLocation{5, 9, 4}));
+  EXPECT_EQ(diagnostics_.all()[1].place, (SourceLocation{5, 6, 7}));  // no word of Y: all that ask for the move
+  EXPECT_EQ(diagnostics_.all()[2].place, (SourceLocation{3, 0, 1}));  // no word at all: the line
   EXPECT_EQ(diagnostics_.all()[0].text, "any text");
 }
 

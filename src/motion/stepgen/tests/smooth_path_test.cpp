@@ -60,7 +60,7 @@ std::vector<Phase> one_rise_and_fall(double length, double speed) {
 void expect_counts(const std::vector<MotionItem>& items, const StepOptions& options) {
   const oracle::Playback played = oracle::play(oracle::generate(items, options), options);
   const Curve& last = std::get<PlannedMove>(items.back()).segment.curve;
-  const MotorPlace end = options.kinematics.motors(last.end());
+  const MotorPosition end = options.kinematics.motors(last.end());
   for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {
     EXPECT_EQ(played.counts[m], std::llround(end[m])) << "motor " << m;
   }

@@ -75,7 +75,7 @@ void expect_end(const std::vector<MotionItem>& items, const StepOptions& options
     if (const auto* move = std::get_if<PlannedMove>(&item)) last = move;
   }
   ASSERT_NE(last, nullptr);
-  const MotorPlace end = options.kinematics.motors(last->segment.curve.end());
+  const MotorPosition end = options.kinematics.motors(last->segment.curve.end());
   for (unsigned m = 0; m < options.kinematics.motor_count(); ++m) {
     EXPECT_EQ(played.counts[m], std::llround(end[m])) << "motor " << m;
   }

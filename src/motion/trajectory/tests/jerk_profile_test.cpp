@@ -54,7 +54,7 @@ TEST(JerkProfile, keeps_every_limit_with_no_mending_at_all_and_takes_hardly_long
 }
 
 // The accelerations of this guess would make the path run back in the second cell.
-TEST(JerkLift, raises_a_guess_that_cannot_be_driven) {
+TEST(JerkOptimizer, raises_a_guess_that_cannot_be_driven) {
   const MotionLimits limits = jerk_limits(100, 500, 25'000);
   const std::vector<LimitedAxis> axes = axes_with_limits(limits);
   constexpr std::size_t count = 4;
@@ -76,7 +76,7 @@ TEST(JerkLift, raises_a_guess_that_cannot_be_driven) {
   std::vector<NodeState> states(count + 1, {.speed = 1});
   states[1].acceleration = -20;
   states[2].acceleration = 20;
-  JerkLift lift(axes);
+  JerkOptimizer lift(axes);
   ASSERT_TRUE(lift.raise({.cells = cells, .shapes = shapes, .share = share, .cap = cap, .node_cap = node_cap}, 0, count,
                          states));
   EXPECT_GT(states[2].speed, 2.2);

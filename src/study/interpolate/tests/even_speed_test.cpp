@@ -7,8 +7,8 @@
 #include "walk.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 
 namespace passo {
@@ -60,7 +60,7 @@ void expect_on_time(std::mt19937_64& random, Make make) {
 
 TEST_F(RandomDurations, by_the_exact_rule_the_foot_of_the_tool_moves_at_constant_speed_with_any_method) {
   for (int run = 0; run < runs_ && !HasFailure(); ++run) {
-    expect_on_time(random_, [](const auto& d) { return Lean<3>(d); });
+    expect_on_time(random_, [](const auto& d) { return BresenhamLine<3>(d); });
     expect_on_time(random_, [](const auto& d) { return Dda<3>(d); });
   }
 }

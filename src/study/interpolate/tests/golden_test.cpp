@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "passo/interpolate/arcs.hpp"
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
@@ -88,8 +88,8 @@ TEST_F(Golden, master_and_slaves_by_rounding_and_lean) {
   for (const auto& [key, rows] : cases) {
     const Distances distances(numbers(key));
     expect_rows<6>(key, rows, MasterSlave<6>(distances.all));
-    expect_rows<6>(key, rows, Lean<6>(distances.all));
-    expect_rows<6>(key, rows, Lean<6, std::uint16_t>(distances.all));
+    expect_rows<6>(key, rows, BresenhamLine<6>(distances.all));
+    expect_rows<6>(key, rows, BresenhamLine<6, std::uint16_t>(distances.all));
   }
 }
 

@@ -7,8 +7,8 @@
 #include "walk.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
@@ -59,7 +59,7 @@ class RandomLineErrors : public testing::Test {
 };
 
 TEST_F(RandomLineErrors, master_and_slaves_keep_within_half_a_step) {
-  EXPECT_LE(worst([](auto& d) { return Lean<2>(d); }, axis_error), 0.5L + 1e-12L);
+  EXPECT_LE(worst([](auto& d) { return BresenhamLine<2>(d); }, axis_error), 0.5L + 1e-12L);
 }
 TEST_F(RandomLineErrors, dda_keeps_within_one_step_and_half_loaded_within_three_quarters) {
   EXPECT_LE(worst([](auto& d) { return Dda<2>(d); }, distance), 1.0L);
@@ -88,7 +88,7 @@ TEST(LineBounds, the_first_million_pulses_of_the_longest_lines_are_those_of_the_
                                    {2, -largest, 0}};
   for (const auto& d : cases) {
     MasterSlave<3> reference(d);
-    Lean<3> lean(d);
+    BresenhamLine<3> lean(d);
     Place<3> place{};
     for (std::int64_t k = 1; k <= 1'000'000; ++k) {
       const Pulse pulse = lean.next();
@@ -139,10 +139,10 @@ void expect_end(Interpolator interpolator, Place<2> end) {
 }
 
 TEST(LineBoundsInFull, the_longest_line_ends_exactly) {
-  expect_end(Lean<2>({-largest, largest - 1}), {-largest, largest - 1});
+  expect_end(BresenhamLine<2>({-largest, largest - 1}), {-largest, largest - 1});
 }
 TEST(LineBoundsInFull, the_longest_lines_end_exactly_by_every_method) {
-  expect_end(Lean<2>({largest, 1}), {largest, 1});
+  expect_end(BresenhamLine<2>({largest, 1}), {largest, 1});
   expect_end(MasterSlave<2>({1'000'000'007, -largest}), {1'000'000'007, -largest});
   expect_end(Dda<2>({largest, -2}, DdaLoad::half), {largest, -2});
   expect_end(SlopeRecalculated<>({largest, 1'000'000'007}), {largest, 1'000'000'007});

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passo/interpolate/bresenham_line.hpp"
 #include "passo/interpolate/dda.hpp"
-#include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
@@ -46,8 +46,8 @@ TEST_F(RandomLines, master_and_slaves_stand_at_the_rounded_place) {
     const std::int32_t d[3] = {length(), length(), length()};
     const std::int64_t m = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
     std::int64_t k = 0;
-    Lean<3> lean(d);
-    Lean<3, std::uint16_t> narrow(d);
+    BresenhamLine<3> lean(d);
+    BresenhamLine<3, std::uint16_t> narrow(d);
     const auto end =
         test::walk<3>(MasterSlave<3>(d), {}, [&](Pulse pulse, const Place<3>& place, const auto& reference) {
           ++k;
@@ -172,7 +172,7 @@ TEST_F(RandomLines, point_comparison_feeds_one_axis_a_pulse_however_the_end_is_j
 
 TEST(Lines, a_slave_stands_where_the_reference_says) {
   std::vector<std::int64_t> slave;
-  for (const Place<2>& place : places<2>(Lean<2>({10, 4}))) slave.push_back(place[1]);
+  for (const Place<2>& place : places<2>(BresenhamLine<2>({10, 4}))) slave.push_back(place[1]);
   EXPECT_THAT(slave, ElementsAre(0, 1, 1, 2, 2, 2, 3, 3, 4, 4));
 }
 
@@ -190,12 +190,12 @@ TEST(Lines, a_listing_that_circulates_ends_a_step_too_far) {
     slave.push_back(stands);
   }
   EXPECT_THAT(slave, ElementsAre(1, 2, 2, 3, 3, 3, 4, 4, 5, 5));
-  EXPECT_EQ(places<2>(Lean<2>({10, 4})).back(), (Place<2>{10, 4}));
+  EXPECT_EQ(places<2>(BresenhamLine<2>({10, 4})).back(), (Place<2>{10, 4}));
 }
 
 TEST(Lines, no_length_is_no_pulse) {
   EXPECT_THAT(places<2>(MasterSlave<2>({0, 0})), IsEmpty());
-  EXPECT_THAT(places<2>(Lean<2>({0, 0})), IsEmpty());
+  EXPECT_THAT(places<2>(BresenhamLine<2>({0, 0})), IsEmpty());
   EXPECT_THAT(places<2>(Dda<2>({0, 0}, DdaLoad::half)), IsEmpty());
   EXPECT_THAT(places<2>(Dda<2>({0, 0}, DdaLoad::zero, 31)), IsEmpty());
   EXPECT_THAT(places<2>(SlopeRecalculated<>({0, 0})), IsEmpty());
@@ -208,7 +208,7 @@ TEST(Lines, no_length_is_no_pulse) {
 TEST(Lines, one_axis_alone_steps_straight) {
   const std::vector<Place<2>> down = {{0, -1}, {0, -2}, {0, -3}};
   EXPECT_EQ(places<2>(MasterSlave<2>({0, -3})), down);
-  EXPECT_EQ(places<2>(Lean<2>({0, -3})), down);
+  EXPECT_EQ(places<2>(BresenhamLine<2>({0, -3})), down);
   EXPECT_EQ(places<2>(SlopeRecalculated<>({0, -3})), down);
   EXPECT_EQ(places<2>(SlopeBlocks<>({0, -3})), down);
   EXPECT_EQ(places<2>(PointComparisonLine<>({0, -3})), down);
@@ -217,13 +217,13 @@ TEST(Lines, one_axis_alone_steps_straight) {
 
 TEST(Lines, eight_axes_are_the_most) {
   const std::int32_t d[8] = {1, -2, 3, -4, 5, -6, 7, -8};
-  EXPECT_EQ(places<8>(Lean<8>(d)).back(), (Place<8>{1, -2, 3, -4, 5, -6, 7, -8}));
-  EXPECT_EQ(places<8>(Lean<8>(d)), places<8>(MasterSlave<8>(d)));
+  EXPECT_EQ(places<8>(BresenhamLine<8>(d)).back(), (Place<8>{1, -2, 3, -4, 5, -6, 7, -8}));
+  EXPECT_EQ(places<8>(BresenhamLine<8>(d)), places<8>(MasterSlave<8>(d)));
 }
 
 TEST(Lines, are_worked_out_at_compile_time_as_well) {
   constexpr int steps = [] {
-    Lean<2> line({10, 4});
+    BresenhamLine<2> line({10, 4});
     int count = 0;
     while (!line.done()) count += (line.next().steps >> 1) & 1;
     return count;

@@ -17,7 +17,7 @@
 #include "passo/firmware/board_hardware.hpp"
 #include "passo/firmware/board_identity.hpp"
 #include "passo/firmware/drive_alarms.hpp"
-#include "passo/firmware/host_silence.hpp"
+#include "passo/firmware/host_timeout.hpp"
 #include "passo/firmware/input_watch.hpp"
 #include "passo/firmware/item_player.hpp"
 #include "passo/firmware/player.hpp"
@@ -90,7 +90,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     send(fault);
   }
 
-  // Call ten times a second: counts the host's silence (HostSilence). Outputs whose time is over are switched off while
+  // Call ten times a second: counts the host's silence (HostTimeout). Outputs whose time is over are switched off while
   // the board is stopped, even during a queue update.
   void count_silence() {
     silence_.count();
@@ -420,7 +420,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; the link carries its low byte
   ItemSums sums_;          // sums over the queue update gathered so far
-  HostSilence silence_;
+  HostTimeout silence_;
   // In one byte, because a chip has little memory.
   bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;
   Manual manual_ : 2 = Manual::off;

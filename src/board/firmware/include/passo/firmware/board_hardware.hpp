@@ -25,7 +25,7 @@
 
 #include <stdint.h>
 
-#include "passo/firmware/host_silence.hpp"
+#include "passo/firmware/host_timeout.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -88,7 +88,7 @@ template <class Hardware>
 
 // Switches the drivers off if the host has been silent for the time in the setup. Returns true if it has been.
 template <class Hardware>
-[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, HostSilence& silence) {
+[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, HostTimeout& silence) {
   if constexpr (requires { hardware.release(); }) {
     if (!silence.is_over(hardware.drivers_rest())) return false;
     hardware.release();

@@ -9,15 +9,15 @@
 
 #include "passo/firmware/board_hardware.hpp"
 #include "passo/firmware/board_identity.hpp"
-#include "passo/firmware/board_voice.hpp"
-#include "passo/firmware/part_taker.hpp"
+#include "passo/firmware/message_sender.hpp"
 #include "passo/firmware/play_list.hpp"
+#include "passo/firmware/segment_splitter.hpp"
 #include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 
 template <class Hardware, size_t queue_capacity, class SegmentPlayer, uint8_t most_motors>
-class ItemPlayer : protected BoardVoice<Hardware> {
+class ItemPlayer : protected MessageSender<Hardware> {
  public:
   using Segment = SegmentFor<most_motors>;
   using Breath = BreathOf<Hardware>;
@@ -58,9 +58,10 @@ class ItemPlayer : protected BoardVoice<Hardware> {
   SegmentPlayer& player() { return player_; }
 
  protected:
-  using BoardVoice<Hardware>::hardware_;
+  using MessageSender<Hardware>::hardware_;
 
-  ItemPlayer(Hardware& hardware, const BoardIdentity& identity) : BoardVoice<Hardware>(hardware), identity_(identity) {}
+  ItemPlayer(Hardware& hardware, const BoardIdentity& identity)
+      : MessageSender<Hardware>(hardware), identity_(identity) {}
 
   // Returns the number of events played of the present item.
   uint16_t played() const {
@@ -142,8 +143,8 @@ class ItemPlayer : protected BoardVoice<Hardware> {
     ++owed_;
   }
 
-  uint16_t done_of_front_ = 0;            // events of the front item in finished parts
-  PartTaker<most_motors, Breath> parts_;  // parts of the newest begun item
+  uint16_t done_of_front_ = 0;                  // events of the front item in finished parts
+  SegmentSplitter<most_motors, Breath> parts_;  // parts of the newest begun item
 };
 
 }  // namespace passo

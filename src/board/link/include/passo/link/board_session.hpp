@@ -1,8 +1,8 @@
 // BoardSession: the communication of a host with a board, through a port. The board may be simulated in this process or
 // real; the bytes are the same. The session performs the handshake, and is the only reader of the board's messages.
 //
-// Its parts: Handshake starts the session, SendWindow keeps the unacknowledged frames, BoardQuestions the open queries,
-// BoardMirror the state that the board has reported, and SilenceWatch the timeouts.
+// Its parts: Handshake starts the session, SendWindow keeps the unacknowledged frames, BoardQueries the open queries,
+// BoardMirror the state that the board has reported, and TimeoutMonitor the timeouts.
 //
 // Only poll() waits, and at most for the given time. One thread can thus serve any number of boards, and simulated time
 // passes only where its owner allows.
@@ -28,12 +28,12 @@
 
 #include "passo/link/board_mirror.hpp"
 #include "passo/link/board_port.hpp"
-#include "passo/link/board_questions.hpp"
+#include "passo/link/board_queries.hpp"
 #include "passo/link/handshake.hpp"
 #include "passo/link/link.hpp"
 #include "passo/link/send_window.hpp"
 #include "passo/link/sent_segments.hpp"
-#include "passo/link/silence_watch.hpp"
+#include "passo/link/timeout_monitor.hpp"
 #include "passo/link/twin_motors.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
@@ -49,7 +49,7 @@ class BoardSession final : public Link {
   };
 
   // The constructor sends nothing. The port must outlive the session.
-  explicit BoardSession(BoardPort& port, const LineCare& care = {});
+  explicit BoardSession(BoardPort& port, const LinkTimeouts& care = {});
 
   // Processes the board's messages, and repeats unanswered queries, until something has changed, but for at most
   // `most`. With an infinite `most`, a board that stays silent is an error.
@@ -183,9 +183,9 @@ class BoardSession final : public Link {
   BoardPort& port_;
   Decoder decoder_;
   Handshake handshake_;
-  SilenceWatch silence_;
+  TimeoutMonitor silence_;
   SendWindow window_;
-  BoardQuestions questions_;
+  BoardQueries questions_;
   BoardMirror mirror_;
   TwinMotors twins_;
   ProbeWatch probe_;

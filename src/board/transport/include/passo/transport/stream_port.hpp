@@ -3,7 +3,7 @@
 // Position in the pipeline: the connection to a board outside this process. Only this code opens devices and sockets
 // and waits for real time; a link uses a BoardPort and cannot tell it from a virtual line. A broken connection is
 // silent and drops all bytes sent, while this code tries repeatedly to open it again. The link decides how long that
-// may take (LineCare).
+// may take (LinkTimeouts).
 #pragma once
 
 #include <chrono>

@@ -26,9 +26,9 @@ namespace passo {
 
 // The finishing strategy. Rows are parallel to X. A spiral follows the sides of a rectangle inwards. Contours are at
 // constant heights where the toolpath would be steeper than `steep`, with rows on the remaining area.
-enum class FinishWay : std::uint8_t { rows, columns, both, spiral, contours };
+enum class FinishStrategy : std::uint8_t { rows, columns, both, spiral, contours };
 // The roughing strategy: rows, or offsets of the area that a level removes, from the inside outwards.
-enum class RoughWay : std::uint8_t { rows, offsets };
+enum class RoughStrategy : std::uint8_t { rows, offsets };
 
 struct ReliefTool {
   Cutter cutter = {};
@@ -43,7 +43,7 @@ struct ReliefTool {
 
 struct ReliefRoughing {
   ReliefTool tool = {};
-  RoughWay way = RoughWay::rows;
+  RoughStrategy way = RoughStrategy::rows;
   Mm step_down{2};
   Mm stock{0.3};  // stock to leave, in all directions
 };
@@ -57,7 +57,7 @@ struct ReliefProgramOptions {
   std::string name = {};                // program name, for the first comment
   std::vector<std::string> words = {};  // additional comments
   ReliefTool finish = {};
-  FinishWay way = FinishWay::rows;
+  FinishStrategy way = FinishStrategy::rows;
   Radians steep{0.785398};  // slope limit of contours: 45 degrees
   bool arcs = true;         // use arcs where they save lines
   std::optional<ReliefRoughing> roughing = {};

@@ -20,7 +20,7 @@
 
 namespace passo {
 
-struct LevelPlace {
+struct LevelPoint {
   double x = 0;  // mm, in the coordinates of the map
   double y = 0;
   double z = 0;
@@ -28,18 +28,18 @@ struct LevelPlace {
 
 // The end of a piece. All other axes of the move have completed the fraction `part` of their travel.
 struct LevelledPiece {
-  LevelPlace end;
+  LevelPoint end;
   double part = 1;  // above 0; 1 at the end of the move
 };
 
 // `from` and `to` are the programmed ends. Returns at least one piece, in order; the last one ends above `to`. A
 // vertical move is one piece. `tolerance`: above 0.
-std::vector<LevelledPiece> level_line(const HeightMap& map, const LevelPlace& from, const LevelPlace& to,
+std::vector<LevelledPiece> level_line(const HeightMap& map, const LevelPoint& from, const LevelPoint& to,
                                       double tolerance);
 
 // Levels an arc in X and Y about (`center_x`, `center_y`), with Z in proportion (a helix). `sweep`: radians,
 // counterclockwise positive, including full turns, not 0. Each piece is an arc about the same centre.
-std::vector<LevelledPiece> level_arc(const HeightMap& map, const LevelPlace& from, const LevelPlace& to,
+std::vector<LevelledPiece> level_arc(const HeightMap& map, const LevelPoint& from, const LevelPoint& to,
                                      double center_x, double center_y, double sweep, double tolerance);
 
 }  // namespace passo

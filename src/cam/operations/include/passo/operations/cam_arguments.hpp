@@ -211,10 +211,10 @@ struct CamReliefArguments {
   double ramp_angle = 5;       // degrees
   std::string feed = "1000mm";
   std::string plunge = "300mm";
-  std::optional<double> removal;   // target removal rate, mm³/min; empty: constant feed
-  std::string feed_most;           // maximum feed; empty: as `feed`
-  std::string rough;               // a cutter; empty: no roughing
-  std::string rough_way = "rows";  // or offsets
+  std::optional<double> removal;        // target removal rate, mm³/min; empty: constant feed
+  std::string feed_most;                // maximum feed; empty: as `feed`
+  std::string rough;                    // a cutter; empty: no roughing
+  std::string rough_strategy = "rows";  // or offsets
   std::string rough_step;
   std::string rough_down = "2mm";
   std::string rough_stock = "0.3mm";

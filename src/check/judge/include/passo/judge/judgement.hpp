@@ -11,7 +11,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/cutting/cut_loads.hpp"
 #include "passo/gcode/program_reader.hpp"
-#include "passo/judge/line_cost.hpp"
+#include "passo/judge/link_delay.hpp"
 #include "passo/report/path_recorder.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/session/planned_program.hpp"
@@ -26,15 +26,15 @@ struct Judgement {
   SpeedReport speed;
   MarginVerdict margin;
   std::uint64_t tool_changes = 0;
-  bool knows_motors = false;          // the machine file describes the motors; otherwise their torque is not analysed
-  std::optional<LineCost> line = {};  // result of line_cost(), if the caller requested it
+  bool knows_motors = false;           // the machine file describes the motors; otherwise their torque is not analysed
+  std::optional<LinkDelay> line = {};  // result of link_delay(), if the caller requested it
 
   // Returns whether the motors are certain to lose steps.
   bool lost() const { return margin.verdict == Verdict::lost; }
 };
 
 // The greatest load of each program line that moves. Memory: 4 bytes per line.
-class LineLoads {
+class LineTorques {
  public:
   void add(std::uint32_t line, double load);
   // Returns a CSV: a header, and a row `line,load` for each line that moves; 1 is the whole guaranteed torque.
@@ -49,7 +49,7 @@ struct JudgeWatchers {
   PathRecorder* path = nullptr;
   LoadTrack* track = nullptr;
   CutLoads* loads = nullptr;  // cutting loads of the same program
-  LineLoads* lines = nullptr;
+  LineTorques* lines = nullptr;
 };
 
 // Plans a checked program with these overrides and analyses its motion. `progress`, if set, is called from time to time

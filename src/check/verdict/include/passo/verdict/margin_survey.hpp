@@ -42,7 +42,7 @@
 namespace passo {
 
 enum class Verdict : std::uint8_t { safe, doubtful, lost };
-enum class Want : std::uint8_t {
+enum class LossCause : std::uint8_t {
   torque,  // the motion needs more than the guaranteed torque
   jump,    // enough torque for the motion, but not for the oscillation after a step change of the torque
   calm,    // no torque shortage, but the motor may resonate at this rate
@@ -78,7 +78,7 @@ struct StepGrid {
 StepGrid step_grid(const MachineDescription& machine);
 
 // A moment at which the motion itself, without any oscillation, needs more than the guaranteed torque.
-struct Lack {
+struct TorqueShortage {
   NewtonMetres needed = {};
   NewtonMetres of_cut = {};
   TorqueRange there = {};
@@ -91,7 +91,7 @@ struct MarginSpot {
   std::uint32_t line = 0;
   Seconds time{0};  // time within the motion
   Verdict verdict = Verdict::safe;
-  Want want = Want::torque;
+  LossCause want = LossCause::torque;
   bool rapid = false;
   NewtonMetres needed = {};     // including the overshoot after a step change, unless `want` is torque
   NewtonMetres of_motion = {};  // torque without the overshoot
@@ -105,7 +105,7 @@ struct MarginSpot {
   // The remedy: the safe limit. Empty: no value of it is sufficient.
   std::optional<MmPerSecond2> safe_acceleration = {};
   std::optional<MmPerSecond> safe_path_speed = {};
-  std::optional<Lack> lack = {};  // set if the torque itself is insufficient
+  std::optional<TorqueShortage> lack = {};  // set if the torque itself is insufficient
 
   // Returns the fraction of the minimum torque that is needed. Above 1: more than the guaranteed torque.
   double load() const;

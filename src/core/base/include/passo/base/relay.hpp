@@ -24,7 +24,7 @@ namespace passo {
 template <class Item>
 class Relay {
  public:
-  using Maker = std::function<bool(Item&)>;
+  using CamService = std::function<bool(Item&)>;
   using Reader = std::function<void(const Item&)>;
 
   explicit Relay(std::vector<Reader> readers) : readers_(std::move(readers)), read_(readers_.size()), ring_(blocks) {
@@ -40,7 +40,7 @@ class Relay {
   Relay& operator=(const Relay&) = delete;
 
   // Calls make() until it returns false, then waits for the readers. Rethrows a reader's exception.
-  void run(const Maker& make) {
+  void run(const CamService& make) {
     for (bool more = true; more;) {
       Block& block = free_block();
       for (block.count = 0; block.count < block_size && more;) {

@@ -17,34 +17,34 @@ namespace passo {
 
 // A position in a file. Line and column count from 1; columns and length are in bytes. Line 0 means the file as a
 // whole.
-struct SourcePlace {
+struct SourceLocation {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
   std::uint32_t length = 1;
-  friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
+  friend bool operator==(const SourceLocation&, const SourceLocation&) = default;
 };
 
 enum class Severity : std::uint8_t { warning, error };
 
 // A subroutine that was running, and the position of its call.
-struct CallPlace {
+struct CallLocation {
   std::string sub;   // "o100", "o<name>", "O1000"
   std::string file;  // the file that holds the call
   std::uint32_t line = 0;
-  friend bool operator==(const CallPlace&, const CallPlace&) = default;
+  friend bool operator==(const CallLocation&, const CallLocation&) = default;
 };
 
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
   std::string file;  // the file name as the user wrote it
-  SourcePlace place;
+  SourceLocation place;
   FindingWords message;   // one sentence without a full stop: what is wrong, with the value found
   FindingWords expected;  // the correct form, or how to correct the error; may be empty
   std::string text;       // the source line, for the caret; may be empty
   std::string rule = {};  // the standard that the program violates, or another program's number for the error; may be
                           // empty
-  std::vector<CallPlace> calls = {};  // the subroutines that were running, the innermost first
+  std::vector<CallLocation> calls = {};  // the subroutines that were running, the innermost first
   // For a repeated warning: the other lines of the file, in ascending order.
   std::vector<std::uint32_t> more_lines = {};
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "passo/diagnostics/shown_place.hpp"
+#include "passo/diagnostics/shown_location.hpp"
 
 namespace passo {
 
@@ -14,10 +14,10 @@ inline nlohmann::ordered_json findings_json(std::span<const Diagnostic> findings
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Diagnostic& finding : findings) {
     nlohmann::ordered_json calls = nlohmann::ordered_json::array();
-    for (const CallPlace& call : finding.calls) {
+    for (const CallLocation& call : finding.calls) {
       calls.push_back({{"sub", call.sub}, {"file", call.file}, {"line", call.line}});
     }
-    const SourcePlace place = shown_place(finding);
+    const SourceLocation place = shown_location(finding);
     list.push_back({{"severity", finding.severity == Severity::error ? "error" : "warning"},
                     {"code", finding.code},
                     {"file", finding.file},

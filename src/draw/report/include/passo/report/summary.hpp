@@ -101,7 +101,7 @@ struct ProbeSummary {
 };
 
 // A stop at the end of a stop ramp, because no more motion had arrived from the host. Times are the board's.
-struct TailSummary {
+struct StopRampSummary {
   Seconds rest{0};                 // time at which the machine had stopped
   std::vector<double> place = {};  // position, as in HoldSummary
   Seconds resumed{0};
@@ -160,7 +160,7 @@ struct RunSummary {
   std::optional<BoardSummary> board;  // empty: nothing was sent to a board
   std::vector<HoldSummary> holds;
   std::optional<ProbeSummary> probes;  // empty: no probe move
-  std::vector<TailSummary> tails;
+  std::vector<StopRampSummary> tails;
   std::optional<PhysicsSummary> physics;  // empty: no physics; the motors followed their steps exactly
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }

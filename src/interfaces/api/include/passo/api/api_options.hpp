@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "passo/api/maker.hpp"
+#include "passo/api/cam_service.hpp"
 #include "passo/api/motion_times.hpp"
 #include "passo/api/studies.hpp"
 #include "passo/job/job_history.hpp"
@@ -44,7 +44,7 @@ struct ApiOptions {
   std::function<std::string(const SavedParameters&, const ToolTable&)> keep_offsets = {};
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program run
   // Generates programs from drawings; must outlive the API. Null: not available.
-  Maker* maker = nullptr;
+  CamService* maker = nullptr;
   // Runs longer analyses; must outlive the API. Null: not available.
   Studies* studies = nullptr;
   // Computes the duration of programs; must outlive the API. Null: not available, so the remaining time is unknown.

@@ -1,7 +1,7 @@
 // MdiLines: G-code lines entered in the web interface (MDI, manual data input). They form one endless program, so modes
 // persist from line to line, as in LinuxCNC and grbl. grbl's $ commands are also accepted.
 //
-//   POST /mdi -> MdiLines -> OpenProgram -> request::Stream to MachineSession
+//   POST /mdi -> MdiLines -> StreamedProgram -> request::Stream to MachineSession
 //
 // A line is executed as a whole, or refused without any effect. The machine is idle again after a line, unless the
 // lines have left the spindle or the coolant on: then the stream waits for the next line. When the stream ends for any
@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passo/activity/open_program.hpp"
+#include "passo/activity/streamed_program.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/diagnostics/finding_words.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -52,7 +52,7 @@ class MdiLines {
 
   // Returns whether lines are running, or have left an output on.
   bool streams() const { return ticket_.has_value(); }
-  ModesInForce modes() const;
+  ActiveModes modes() const;
   // Returns why the last line was not completed, e.g. a probe without contact. Empty: it was.
   const FindingWords& trouble() const { return trouble_; }
   // Increases with each change of the state returned here.
@@ -69,12 +69,12 @@ class MdiLines {
   const MachineDescription& machine_;
   MachineSession& session_;
   ProgramStore& programs_;
-  std::shared_ptr<OpenProgram> program_;
-  std::shared_ptr<OpenProgram> streamed_;  // the session may still use it
-  std::optional<Ticket> ticket_;           // the session's ticket of the stream
-  bool stops_ = false;                     // the end of the stream was requested
-  bool ended_ = false;                     // the program was ended by M2 or M30
-  bool changed_ = false;                   // a line was accepted, and its effect has not been queried yet
+  std::shared_ptr<StreamedProgram> program_;
+  std::shared_ptr<StreamedProgram> streamed_;  // the session may still use it
+  std::optional<Ticket> ticket_;               // the session's ticket of the stream
+  bool stops_ = false;                         // the end of the stream was requested
+  bool ended_ = false;                         // the program was ended by M2 or M30
+  bool changed_ = false;                       // a line was accepted, and its effect has not been queried yet
   std::optional<ProbeOutcome> probe_;
   FindingWords trouble_;
   std::uint64_t version_ = 0;

@@ -20,7 +20,7 @@
 
 #include "passo/api/api_job.hpp"
 #include "passo/api/api_options.hpp"
-#include "passo/api/motion_owner.hpp"
+#include "passo/api/machine_control.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 #include "passo/web/web_server.hpp"
@@ -30,7 +30,7 @@ namespace passo {
 class WebApi final : public WebHandler {
  public:
   // All references must outlive this object.
-  WebApi(const MachineDescription& machine, MachineSession& session, MotionOwner& owner, ApiOptions options);
+  WebApi(const MachineDescription& machine, MachineSession& session, MachineControl& owner, ApiOptions options);
   ~WebApi() override;
 
   WebService find(const WebRequest& head) override;

@@ -1,6 +1,6 @@
 // GrblController: emulates a Grbl 1.1 controller on a machine session, for G-code senders.
 //
-//   sender's bytes -> GrblInput -> GrblController -> requests to MachineSession, lines to OpenProgram
+//   sender's bytes -> GrblInput -> GrblController -> requests to MachineSession, lines to StreamedProgram
 //   sender  <- replies(): whole lines                <- status and changes
 //
 // Position in the pipeline: outside it, above the session. The controller uses no sockets and has no clock. Its owner
@@ -21,16 +21,16 @@
 #include <utility>
 #include <vector>
 
-#include "passo/activity/open_program.hpp"
-#include "passo/grbl/due_answer.hpp"
+#include "passo/activity/streamed_program.hpp"
 #include "passo/grbl/grbl_input.hpp"
 #include "passo/grbl/grbl_memory.hpp"
 #include "passo/grbl/grbl_reports.hpp"
 #include "passo/grbl/grbl_settings.hpp"
 #include "passo/grbl/grbl_store.hpp"
-#include "passo/grbl/line_stream.hpp"
-#include "passo/grbl/poll_lease.hpp"
-#include "passo/grbl/report_turns.hpp"
+#include "passo/grbl/pending_response.hpp"
+#include "passo/grbl/poll_keep_alive.hpp"
+#include "passo/grbl/report_rotation.hpp"
+#include "passo/grbl/sender_stream.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -60,7 +60,7 @@ inline constexpr std::string_view jog_begins = "$J=";
 class GrblController {
  public:
   // `machine`, `session` and `program` must outlive the controller. `program` must use the Grbl dialect.
-  GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program);
+  GrblController(const MachineDescription& machine, MachineSession& session, StreamedProgram& program);
 
   // Enables settings, which are written into the machine file with the contents `text`. They take effect at the next
   // start. `write` replaces the file, and returns false if that is not possible, or if the file no longer has the
@@ -170,24 +170,24 @@ class GrblController {
 
   const MachineDescription& machine_;
   MachineSession& session_;
-  OpenProgram& program_;
+  StreamedProgram& program_;
   GrblInput input_;
   GrblStore store_;
   std::function<void(const SavedParameters&)> share_offsets_;
   std::vector<std::string> replies_;
-  DueAnswer due_;
-  LineStream stream_;
+  PendingResponse due_;
+  SenderStream stream_;
   bool is_here_ = true;  // the sender is connected
   std::optional<ProbeOutcome> probe_;
   bool alarm_ = false;   // whether the controller is locked, until $X or $H
   bool checks_ = false;  // check mode, $C
   bool drives_ = true;   // senders are in control
   bool resets_ = false;  // the machine is stopping for a reset
-  ReportTurns report_turns_;
+  ReportRotation report_rotation_;
   bool wait_told_ = false;        // the current wait for the operator was reported
   bool has_started_ = false;      // the start-up lines were processed
   bool offsets_changed_ = false;  // changed by a sender, and not yet shared
-  PollLease lease_;               // keep-alive timeout of a jog
+  PollKeepAlive lease_;           // keep-alive timeout of a jog
 };
 
 }  // namespace passo

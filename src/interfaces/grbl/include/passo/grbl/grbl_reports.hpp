@@ -10,7 +10,7 @@
 
 #include "passo/geometry/axes.hpp"
 #include "passo/grbl/grbl_settings.hpp"
-#include "passo/interpreter/modes_in_force.hpp"
+#include "passo/interpreter/active_modes.hpp"
 #include "passo/interpreter/parameter_file.hpp"
 #include "passo/interpreter/probe_outcome.hpp"
 #include "passo/path/segment.hpp"
@@ -48,9 +48,9 @@ inline constexpr std::size_t grbl_planner_blocks = 15;
 std::string places_text(const Point& place, const GrblUnits& units);
 std::string status_text(const GrblStatus& status, const GrblUnits& units, unsigned mask);
 // Returns the response to $G.
-std::string modes_text(const ModesInForce& modes, const GrblUnits& units);
+std::string modes_text(const ActiveModes& modes, const GrblUnits& units);
 // Returns the response to $#.
-std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
+std::string offsets_text(const SavedParameters& parameters, const ActiveModes& modes,
                          const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 // $I, with the build info stored for this machine

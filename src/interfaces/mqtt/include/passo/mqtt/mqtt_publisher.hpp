@@ -16,7 +16,7 @@
 
 namespace passo {
 
-struct MqttPlace {
+struct MqttOptions {
   std::string host;
   unsigned port = 1883;
   std::string topic;  // prefix of all topics, followed by '/'
@@ -27,7 +27,7 @@ struct MqttPlace {
 class MqttPublisher {
  public:
   // Begins to connect. The error is a sentence with the reason.
-  static Result<std::unique_ptr<MqttPublisher>, std::string> open(const MqttPlace& place);
+  static Result<std::unique_ptr<MqttPublisher>, std::string> open(const MqttOptions& place);
   ~MqttPublisher();
   MqttPublisher(const MqttPublisher&) = delete;
   MqttPublisher& operator=(const MqttPublisher&) = delete;

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "passo/activity/operator_messages.hpp"
 #include "passo/activity/program.hpp"
-#include "passo/activity/wait_words.hpp"
 #include "passo/journal/reentry.hpp"
 #include "passo/sender/grbl_code.hpp"
 #include "passo/sender/grbl_machine.hpp"
@@ -71,7 +71,7 @@ class GrblProgram {
   ProgramChecker checker_;
   std::function<void(const Operation&)> listener_;
   bool waits_;
-  WaitWords words_;
+  OperatorMessages words_;
   std::deque<Ready> ready_;
   std::optional<OperatorWait> stop_;
   std::uint32_t from_line_ = 0;

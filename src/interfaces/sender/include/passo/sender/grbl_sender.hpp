@@ -28,8 +28,8 @@
 #include "passo/sender/grbl_machine.hpp"
 #include "passo/sender/grbl_reply.hpp"
 #include "passo/sender/grbl_words.hpp"
-#include "passo/sender/heard_reports.hpp"
-#include "passo/sender/line_window.hpp"
+#include "passo/sender/last_grbl_report.hpp"
+#include "passo/sender/unacknowledged_lines.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -139,10 +139,10 @@ class GrblSender {
   std::string last_line_heard_;
   std::string locked_by_;  // the alarm reported during the handshake
   std::string urgent_;
-  LineWindow window_;
+  UnacknowledgedLines window_;
   bool is_held_ = false;  // the machine was held by hold()
   GrblMachine machine_;
-  HeardReports reports_;
+  LastGrblReport reports_;
   std::optional<GrblFault> fault_;
 };
 

@@ -13,8 +13,8 @@
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
-#include "passo/interpreter/machine_answers.hpp"
-#include "passo/interpreter/modes_in_force.hpp"
+#include "passo/interpreter/active_modes.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/interpreter/parameter_file.hpp"
 #include "passo/interpreter/settings_file.hpp"
@@ -68,7 +68,7 @@ class Interpreter final : public Source<Operation> {
   // `answers`: the results of the machine that runs the program. They are read when the operation after a probe move or
   // input is pulled. `diagnostics` and `answers` must outlive the interpreter.
   Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
-              const MachineAnswers& answers = no_answers());
+              const MachineResults& answers = no_answers());
   ~Interpreter() override;
 
   [[nodiscard]] bool next(Operation& operation) override;
@@ -90,7 +90,7 @@ class Interpreter final : public Source<Operation> {
   // Sets the machine position, replacing that at the end of the program so far. Modes and offsets are kept.
   void stand_at(const Point& machine);
   // Returns the modes and offsets after the lines read so far.
-  ModesInForce modes() const;
+  ActiveModes modes() const;
 
   // Returns the parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
   SavedParameters saved_parameters() const;

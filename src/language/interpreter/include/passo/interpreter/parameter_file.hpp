@@ -22,6 +22,6 @@ std::string parameter_file_text(const SavedParameters& parameters);
 bool is_always_saved(int number);
 // Replaces the homes of G28 and G30 and the work offsets in `into` by those of `from`. Keeps values that belong to a
 // single program: G92, and the active work coordinate system.
-void set_lasting_offsets(SavedParameters& into, const SavedParameters& from);
+void replace_persistent_offsets(SavedParameters& into, const SavedParameters& from);
 
 }  // namespace passo

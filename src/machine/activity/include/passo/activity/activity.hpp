@@ -2,7 +2,7 @@
 // the machine that the path depends on.
 //
 // An activity is a source of path items. It is independent of boards and never waits. Results of the machine, e.g. of a
-// probe move, reach it through MachineAnswers. No stage reads past a point that needs such a result until the result is
+// probe move, reach it through MachineResults. No stage reads past a point that needs such a result until the result is
 // available.
 #pragma once
 

@@ -24,9 +24,9 @@
 
 #include "passo/activity/activity.hpp"
 #include "passo/activity/homed_motors.hpp"
-#include "passo/activity/homing_turn.hpp"
+#include "passo/activity/homing_group.hpp"
 #include "passo/activity/switch_watch.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/kinematics/kinematics.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
@@ -56,7 +56,7 @@ class HomingPath final : public Activity {
  public:
   // `machine` and `answers` must outlive the path. `answers` gives the result of the current probe move. `start`: the
   // current position. Axes that are not homed keep their positions.
-  HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start = {});
+  HomingPath(const MachineDescription& machine, const MachineResults& answers, const Point& start = {});
   ActivityKind kind() const override { return ActivityKind::homing; }
   [[nodiscard]] bool next(PathItem& item) override;
   std::optional<double> progress() const override;
@@ -115,9 +115,9 @@ class HomingPath final : public Activity {
 
   const MachineDescription& machine_;
   const Kinematics kinematics_;
-  const MachineAnswers& answers_;
+  const MachineResults& answers_;
   Point start_;
-  HomingTurn turn_;
+  HomingGroup turn_;
   const AxisDescription* axis_ = nullptr;
   HomingStage stage_ = HomingStage::seek;
   Alone alone_ = Alone::close_first;

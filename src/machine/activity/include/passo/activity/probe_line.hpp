@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passo/activity/activity.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 
 namespace passo {
 
@@ -10,7 +10,7 @@ class ProbeLine final : public Activity {
  public:
   // Moves from a stop at `start` towards `target`, in machine coordinates. `toward` true: until the probe is triggered;
   // false: until the probe is open. `answers` must outlive the ProbeLine.
-  ProbeLine(const Point& start, const Point& target, MmPerSecond speed, bool toward, const MachineAnswers& answers)
+  ProbeLine(const Point& start, const Point& target, MmPerSecond speed, bool toward, const MachineResults& answers)
       : start_(start), target_(target), speed_(speed), toward_(toward), answers_(answers) {}
 
   ActivityKind kind() const override { return ActivityKind::probing; }
@@ -24,7 +24,7 @@ class ProbeLine final : public Activity {
   Point target_;
   MmPerSecond speed_;
   bool toward_;
-  const MachineAnswers& answers_;
+  const MachineResults& answers_;
   Step step_ = Step::begin;
 };
 

@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "passo/activity/activity.hpp"
+#include "passo/activity/common_mistakes.hpp"
 #include "passo/activity/low_rapids.hpp"
+#include "passo/activity/operator_messages.hpp"
 #include "passo/activity/program_stages.hpp"
 #include "passo/activity/spindle_mistakes.hpp"
 #include "passo/activity/tool_track.hpp"
-#include "passo/activity/usual_mistakes.hpp"
-#include "passo/activity/wait_words.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -67,7 +67,7 @@ class ProgramChecker {
   ToolTable tools_;  // the tool table before the check
   Interpreter interpreter_;
   ToolTrack track_;
-  UsualMistakes mistakes_;
+  CommonMistakes mistakes_;
   LowRapids low_rapids_;
   SpindleMistakes spindle_mistakes_;
   Tap<Operation> operations_;
@@ -91,7 +91,7 @@ class Program final : public Activity {
   // move. `whole`: the nominal time from the check, for progress(). `known_probes`: the earlier results of the first
   // probe moves, for a program that continues after them.
   Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-          const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0),
+          const MachineResults& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0),
           std::vector<ProbeOutcome> known_probes = {});
 
   ActivityKind kind() const override { return ActivityKind::program; }
@@ -104,14 +104,14 @@ class Program final : public Activity {
   const Frame& frame() const { return stages_.path_builder().frame(); }
   SavedParameters saved_parameters() const { return stages_.interpreter().saved_parameters(); }
   const ToolTable& tools() const { return stages_.interpreter().tools(); }
-  WaitWords& wait_words() { return wait_words_; }
+  OperatorMessages& operator_messages() { return operator_messages_; }
   // The nominal time of the path planned so far.
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
   MotionLimits limits_;
   ProgramStages stages_;
-  WaitWords wait_words_;
+  OperatorMessages operator_messages_;
   Seconds whole_;
   Seconds nominal_time_{0};
 };

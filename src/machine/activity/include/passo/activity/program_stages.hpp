@@ -1,6 +1,6 @@
 // ProgramStages: the chain of stages from a program's text to its smooth path.
 //
-//   text -> Interpreter -> PathBuilder -> GoodPath -> PathSmoother
+//   text -> Interpreter -> PathBuilder -> PathUntilError -> PathSmoother
 //
 // A run uses this chain, and so does each query about its path: where a line begins, which state is set up at a
 // position, how far a part of the path reaches. With other stages, the path items would have different numbers.
@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "passo/activity/good_path.hpp"
+#include "passo/activity/path_until_error.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
@@ -24,14 +24,14 @@ namespace passo {
 
 // The machine results for a program that is interpreted again: first the known results of its probe moves, in order,
 // then those of the machine.
-class KnownProbes final : public MachineAnswers {
+class KnownProbes final : public MachineResults {
  public:
   // `machine` must outlive this object.
-  KnownProbes(const MachineAnswers& machine, std::vector<ProbeOutcome> known)
+  KnownProbes(const MachineResults& machine, std::vector<ProbeOutcome> known)
       : machine_(machine), known_(std::move(known)) {}
 
   const ProbeOutcome* probe() const override { return knows_last() ? &known_[begun_ - 1] : machine_.probe(); }
-  const Point* tap_rest() const override { return machine_.tap_rest(); }
+  const Point* tap_reversal() const override { return machine_.tap_reversal(); }
 
   // Processes each path item before the stages continue.
   void see(const PathItem& item) {
@@ -42,7 +42,7 @@ class KnownProbes final : public MachineAnswers {
   bool knows_last() const { return begun_ > 0 && begun_ <= known_.size(); }
 
  private:
-  const MachineAnswers& machine_;
+  const MachineResults& machine_;
   std::vector<ProbeOutcome> known_;
   std::size_t begun_ = 0;  // number of probe moves begun
 };
@@ -51,7 +51,7 @@ class ProgramStages {
  public:
   // `answers` and `diagnostics` must outlive the stages. `known`: the earlier results of the first probe moves.
   ProgramStages(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const MachineAnswers& answers, Diagnostics& diagnostics, std::vector<ProbeOutcome> known = {});
+                const MachineResults& answers, Diagnostics& diagnostics, std::vector<ProbeOutcome> known = {});
 
   // Taps for observers of the operations and of the programmed path. Add observers before the first item.
   Tap<Operation>& operations() { return operations_; }
@@ -68,8 +68,8 @@ class ProgramStages {
   KnownProbes answers_;
   Interpreter interpreter_;  // text -> blocks -> operations
   Tap<Operation> operations_;
-  PathBuilder path_builder_;  // operations -> segments
-  GoodPath good_path_;        // passes items until there is an error
+  PathBuilder path_builder_;         // operations -> segments
+  PathUntilError path_until_error_;  // passes items until there is an error
   Tap<PathItem> path_;
   PathSmoother smoother_;  // corners -> curves within the tolerance
 };

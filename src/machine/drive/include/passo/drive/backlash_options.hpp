@@ -1,7 +1,7 @@
-// The options of BacklashTaker for motors with screws.
+// The options of BacklashCompensator for motors with screws.
 #pragma once
 
-#include "passo/path/backlash_taker.hpp"
+#include "passo/path/backlash_compensator.hpp"
 #include "passo/stepgen/step_generator.hpp"
 
 namespace passo {

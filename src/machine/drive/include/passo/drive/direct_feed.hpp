@@ -43,7 +43,7 @@ class DirectFeed final : public Feed {
   void cut_dwell() override;
   // From here on the feed does not read far ahead.
   void expect_thread() override;
-  RefillLedger* ledger() override { return nullptr; }
+  QueueUpdateLedger* ledger() override { return nullptr; }
 
  private:
   bool send_waiting();
@@ -60,7 +60,7 @@ class DirectFeed final : public Feed {
       waiting_;  // waiting for room on the board: an item, and outputs that changed while the item was made
   std::optional<Action> action_;
   bool ended_ = false;
-  PathPlace given_;     // the end of the planned motion; only for read_again()
+  PathPosition given_;  // the end of the planned motion; only for read_again()
   Seconds planned_{0};  // total time of the planned motion
   Seconds rested_;      // the board's time during which this drive moved nothing
 };

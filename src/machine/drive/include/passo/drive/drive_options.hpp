@@ -6,7 +6,7 @@
 
 #include "passo/drive/feed.hpp"
 #include "passo/drive/rewindable_path.hpp"
-#include "passo/drive/tail_options.hpp"
+#include "passo/drive/stop_ramp_options.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
@@ -14,10 +14,10 @@ namespace passo {
 struct DriveOptions {
   // For a board on a link. The board's queue always ends in a stop, and after an interruption of the link, the drive
   // continues from there. Empty: items go to the board directly.
-  std::optional<TailOptions> tails = {};
+  std::optional<StopRampOptions> tails = {};
   Commitment live = endless_commitment;  // only for a board without a link
   // The start in the middle of a path. An earlier session has executed everything before this position.
-  std::optional<PathPlace> begin_at = {};
+  std::optional<PathPosition> begin_at = {};
   // Leads from the current position to `begin_at`, and ends in a stop. Empty: the machine is already there.
   std::vector<PathItem> lead_in = {};
   Seconds not_before{0};            // no motion before this time on the board's side

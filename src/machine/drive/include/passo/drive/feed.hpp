@@ -17,11 +17,11 @@
 namespace passo {
 
 // The items that a board has executed at a stop, and the corresponding position on the path.
-struct BoardRest {
+struct BoardStop {
   ItemNumber executed = 0;
-  PathPlace place;
-  PathPlace done = {};  // the item up to which the board was known to be done when the stop was reported
-  friend bool operator==(const BoardRest&, const BoardRest&) = default;
+  PathPosition place;
+  PathPosition done = {};  // the item up to which the board was known to be done when the stop was reported
+  friend bool operator==(const BoardStop&, const BoardStop&) = default;
 };
 
 // The commitment of the feed: it adds nothing while motion of `horizon` is committed, and no planned move is longer
@@ -46,7 +46,7 @@ enum class Attention : std::uint8_t {
   follows,       // the motion follows the spindle
 };
 
-class RefillLedger;
+class QueueUpdateLedger;
 
 class Feed {
  public:
@@ -106,7 +106,7 @@ class Feed {
 
   // The items sent in queue updates, and those of them that the board has executed. Null: items go to the board
   // directly, and are executed as they are sent.
-  virtual RefillLedger* ledger() = 0;
+  virtual QueueUpdateLedger* ledger() = 0;
 };
 
 }  // namespace passo

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passo/base/source.hpp"
-#include "passo/drive/outputs_order.hpp"
+#include "passo/drive/commanded_outputs.hpp"
 #include "passo/drive/rewindable_path.hpp"
 #include "passo/link/link.hpp"
 #include "passo/stepgen/step_generator.hpp"
@@ -16,7 +16,7 @@ struct FeedStages {
   StepGenerator& generator;
   Source<BoardItem>& items;  // the generator's output, as seen by observers
   Link& link;
-  OutputsOrder& outputs;
+  CommandedOutputs& outputs;
 };
 
 }  // namespace passo

@@ -4,8 +4,8 @@
 // The second half of the pipeline: planner, step generator, feed, link. Motion emitted by the planner is committed and
 // executed unchanged. After a change, the planner plans again from the end of the committed motion, on the path and
 // within the limits. Thus a change takes effect after the committed time. Each part has one task: MotionPipeline has
-// the stages, the feed transfers items to the board, PlannerHolds has the hold reasons, OutputsAtRest switches outputs
-// during a pause, ProbeMove evaluates the probe, SpindleTracker synchronises motion with the spindle.
+// the stages, the feed transfers items to the board, PlannerHolds has the hold reasons, OutputSequencer switches
+// outputs during a pause, ProbeMove evaluates the probe, SpindleTracker synchronises motion with the spindle.
 //
 // No function of a drive waits. advance() does what can be done now. When advance() returns `waits`, the owner lets the
 // board continue with poll() or wait(). See docs/decisions/0017 and 0065.
@@ -21,13 +21,13 @@
 #include "passo/base/tap.hpp"
 #include "passo/drive/drive_options.hpp"
 #include "passo/drive/motion_pipeline.hpp"
-#include "passo/drive/outputs_at_rest.hpp"
+#include "passo/drive/output_sequencer.hpp"
 #include "passo/drive/planner_holds.hpp"
 #include "passo/drive/probe_move.hpp"
-#include "passo/drive/refill_ledger.hpp"
+#include "passo/drive/queue_update_ledger.hpp"
 #include "passo/drive/script.hpp"
 #include "passo/drive/spindle_tracker.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/link/board_session.hpp"
 
 namespace passo {
@@ -45,7 +45,7 @@ class MotionDrive {
   // `path`, `board` and `answers` must outlive the drive. The handshake with the board is complete, and no other drive
   // uses the board at the same time. The drive writes the machine's results into `answers`.
   MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, BoardSession& board,
-              AnswerBook& answers, const DriveOptions& options = {});
+              StoredResults& answers, const DriveOptions& options = {});
   ~MotionDrive();
 
   // Does all work that needs no waiting.
@@ -119,11 +119,11 @@ class MotionDrive {
   Tap<MotionItem>& motion() { return pipeline_.motion(); }
   Tap<BoardItem>& items() { return pipeline_.items(); }
   // The sent and executed items of queue updates; null: the drive does not use queue updates.
-  RefillLedger* ledger() { return feed_->ledger(); }
-  const RefillLedger* ledger() const { return feed_->ledger(); }
+  QueueUpdateLedger* ledger() { return feed_->ledger(); }
+  const QueueUpdateLedger* ledger() const { return feed_->ledger(); }
   const BoardSession& link() const { return board_; }
   // The board's position, for the next drive on this board. Valid at standstill, after the end.
-  BoardPlace place() const { return pipeline_.generator().place(); }
+  BoardPosition place() const { return pipeline_.generator().place(); }
   // The axes whose backlash is then taken up for motion in the negative direction.
   AxisSet downs() const { return pipeline_.generator().downs(); }
 
@@ -146,7 +146,7 @@ class MotionDrive {
   void change_feed();
   void come_to_rest();
   void rest_at_line();
-  void rest_in_hold();
+  void stop_in_hold();
   void lose_thread();
   void send_outputs();
   void switch_off_and_end(std::optional<LinkError> error);
@@ -154,14 +154,14 @@ class MotionDrive {
   Seconds due() const;
 
   BoardSession& board_;
-  AnswerBook& answers_;
+  StoredResults& answers_;
   MotionPipeline pipeline_;  // path -> board segments
-  OutputsOrder outputs_;
+  CommandedOutputs outputs_;
   std::unique_ptr<Feed> feed_;  // board segments -> wire
   ProbeMove probe_;
   SpindleTracker spindle_;
   Script script_;  // the steps to do during a stop
-  OutputsAtRest switching_;
+  OutputSequencer switching_;
   int output_timeouts_ = 0;
   bool awaits_index_ = false;
 

@@ -9,7 +9,7 @@
 #include "passo/drive/drive_options.hpp"
 #include "passo/drive/line_stops.hpp"
 #include "passo/drive/rewindable_path.hpp"
-#include "passo/path/backlash_taker.hpp"
+#include "passo/path/backlash_compensator.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -37,7 +37,7 @@ class MotionPipeline {
   BacklashAtRest backlash_at_rest(const StepOptions& steps) const;
 
   Tap<PathItem> path_items_;
-  BacklashTaker backlash_taker_;  // stops where an axis with backlash reverses
+  BacklashCompensator backlash_compensator_;  // stops where an axis with backlash reverses
   RewindablePath path_;
   LineStops line_stops_;
   Planner planner_;  // segments -> phases

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/kinematics/kinematics.hpp"
 #include "passo/link/link.hpp"
 #include "passo/path/segment.hpp"
@@ -21,7 +21,7 @@ class ProbeMove {
  public:
   // `link` and `answers` must outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
   // (whether the move is rejected) and at the end.
-  ProbeMove(Link& link, AnswerBook& answers, const Kinematics& kinematics)
+  ProbeMove(Link& link, StoredResults& answers, const Kinematics& kinematics)
       : link_(link), answers_(answers), kinematics_(kinematics) {}
 
   // Adds an observer that receives the outcome at the end of each probe move.
@@ -56,7 +56,7 @@ class ProbeMove {
   Point contact_place(const ProbeReport& report, const Point& rest) const;
 
   Link& link_;
-  AnswerBook& answers_;
+  StoredResults& answers_;
   Kinematics kinematics_;
   bool guards_ = false;
   bool running_ = false;

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "passo/drive/speed_for_tails.hpp"
-#include "passo/drive/tail_maker.hpp"
+#include "passo/drive/stop_ramp_planner.hpp"
+#include "passo/drive/stop_ramp_speed_limiter.hpp"
 
 namespace passo {
 
@@ -17,11 +17,11 @@ class PulledItems {
   struct Item {
     LinkItem item;
     Seconds time{0};
-    SpeedForTails::Speed speed = {};       // approximate speed at its end
-    std::optional<BrakingTail> tail = {};  // stop ramp after the item; empty: no queue update may end here
+    StopRampSpeedLimiter::Speed speed = {};  // approximate speed at its end
+    std::optional<StopRamp> tail = {};       // stop ramp after the item; empty: no queue update may end here
   };
 
-  void add(const LinkItem& item, Seconds time, const SpeedForTails::Speed& speed);
+  void add(const LinkItem& item, Seconds time, const StopRampSpeedLimiter::Speed& speed);
   bool empty() const { return items_.empty(); }
   std::size_t size() const { return items_.size(); }
   Item& operator[](std::size_t i) { return items_[i]; }
@@ -32,7 +32,7 @@ class PulledItems {
   bool may_end() const { return items_.empty() || items_.back().tail; }
   // True: it is worth computing a stop ramp after the last item.
   bool is_far_from_last_tail() const;
-  SpeedForTails::Speed highest_speed() const;
+  StopRampSpeedLimiter::Speed highest_speed() const;
   // Removes the first `items` items, which were sent.
   void drop_first(std::size_t items);
 

@@ -17,10 +17,10 @@
 namespace passo {
 
 // A position on the path: all items before `item` are done, and the length `s` of the curve of `item`.
-struct PathPlace {
+struct PathPosition {
   std::uint64_t item = 0;
   Mm s{0};
-  friend bool operator==(const PathPlace&, const PathPlace&) = default;
+  friend bool operator==(const PathPosition&, const PathPosition&) = default;
 };
 
 class RewindablePath final : public Source<PathItem> {
@@ -33,24 +33,24 @@ class RewindablePath final : public Source<PathItem> {
   // next(). `lead_in` comes first: it leads from the current position to that point, and its last item ends in a stop.
   // Its items are counted too, so all later item numbers are greater by their count. If such a path starts inside an
   // item, s of the item is counted from that point.
-  void begin_at(const PathPlace& place, std::vector<PathItem> lead_in = {});
+  void begin_at(const PathPosition& place, std::vector<PathItem> lead_in = {});
   // Keeps only the item returned last. There will be no rewind.
   void forget_passed() { forgets_ = true; }
   // The position of the item that the next call of next() returns.
-  PathPlace place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
+  PathPosition place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
   [[nodiscard]] bool next(PathItem& item) override;
 
   // The position after a motion that begins at `place`. Valid for motion planned since the last rewind().
-  PathPlace behind(const PathPlace& place, const MotionItem& motion) const;
+  PathPosition behind(const PathPosition& place, const MotionItem& motion) const;
   // From now on next() returns the path from `place` again.
-  void rewind(const PathPlace& place);
+  void rewind(const PathPosition& place);
   std::uint64_t rewinds() const { return rewinds_; }
   // The point at `place`. The item must have been returned and be kept.
-  Point point_at(const PathPlace& place) const;
+  Point point_at(const PathPosition& place) const;
   // True: the item that next() returns next is known, and is locked to the spindle's angle.
   bool is_in_thread() const;
   // The position of the item returned last.
-  PathPlace last() const { return {.item = next_ - 1}; }
+  PathPosition last() const { return {.item = next_ - 1}; }
   // Drops the items before this one. A rewind() never goes back before it.
   void forget_before(std::uint64_t item);
   std::size_t items_kept() const { return kept_.size(); }
@@ -67,7 +67,7 @@ class RewindablePath final : public Source<PathItem> {
   std::uint64_t first_ = 0;  // number of the first item kept
   std::uint64_t rewinds_ = 0;
   std::uint64_t next_ = 0;  // number of the next item to return
-  PathPlace rewound_;       // the item of which only the remainder was returned
+  PathPosition rewound_;    // the item of which only the remainder was returned
 };
 
 }  // namespace passo

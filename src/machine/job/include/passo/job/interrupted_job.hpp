@@ -15,9 +15,9 @@ namespace passo {
 struct BrokenOff {
   JournalHead head;  // its position is the board's stop point, unless the job is rejected
   std::optional<ResumeRefusal> refused;
-  PathPlace done;       // everything before this position is executed
-  PathPlace farthest;   // nothing after this position is executed
-  double noted_at = 0;  // time of the last write to the journal; seconds since 1970
+  PathPosition done;      // everything before this position is executed
+  PathPosition farthest;  // nothing after this position is executed
+  double noted_at = 0;    // time of the last write to the journal; seconds since 1970
 };
 // Rejects a status during motion. Puts the numbers of the coming handshake into the head. Unless the job is rejected,
 // write the head as the new journal before the handshake.

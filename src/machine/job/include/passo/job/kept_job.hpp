@@ -50,7 +50,7 @@ class KeptJob {
     std::int64_t history = 0;
     std::string text;
     std::uint64_t path = 0;            // the fingerprint of the job's path
-    PathPlace place;                   // the position on the path where it begins
+    PathPosition place;                // the position on the path where it begins
     Point start;                       // start point of the path
     std::vector<ProbeOutcome> probes;  // the results of the probe moves before that position
   };

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "passo/base/result.hpp"
-#include "passo/drive/refiller.hpp"
+#include "passo/drive/queue_updater.hpp"
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/probe_outcome.hpp"
 #include "passo/journal/session_numbers.hpp"
@@ -49,7 +49,7 @@ struct JournalHead {
   std::vector<int> job_counts;  // the board's count of each motor at machine zero
   Point start;                  // where the job began, in machine coordinates
   SessionNumbers numbers;
-  PathPlace place;                        // where this session begins
+  PathPosition place;                     // where this session begins
   std::vector<ProbeOutcome> probes = {};  // the results of the probe moves before that position, in order
   friend bool operator==(const JournalHead&, const JournalHead&) = default;
 };
@@ -74,7 +74,7 @@ class JournalWriter {
   // The store must outlive the writer.
   explicit JournalWriter(JournalStore& store) : store_(store) {}
   void begin(const JournalHead& head);
-  void record(const BoardRest& rest);
+  void record(const BoardStop& rest);
   void record(const ProbeOutcome& outcome);
   // True: a write failed, so the journal is unreliable.
   bool failed() const { return failed_; }
@@ -100,11 +100,11 @@ class Journal {
   bool is_of(const BoardStatus& status) const { return stage_of(status) != SessionNumbers::Stage::another; }
   // Returns the board's stop point on the path. The status must be that of a stopped board. Empty: the journal does not
   // contain that stop point.
-  std::optional<PathPlace> place_of(const BoardStatus& status) const;
+  std::optional<PathPosition> place_of(const BoardStatus& status) const;
   // Returns a position up to which the path is certainly executed, whatever happened to the board.
-  PathPlace done() const;
+  PathPosition done() const;
   // Returns the stop point of the board if it has received everything that was sent.
-  PathPlace farthest() const;
+  PathPosition farthest() const;
   // The number of lines damaged by incomplete writes.
   std::size_t torn() const { return torn_; }
 
@@ -112,7 +112,7 @@ class Journal {
   SessionNumbers::Stage stage_of(const BoardStatus& status) const;
 
   JournalHead head_;
-  std::vector<BoardRest> rests_;  // the newest first
+  std::vector<BoardStop> rests_;  // the newest first
   std::size_t torn_ = 0;
 };
 

@@ -62,7 +62,7 @@ struct Reentry {
 // Returns the range of each axis on the path between two positions, in path order. `probes`: the results of its first
 // probe moves.
 std::optional<Box> range_between(ProgramReader program, const MachineDescription& machine,
-                                 const InterpreterOptions& options, const PathPlace& first, const PathPlace& last,
+                                 const InterpreterOptions& options, const PathPosition& first, const PathPosition& last,
                                  const std::vector<ProbeOutcome>& probes = {});
 
 // After a board has lost its position, and the machine was homed: checks whether the machine had been stopped on its

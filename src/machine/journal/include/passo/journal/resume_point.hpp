@@ -25,7 +25,7 @@ struct UnknownProbe {
 };
 
 struct ResumePoint {
-  PathPlace place;
+  PathPosition place;
   Point point;                                   // machine coordinates
   std::array<std::int64_t, max_motors> steps{};  // steps of each motor from machine zero, for a machine stopped there
   AxisSet downs;                                 // the axes whose backlash is taken up for motion in the negative
@@ -48,7 +48,7 @@ struct ResumePoint {
 // point is moved to the end of the move if its result is known, otherwise to its beginning. Empty: the path does not
 // contain that position.
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
-                                             const InterpreterOptions& options, const PathPlace& place,
+                                             const InterpreterOptions& options, const PathPosition& place,
                                              const std::vector<ProbeOutcome>& probes = {});
 
 // Returns the path back to the point from a position inside an unknown probe move. Empty: the machine is at the point.
@@ -57,6 +57,6 @@ std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& f
 // Corrects a stop for the lead-in, whose items a drive counts too, and for the item inside which the path begins.
 // Returns the stop as a position on the path of the job. If the machine stops in the lead-in, its path still starts at
 // the point.
-BoardRest without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardRest rest);
+BoardStop without_lead_in(const ResumePoint& from, std::size_t lead_in, BoardStop rest);
 
 }  // namespace passo

@@ -21,13 +21,13 @@
 
 #include "passo/activity/program.hpp"
 #include "passo/base/result.hpp"
-#include "passo/drive/refill_ledger.hpp"
+#include "passo/drive/queue_update_ledger.hpp"
 #include "passo/link/board_session.hpp"
 #include "passo/machine_file/machine_description.hpp"
-#include "passo/session/live_place.hpp"
+#include "passo/session/live_position.hpp"
 #include "passo/session/machine_status.hpp"
+#include "passo/session/position_tracker.hpp"
 #include "passo/session/request.hpp"
-#include "passo/session/tracked_place.hpp"
 
 namespace passo {
 
@@ -35,7 +35,7 @@ struct SessionOptions {
   // True: the board is connected by a link. Its queue always ends in a stop, its counts are compared with the commanded
   // position, and its buttons and door switch are used. False: the board is in this process.
   bool over_a_line = false;
-  LineCare care = {};
+  LinkTimeouts care = {};
   Greeting greeting = {};    // the session sets `motors`
   bool tells_place = false;  // the board's position is queried even during motion, for MachineStatus::now_at
   KnownPosition start = {};  // the position as known to the owner
@@ -86,7 +86,7 @@ class MachineSession {
   const MotionDrive* drive() const;
   const Program* program() const;
   const HomingPath* homing() const;
-  const RefillLedger* ledger() const;
+  const QueueUpdateLedger* ledger() const;
   // The difference between the board's counts and the commanded position, if any. The position is then lost.
   const std::optional<CountMismatch>& mismatch() const { return place_.mismatch(); }
   // With a board on a link, when the machine is ready: the board's counts at machine zero.
@@ -112,7 +112,7 @@ class MachineSession {
   Answer handle(request::Stream& stream);
   Answer handle(request::DropLines& drop);
   Answer handle(request::Jog& jog);
-  Answer handle(request::RenewLease& renew);
+  Answer handle(request::RenewKeepAlive& renew);
   Answer handle(request::Home& home);
   Answer handle(request::Probe& probe);
   Answer handle(request::Check& check);
@@ -183,12 +183,12 @@ class MachineSession {
   bool greeted_ = false;
   bool asks_place_ = false;    // the board's position is queried before another handshake
   bool switches_off_ = false;  // after another handshake: the interrupted activity may have left outputs on
-  TrackedPlace place_;
+  PositionTracker place_;
   std::unique_ptr<Work> work_;  // the current or the last activity
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
   ChosenStops stops_;
-  LivePlace live_place_;  // for tells_place
+  LivePosition live_position_;  // for tells_place
   Trouble trouble_;
   std::deque<MachineChange> changes_;
   std::vector<Ticket> waiting_holds_;  // answered when the machine is stopped

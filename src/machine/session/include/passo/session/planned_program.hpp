@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "passo/activity/program.hpp"
-#include "passo/path/backlash_taker.hpp"
+#include "passo/path/backlash_compensator.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
@@ -40,7 +40,7 @@ class PlannedProgram final : public Source<MotionItem> {
   const ProgramCheck& check_;
   Diagnostics findings_;  // after a good check only known findings
   Program activity_;
-  BacklashTaker path_with_rests_;
+  BacklashCompensator path_with_rests_;
   Planner planner_;
   std::uint64_t segments_ = 0;
 };

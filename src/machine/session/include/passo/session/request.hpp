@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "passo/activity/jog_line.hpp"
-#include "passo/activity/open_program.hpp"
+#include "passo/activity/streamed_program.hpp"
 #include "passo/drive/motion_drive.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
@@ -31,7 +31,7 @@ struct Watchers {
   std::function<void(const BoardItem&)> items;
   std::function<void(const ProbeOutcome&)> probe;
   std::function<void(const LinkItem&)> executed;  // with a board on a link: the executed items, including stop ramps
-  std::function<void(const BoardRest&)> rests;    // with a board on a link: the possible stop points, in advance
+  std::function<void(const BoardStop&)> rests;    // with a board on a link: the possible stop points, in advance
 };
 
 namespace request {
@@ -56,7 +56,7 @@ struct Start {
 // Runs a program that arrives line by line, until Stop. While there is no line, the machine is stopped in the state
 // await_line. The program starts at the current position.
 struct Stream {
-  OpenProgram* program = nullptr;  // must outlive the stream
+  StreamedProgram* program = nullptr;  // must outlive the stream
   Watchers watchers = {};
 };
 // For a stream: stops on the path, and drops the queued lines. The stream continues with the next line.
@@ -72,7 +72,7 @@ struct Jog {
   JogWay way;
   Seconds lease{0.25};  // duration of the first keep-alive timeout, and of each renewal
 };
-struct RenewLease {};
+struct RenewKeepAlive {};
 // Homes the machine.
 struct Home {};
 // Makes one move that ends where the probe is triggered or opens.
@@ -131,10 +131,10 @@ struct Wake {};
 }  // namespace request
 
 using Request =
-    std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewLease, request::Home,
-                 request::Probe, request::Check, request::Hold, request::Resume, request::Stop, request::Override,
-                 request::SwitchOutputs, request::ChooseStops, request::OperatorDone, request::SetPosition,
-                 request::ResetMachine, request::Sleep, request::Wake>;
+    std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewKeepAlive,
+                 request::Home, request::Probe, request::Check, request::Hold, request::Resume, request::Stop,
+                 request::Override, request::SwitchOutputs, request::ChooseStops, request::OperatorDone,
+                 request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
 

@@ -38,7 +38,7 @@ struct MotorRow {
 };
 
 // The steps of each motor from the machine's zero, with fractions.
-struct MotorPlace {
+struct MotorPosition {
   std::array<double, max_motors> steps{};
   double& operator[](std::size_t motor) { return steps[motor]; }
   double operator[](std::size_t motor) const { return steps[motor]; }
@@ -46,8 +46,8 @@ struct MotorPlace {
 
 // Returns the steps since the counts were `zero`.
 template <class Counts, class Zero>
-MotorPlace steps_since(const Zero& zero, const Counts& counts) {
-  MotorPlace place;
+MotorPosition steps_since(const Zero& zero, const Counts& counts) {
+  MotorPosition place;
   for (std::size_t m = 0; m < zero.size() && m < max_motors; ++m) {
     place[m] = static_cast<double>(std::int64_t{counts[m]} - zero[m]);
   }
@@ -65,20 +65,20 @@ class Kinematics {
   std::uint8_t motor_count() const { return static_cast<std::uint8_t>(count_); }
 
   // `downs`: the axes whose backlash is taken up for motion in the negative direction, here and in axes().
-  MotorPlace motors(const Point& axes, AxisSet downs = {}) const;
+  MotorPosition motors(const Point& axes, AxisSet downs = {}) const;
   // Converts motor positions to axis positions. An axis with a motor of its own follows that motor (the first, if there
   // are two); axes that share motors follow all of these. `others`: the positions of axes without a motor.
-  Point axes(const MotorPlace& motors, AxisSet downs = {}, const Point& others = {}) const;
+  Point axes(const MotorPosition& motors, AxisSet downs = {}, const Point& others = {}) const;
   // The same, if only some motors have moved since the axes were at `from`: bit i of `moved` is motor i. The other axes
   // keep exactly their positions.
-  Point axes_after(const Point& from, const MotorPlace& motors, unsigned moved, AxisSet downs = {}) const;
+  Point axes_after(const Point& from, const MotorPosition& motors, unsigned moved, AxisSet downs = {}) const;
 
   // Steps per millimetre or degree of the axis, for the motor that makes the most. Never negative; 0: no motor moves
   // the axis.
   double steps_per_unit(Axis axis) const;
 
  private:
-  void find_shared(const MotorPlace& motors, AxisSet known, Point& place) const;
+  void find_shared(const MotorPosition& motors, AxisSet known, Point& place) const;
 
   std::array<MotorRow, max_motors> rows_;
   std::size_t count_ = 0;

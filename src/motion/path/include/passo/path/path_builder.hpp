@@ -24,7 +24,7 @@
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
-#include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/machine_results.hpp"
 #include "passo/path/outside_travel.hpp"
 #include "passo/path/segment.hpp"
 
@@ -70,7 +70,7 @@ struct PathMemory {
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
   Mm tolerance_{0};
-  Heeds heeds_;
+  OverridePermissions heeds_;
   bool gives_tolerance_ = false;  // the program gives a tolerance, with G64 P
   Mm merge_{0};
 
@@ -83,14 +83,14 @@ struct PathMemory {
 
   OutsideTravel outside_;
   AxisSet missing_;
-  std::array<bool, 4> told_{};  // findings already reported, by Lack
+  std::array<bool, 4> told_{};  // findings already reported, by TorqueShortage
 };
 
 class PathBuilder final : public Source<PathItem>, private PathMemory {
  public:
   // `options` must outlive the builder.
   PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics,
-              const MachineAnswers& answers = no_answers());
+              const MachineResults& answers = no_answers());
   ~PathBuilder() override;
 
   [[nodiscard]] bool next(PathItem& item) override;
@@ -136,10 +136,10 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void set_spindle_speed(double revolutions_per_minute);
   void set_path_mode(const operation::SetPathMode& mode);
   void set_merge_tolerance(Mm given);
-  enum class Lack : std::uint8_t { orientation, outputs, inputs, user_codes };
-  void lacks(Lack what);
+  enum class TorqueShortage : std::uint8_t { orientation, outputs, inputs, user_codes };
+  void lacks(TorqueShortage what);
   void refuse_surface_speed(const operation::SetSpindleMode& mode);
-  Heeds heeds() const;
+  OverridePermissions heeds() const;
   SpindleLock lock() const;
   Mm pitch() const;
   OutputState outputs() const;
@@ -160,7 +160,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   Source<Operation>& operations_;
   const PathOptions& options_;
   Diagnostics& diagnostics_;
-  const MachineAnswers& answers_;
+  const MachineResults& answers_;
 
   // An arc in the rotated work coordinate system, some of whose chords are still to be returned.
   struct TiltedArc {

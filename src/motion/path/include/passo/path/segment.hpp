@@ -11,12 +11,12 @@
 namespace passo {
 
 // Which overrides and holds are enabled for a part of the program (M48 to M53).
-struct Heeds {
+struct OverridePermissions {
   bool feed_override = true;
   bool spindle_override = true;
   bool adaptive_feed = false;  // the machine's own factor on the feed
   bool feed_hold = true;
-  friend bool operator==(const Heeds&, const Heeds&) = default;
+  friend bool operator==(const OverridePermissions&, const OverridePermissions&) = default;
 };
 
 // How a feed follows the spindle: its speed (G95), or its angle from an index pulse on (G33).
@@ -30,7 +30,7 @@ struct Segment {
   Mm tolerance{0};                       // maximum deviation from the path at the junction to the next segment
   Mm merge{0};                           // tolerance for merging lines; a part of the tolerance
   Point work_zero{};                     // zero of the work coordinate system in machine coordinates
-  Heeds heeds{};
+  OverridePermissions heeds{};
   SpindleLock lock = SpindleLock::none;
   Mm pitch{0};  // for a lock: the distance per revolution; `speed` follows from the commanded spindle speed
   // For tapping down: the point at which the spindle is reversed. The remainder of the segment leaves room for the
@@ -86,7 +86,7 @@ struct Action {
   bool probe_toward = true;  // for a probe move: until the probe is triggered, otherwise until it is open
   std::uint8_t limit = 0;    // for homing: the bit of the limit switch that acts as the probe
   Point place{};             // for a probe move: its start or its end, in machine coordinates
-  Heeds heeds{};
+  OverridePermissions heeds{};
   OperationSource source{};
 };
 

@@ -23,7 +23,7 @@ struct BoardClock {
 
 // The exact position of the board: each motor in 1/65536 step, with half a step added, and the fraction of a tick. The
 // next path begins with these fractions.
-struct BoardPlace {
+struct BoardPosition {
   std::array<std::int64_t, max_motors> motors{};
   std::uint16_t tick = whole_tick / 2;
   std::int64_t steps(std::size_t motor) const { return motors[motor] >> 16; }
@@ -32,12 +32,12 @@ struct BoardPlace {
     motors[motor] = steps * whole_step + (motors[motor] & (whole_step - 1));
   }
   // Returns the position with fractions.
-  MotorPlace exact() const {
-    MotorPlace place;
+  MotorPosition exact() const {
+    MotorPosition place;
     for (std::size_t m = 0; m < motors.size(); ++m) place[m] = static_cast<double>(motors[m]) / whole_step - 0.5;
     return place;
   }
-  friend bool operator==(const BoardPlace&, const BoardPlace&) = default;
+  friend bool operator==(const BoardPosition&, const BoardPosition&) = default;
 };
 
 struct StepOptions {
@@ -45,8 +45,9 @@ struct StepOptions {
   BoardClock clock;
   Point start = {};   // machine position at the start; the motors' step counts begin at its whole steps
   bool bends = true;  // whether segments may have a bend, which does not suit the second motor of an axis
-  std::optional<BoardPlace> place = {};  // the board's position; empty: the handshake has just taken place at `start`
-  AxisSet downs = {};                    // the axes whose backlash is taken up for motion in the negative direction
+  std::optional<BoardPosition> place =
+      {};              // the board's position; empty: the handshake has just taken place at `start`
+  AxisSet downs = {};  // the axes whose backlash is taken up for motion in the negative direction
 };
 
 // The items that are sent to the board, in order. The segments before an Action end in a stop. A dwell becomes segments
@@ -101,7 +102,7 @@ class StepGenerator final : public Source<BoardItem> {
   // Skips the remainder of the present dwell. Returns its duration.
   Seconds cut_dwell();
   // The board's position after all items returned so far. Call it only at a stop.
-  BoardPlace place() const;
+  BoardPosition place() const;
   // The axes whose backlash is taken up for motion in the negative direction, at the end of the motion pulled so far.
   AxisSet downs() const;
 

@@ -1,0 +1,104 @@
+#include "grbl_connection.hpp"
+
+#include <utility>
+
+#include "commands.hpp"
+#include "program_input.hpp"
+#include "run_signals.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// Grbl tells nothing while it homes.
+constexpr Seconds longest_homing{300};
+
+}  // namespace
+
+bool names_grbl_machine(const std::string& board) {
+  return board.starts_with("grbl:");
+}
+
+std::unique_ptr<GrblConnection> GrblConnection::open(const std::string& board, int& code) {
+  const auto address = parse_board_address(board);
+  if (!address) {
+    code = fail(exit_bad_program, address.error());
+    return nullptr;
+  }
+  auto claim = BoardClaim::acquire(*address);
+  if (!claim) {
+    code = fail(exit_failed, claim.error());
+    return nullptr;
+  }
+  auto port = open_board(*address);
+  if (!port) {
+    code = fail(exit_failed, port.error());
+    return nullptr;
+  }
+  std::unique_ptr<GrblConnection> opened(new GrblConnection(board, std::move(*claim), std::move(*port)));
+  GrblSender& sender = opened->sender_;
+  while (!sender.ready() && !sender.fault() && interrupted_by() == 0) opened->poll(between_looks);
+  if (sender.ready()) return opened;
+  code = opened->give_up();
+  return nullptr;
+}
+
+int GrblConnection::give_up() const {
+  const auto& fault = sender_.fault();
+  const int failed = fault ? fail(exit_failed, fmt::format("{}: {}", board_, describe(*fault, ""))) : exit_failed;
+  return fault && interrupted_by() == 0 ? failed : exit_of_signal();
+}
+
+void GrblConnection::poll(Seconds most) {
+  const std::string bytes = sender_.take_bytes(now());
+  port_->receive({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  // A line that is opened anew may reset the machine, so a line that broke stays so.
+  if (port_->broken()) return sender_.lose();
+  if (!port_->run(most)) return;
+  const auto came = port_->replies();
+  sender_.receive({reinterpret_cast<const char*>(came.data()), came.size()}, now());
+}
+
+bool GrblConnection::poll_until_rest(const std::function<void()>& watch) {
+  while (!sender_.at_rest() || sender_.stops()) {
+    if (interrupted_by() != 0) sender_.stop();
+    if (sender_.stopped() || (sender_.fault() && !sender_.stops())) break;
+    poll(between_looks);
+    if (const std::string_view wait = news_of_wait(); !wait.empty()) note(std::string(wait));
+    if (watch) watch();
+  }
+  return !sender_.fault() && !sender_.stopped();
+}
+
+std::string_view GrblConnection::news_of_wait() {
+  const std::string_view wait = sender_.waits_for();
+  return std::exchange(last_wait_, wait) == wait ? std::string_view() : wait;
+}
+
+bool GrblConnection::home(int& code) {
+  sender_.add("$H", 0, longest_homing);
+  // Homing may move the zero of the work: startup lines ($N0) run after it.
+  const bool homed = poll_until_rest();
+  if (homed) sender_.ask_for_offsets();
+  if (homed && poll_until_rest()) return true;
+  code = give_up();
+  return false;
+}
+
+std::string GrblConnection::place_words() const {
+  const auto place = sender_.place();
+  if (!place) return "an unknown position";
+  return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", (*place)[Axis::x], (*place)[Axis::y], (*place)[Axis::z]);
+}
+
+std::string describe(const GrblFault& fault, const std::string& program) {
+  std::string where;
+  if (fault.last_line != 0 && !program.empty()) {
+    where = fault.first_line < fault.last_line
+                ? fmt::format("{}, between line {} and line {}: ", program, fault.first_line, fault.last_line)
+                : fmt::format("{}:{}: ", program, fault.last_line);
+  }
+  return fmt::format("{}{} [{}]", where, fault.message, fault.code);
+}
+
+}  // namespace passo

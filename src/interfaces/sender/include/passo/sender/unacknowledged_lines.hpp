@@ -1,0 +1,69 @@
+// UnacknowledgedLines: flow control for a machine that acknowledges each line by one response. The bytes of all
+// unacknowledged lines never exceed the machine's receive buffer, and each response belongs to the oldest of them.
+// Acknowledged lines are remembered as long as the machine may be executing them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+class UnacknowledgedLines {
+ public:
+  struct Line {
+    std::string text;        // including its line end
+    std::uint32_t line = 0;  // line of the program; 0: none
+    Seconds silence{0};      // how long the machine may not respond because of it
+    Seconds sent{0};
+  };
+
+  void add(Line line) { waiting_.push_back(std::move(line)); }
+  // Returns the lines that fit into the machine's receive buffer, and marks them as sent. `size`: as reported by the
+  // machine.
+  std::string send(Seconds now, std::size_t size);
+  // Removes and returns the oldest line, which was acknowledged. Empty: the response belongs to none of our lines.
+  std::optional<Line> take_answered();
+  void drop_waiting() { waiting_.clear(); }
+  void drop_sent() {
+    sent_.clear();
+    sent_bytes_ = 0;
+  }
+
+  // Notes the number of free bytes reported by the machine. If none of our lines is in its buffer, this is its actual
+  // size, whatever size was reported.
+  void hear_free_bytes(std::size_t bytes);
+  std::size_t usable(std::size_t size) const { return std::min(size, empty_buffer_); }
+
+  std::size_t waiting() const { return waiting_.size(); }
+  bool all_answered() const { return waiting_.empty() && sent_.empty(); }
+  // Returns the oldest unacknowledged line; null if there is none.
+  const Line* oldest() const { return sent_.empty() ? nullptr : &sent_.front(); }
+  std::size_t sent_bytes() const { return sent_bytes_; }
+  std::uint64_t lines_sent() const { return lines_sent_; }
+
+  // Program lines. Returns the last one sent; 0 if there was none.
+  std::uint32_t last_line() const { return last_line_; }
+  // Notes an acknowledged line, which may still be in the machine together with some lines before it: at most `most` in
+  // all.
+  void note_held(std::uint32_t line, std::size_t most);
+  // Returns the first of the last `count` acknowledged lines; if there are none, the last line sent.
+  std::uint32_t first_held(std::size_t count) const;
+
+ private:
+  std::deque<Line> waiting_;
+  std::deque<Line> sent_;
+  std::size_t sent_bytes_ = 0;
+  std::uint64_t lines_sent_ = 0;
+  std::size_t empty_buffer_ = std::numeric_limits<std::size_t>::max();
+  std::uint32_t last_line_ = 0;
+  std::deque<std::uint32_t> held_;
+};
+
+}  // namespace passo

@@ -1,0 +1,49 @@
+#include "passo/sender/unacknowledged_lines.hpp"
+
+#include <utility>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t least_buffer = 64;  // fewer free bytes are hardly a whole buffer
+
+}  // namespace
+
+std::string UnacknowledgedLines::send(Seconds now, std::size_t size) {
+  std::string bytes;
+  while (!waiting_.empty() && sent_bytes_ + waiting_.front().text.size() <= usable(size)) {
+    Line& next = waiting_.front();
+    next.sent = now;
+    bytes += next.text;
+    sent_bytes_ += next.text.size();
+    if (next.line != 0) last_line_ = next.line;
+    ++lines_sent_;
+    sent_.push_back(std::move(next));
+    waiting_.pop_front();
+  }
+  return bytes;
+}
+
+std::optional<UnacknowledgedLines::Line> UnacknowledgedLines::take_answered() {
+  if (sent_.empty()) return {};
+  Line line = std::move(sent_.front());
+  sent_.pop_front();
+  sent_bytes_ -= line.text.size();
+  return line;
+}
+
+void UnacknowledgedLines::hear_free_bytes(std::size_t bytes) {
+  if (sent_.empty() && bytes >= least_buffer) empty_buffer_ = bytes;
+}
+
+void UnacknowledgedLines::note_held(std::uint32_t line, std::size_t most) {
+  if (line != 0) held_.push_back(line);
+  if (held_.size() > most) held_.pop_front();
+}
+
+std::uint32_t UnacknowledgedLines::first_held(std::size_t count) const {
+  count = std::min(count, held_.size());
+  return count == 0 ? last_line_ : held_[held_.size() - count];
+}
+
+}  // namespace passo

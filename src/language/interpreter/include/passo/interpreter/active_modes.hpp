@@ -1,0 +1,28 @@
+// ActiveModes: the active modes and offsets of a program, for display.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/interpreter/frame.hpp"
+#include "passo/interpreter/operation.hpp"
+
+namespace passo {
+
+struct ActiveModes {
+  // One code of each group that Grbl reports, in Grbl's order: motion, work offset, plane, units, distances, feed mode.
+  std::vector<std::string> codes;
+  SpindleDirection spindle = SpindleDirection::off;
+  double speed = 0;  // S
+  bool mist = false;
+  bool flood = false;
+  std::int32_t tool = 0;
+  double feed = 0;  // F, mm/min; in inverse time 1/min
+  bool inches = false;
+  Frame frame;
+  Point position;  // the programmed position, machine coordinates
+};
+
+}  // namespace passo
