@@ -49,7 +49,7 @@ describe('a finding', () => {
 
   it('is shown in the units of the page', () => {
     units.value = 'inch';
-    expect(said('path.low-rapid', { z: '25.4', cut: '-25.4' })).toBe('a sideways rapid at Z1.0000, although the program has cut at Z-1.0000');
+    expect(said('path.low-rapid', { z: '25.4', cut: '-25.4' })).toBe('a rapid moves sideways at Z1.0000, where there may be material: the program has cut at Z-1.0000');
   });
 
   it('is said within the sentence that holds it', () => {
