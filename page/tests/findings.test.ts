@@ -69,7 +69,7 @@ describe('a program that aborts', () => {
     expect(source('cam/probing/cycle_text.cpp')).toContain('the bores are #<apart> mm apart; they should be {:.4f} mm apart');
     language.value = 'fr';
     expect(said('gcode.abort', { words: ' the bores are 69.1 mm apart; they should be 70.0000 mm apart' })).toBe(
-      'le programme abandonne\u00a0: les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
+      'le programme abandonne\u00a0: les alésages sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
     );
     expect(said('gcode.abort', { words: ' no stock' })).toBe('le programme abandonne\u00a0: no stock');
   });
