@@ -64,7 +64,7 @@ export const faults = {
   'jobs.interrupted': 'a job was interrupted: resume or discard it first',
   'jobs.interrupted.zero': 'an interrupted job needs its work zero: resume or discard it first',
   'jobs.waits': '{name} is waiting at line {line}: continue or stop it first',
-  'waits.own-zero': 'the program has set a zero or a tool offset itself, which overrides what you have just set: stop the program, then start it at a later line',
+  'waits.own-zero': 'the program has set a zero or a tool offset itself, which overrides what you have just set: stop the program, then restart it from a line of your choice',
   'waits.other-zero': 'the program uses {system}, but another work zero was changed: set {system}, or restore the other one',
   'programs.no-room': 'there are too many programs: delete some first',
   'programs.in-use': 'the program is in use',
