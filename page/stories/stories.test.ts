@@ -412,7 +412,7 @@ describe('what the daemon says', () => {
     const { page, context } = await visit(browser, daemon, 'files', { language: 'fr' });
     await send(page, 'faux.ngc', 'G21 G90\nG1 X10\nG1 X9000 F300\nM2\n');
     await page.getByText('aucune avance n’est donnée').waitFor();
-    await page.getByText('au-delà de la fin de course').waitFor();
+    await page.getByText('au-delà de sa limite de course').waitFor();
     await page.goto(`${daemon.address}#/console`);
     await page.getByRole('textbox', { name: 'Une ligne de G-code' }).fill('G2 X10');
     await page.keyboard.press('Enter');

@@ -49,7 +49,7 @@ describe('a finding', () => {
 
   it('is shown in the units of the page', () => {
     units.value = 'inch';
-    expect(said('path.low-rapid', { z: '25.4', cut: '-25.4' })).toBe('a sideways rapid at Z1.0000, although the program has cut at Z-1.0000');
+    expect(said('path.low-rapid', { z: '25.4', cut: '-25.4' })).toBe('a rapid moves sideways at Z1.0000, where there may be material: the program has cut at Z-1.0000');
   });
 
   it('is said within the sentence that holds it', () => {
@@ -69,7 +69,7 @@ describe('a program that aborts', () => {
     expect(source('cam/probing/cycle_text.cpp')).toContain('the bores are #<apart> mm apart; they should be {:.4f} mm apart');
     language.value = 'fr';
     expect(said('gcode.abort', { words: ' the bores are 69.1 mm apart; they should be 70.0000 mm apart' })).toBe(
-      'le programme abandonne\u00a0: les trous sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
+      'le programme abandonne\u00a0: les alésages sont à 69.1 mm l’un de l’autre au lieu de 70.0000 mm',
     );
     expect(said('gcode.abort', { words: ' no stock' })).toBe('le programme abandonne\u00a0: no stock');
   });

@@ -44,7 +44,7 @@ TEST_F(CheckReport, warns_of_rapids_below_what_was_cut) {
   const std::string begin = "G21 G90 S1000 M3\nG0 Z5\nG1 Z-1 F300\nX10\n";
   const Outcome low = check(begin + "G0 X20\nG0 Z5\nM2\n");
   EXPECT_EQ(low.code, 0);
-  EXPECT_THAT(low.err, HasSubstr("p.ngc:5:1: warning: a sideways rapid at Z-1"));
+  EXPECT_THAT(low.err, HasSubstr("p.ngc:5:1: warning: a rapid moves sideways at Z-1"));
   EXPECT_THAT(low.err, HasSubstr("[path.low-rapid]"));
   EXPECT_THAT(check(begin + "G0 Z5\nG0 Z-2\nG0 Z5\nM2\n").err, HasSubstr("[path.rapid-plunge]"));
   for (const char* good : {"G0 Z5\nX20\nM2\n", "G0 Z-0.5\nX20\nM2\n", "G0 Z5\nG0 Z-0.9\nG1 Z-2\nG0 Z5\nM2\n",
@@ -59,7 +59,7 @@ TEST_F(CheckReport, warns_of_words_without_effect) {
   const std::string text = "G21 S1000 M3\nT3\nG1 X5 F300\nM2\n";
   const Outcome relay = check(text, "", "forty-eight.toml");
   EXPECT_THAT(relay.err, HasSubstr("p.ngc:1:5: warning: S has no effect here"));
-  EXPECT_THAT(relay.err, HasSubstr("p.ngc:2:1: warning: T3 has no effect: the program never changes its tool"));
+  EXPECT_THAT(relay.err, HasSubstr("p.ngc:2:1: warning: T3 has no effect: the program has no tool change (M6)"));
   EXPECT_THAT(check(text).err, Not(HasSubstr("S has no effect")));
   EXPECT_THAT(check("G21 S1000 M3\nT3 M6\nG1 X5 F300\nT4\nM2\n").err, Not(HasSubstr("no effect")));
 }

@@ -112,7 +112,8 @@ TEST_F(Warnings, of_a_rapid_down_before_any_place) {
 
 TEST_F(Warnings, of_depths_that_are_all_above_zero) {
   const Outcome outcome = check("G21 G90\nM3 S1000\nG0 X0 Y0\nG0 Z5\nG1 Z2 F100\nX10\nG0 Z5\nM2\n");
-  EXPECT_TRUE(contains(outcome.err, "p.ngc:5:1: warning: no feed goes below Z0: the lowest is Z2 [path.no-depth]"))
+  EXPECT_TRUE(
+      contains(outcome.err, "p.ngc:5:1: warning: no feed move goes below Z0: the lowest is at Z2 [path.no-depth]"))
       << outcome.err;
   EXPECT_FALSE(is_warned("G21 G90\nM3 S1000\nG0 X0 Y0\nG0 Z5\nG1 Z2 F100\nX10\nZ-1\nM2\n", "path.no-depth"));
   EXPECT_FALSE(is_warned("G21 G90\nM3 S1000\nG0 X0 Y0\nG0 Z5\nG1 X10 F100\nM2\n", "path.no-depth"))
@@ -148,7 +149,7 @@ TEST_F(Warnings, g0_beside_g28_is_accepted) {
 TEST_F(Warnings, words_of_other_controls_are_named) {
   const Outcome macro = check("#1=0\nWHILE [#1 LT 3] DO1\n#1=[#1+1]\nEND1\nIF [#1 GT 2] GOTO 10\nN10 M2\n");
   EXPECT_EQ(macro.code, 2);
-  EXPECT_TRUE(contains(macro.err, "p.ngc:2:1: error: WHILE is a word of Fanuc's macros")) << macro.err;
+  EXPECT_TRUE(contains(macro.err, "p.ngc:2:1: error: WHILE belongs to Fanuc's macro language")) << macro.err;
   EXPECT_TRUE(contains(macro.err, "p.ngc:4:1: error: END is")) << macro.err;
   EXPECT_TRUE(contains(macro.err, "p.ngc:5:1: error: IF is")) << macro.err;
   EXPECT_TRUE(contains(macro.err, "o1 endwhile"));
@@ -177,7 +178,7 @@ TEST_F(Warnings, the_programs_of_the_collection) {
                   {"blank-in-number.ngc", "20 5 is read as 205", true},
                   {"unset-number.ngc", "#2 was never set", true},
                   {"absolute-centre.ngc", "G90.1 before the arc", true},
-                  {"fanuc-macro.ngc", "WHILE is a word of Fanuc's macros", true},
+                  {"fanuc-macro.ngc", "WHILE belongs to Fanuc's macro language", true},
                   {"freecad-k0.ngc", "--dialect grbl", true}};
   for (const auto& one : expected) {
     const Outcome outcome = passo("check " + (cases / one.file).string() + " -m " + router_file);

@@ -96,7 +96,7 @@ TEST(ApiProbing, a_touch_that_finds_nothing_is_told) {
   const Json job = run.get("/status")["job"];
   EXPECT_THAT(
       job["why"].get<std::string>(),
-      testing::MatchesRegex("line [0-9]+: G38.2 finished, and the probe is still open .gcode.probe-untouched."));
+      testing::MatchesRegex("line [0-9]+: G38.2 finished, but the probe is still open .gcode.probe-untouched."));
 }
 
 TEST(ApiProbing, a_height_map_is_stored_with_its_program_and_levels_it) {

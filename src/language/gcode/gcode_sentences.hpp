@@ -22,7 +22,7 @@ inline constexpr SentenceRow second_point{"gcode.unexpected-text.point", "a seco
 inline constexpr SentenceRow one_point{"expected.one-decimal-point", "one decimal point"};
 inline constexpr SentenceRow second_line_number{"gcode.repeated-word.line-number", "a second {letter} in one block"};
 inline constexpr SentenceRow no_function{"gcode.unknown-function", "there is no function {name}"};
-inline constexpr SentenceRow fanuc_word{"gcode.fanuc-macro", "{name} is a word of Fanuc's macros"};
+inline constexpr SentenceRow fanuc_word{"gcode.fanuc-macro", "{name} belongs to Fanuc's macro language"};
 inline constexpr SentenceRow for_while{"expected.fanuc-while",
                                        "o1 while [...] on one line, and o1 endwhile instead of END"};
 inline constexpr SentenceRow for_goto{"expected.fanuc-goto",
@@ -33,13 +33,13 @@ inline constexpr SentenceRow for_end{"expected.fanuc-end", "o1 endwhile, with th
 inline constexpr SentenceRow for_if{"expected.fanuc-if",
                                     "o1 if [...] on one line, and o1 endif after the last conditional line"};
 inline constexpr SentenceRow letter_o{"expected.o-for-colon",
-                                      "O for ':', as in O0491; on some controls ':' begins the number of a program"};
+                                      "O instead of ':', as in O0491; on some controls ':' starts a program number"};
 inline constexpr SentenceRow empty_file{"file.empty", "the file is empty"};
 inline constexpr SentenceRow gcode_file{"expected.gcode", "G-code"};
 inline constexpr SentenceRow not_gcode{"file.not-gcode", "this is {what}, not G-code"};
 inline constexpr SentenceRow for_a_printer{"file.not-gcode.printer", "this is a program for a 3D printer, not G-code"};
 inline constexpr SentenceRow from_cam{
-    "expected.gcode-that-cuts", "G-code for a machine that cuts, from a CAM program; nothing here heats or extrudes"};
+    "expected.gcode-that-cuts", "G-code for a cutting machine, from a CAM program; Passo has no heaters or extruders"};
 inline constexpr SentenceRow not_text{"file.binary", "the file is not text"};
 inline constexpr SentenceRow plain_text{"expected.plain-text", "a G-code program, which is plain text"};
 

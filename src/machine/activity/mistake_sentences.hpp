@@ -22,7 +22,7 @@ inline constexpr SentenceRow idle_speed{"path.idle-speed",
                                         "S has no effect here: the machine only switches its spindle on and off"};
 inline constexpr SentenceRow speed_in_machine_file{
     "expected.speed-in-machine-file", "tool.max_rpm in the machine file, if the machine sets the spindle's speed"};
-inline constexpr SentenceRow idle_tool{"path.idle-tool", "T{tool} has no effect: the program never changes its tool"};
+inline constexpr SentenceRow idle_tool{"path.idle-tool", "T{tool} has no effect: the program has no tool change (M6)"};
 inline constexpr SentenceRow tool_change{"expected.tool-change", "M6 after the T word"};
 inline constexpr SentenceRow long_dwell{"path.long-dwell",
                                         "this dwell takes {time} seconds; were {time} milliseconds meant?"};
@@ -32,21 +32,22 @@ inline constexpr SentenceRow spindle_left_on{"path.spindle-left-on",
                                              "the spindle is still on where '%' ends the program"};
 inline constexpr SentenceRow spindle_off_before{"expected.spindle-off-before", "M5, and M2 or M30, before '%'"};
 inline constexpr SentenceRow nearly_circle{"path.nearly-circle",
-                                           "this arc is nearly a full circle, and ends {gap} mm before its start"};
+                                           "this arc is nearly a full circle: it ends {gap} mm before its start"};
 inline constexpr SentenceRow whole_circle{
     "expected.whole-circle",
-    "the start as the end for a full circle; the other direction (G2, G3) or G1 for a short way"};
-inline constexpr SentenceRow low_rapid{"path.low-rapid",
-                                       "a sideways rapid at Z{z}, although the program has cut at Z{cut}"};
+    "for a full circle, an end equal to the start; for a short move, G1 or the other direction (G2, G3)"};
+inline constexpr SentenceRow low_rapid{
+    "path.low-rapid", "a rapid moves sideways at Z{z}, where there may be material: the program has cut at Z{cut}"};
 inline constexpr SentenceRow above_work{"expected.above-work",
-                                        "Z above the work before a sideways rapid, or a feed (G1)"};
-inline constexpr SentenceRow rapid_plunge{"path.rapid-plunge",
-                                          "a rapid goes down to Z{z}, deeper than all feeds before it (Z{deepest})"};
-inline constexpr SentenceRow feed_in_material{"expected.feed-in-material", "a feed (G1) where there may be material"};
+                                        "Z above the work before the rapid, or a feed move (G1)"};
+inline constexpr SentenceRow rapid_plunge{
+    "path.rapid-plunge", "a rapid goes down to Z{z}, deeper than every earlier feed move (Z{deepest})"};
+inline constexpr SentenceRow feed_in_material{"expected.feed-in-material",
+                                              "a feed move (G1) where there may be material"};
 inline constexpr SentenceRow blind_plunge{"path.blind-plunge",
                                           "a rapid goes down to Z{z} before the program has given X or Y"};
-inline constexpr SentenceRow place_first{"expected.place-first", "X and Y first, at a Z above the work"};
-inline constexpr SentenceRow no_depth{"path.no-depth", "no feed goes below Z0: the lowest is Z{z}"};
-inline constexpr SentenceRow minus_sign{"expected.minus-sign", "a minus sign, if the zero of the work is at its top"};
+inline constexpr SentenceRow place_first{"expected.place-first", "X and Y first, with Z above the work"};
+inline constexpr SentenceRow no_depth{"path.no-depth", "no feed move goes below Z0: the lowest is at Z{z}"};
+inline constexpr SentenceRow minus_sign{"expected.minus-sign", "a minus sign, if the work zero is on the top face"};
 
 }  // namespace passo::mistakes_say

@@ -12,21 +12,23 @@ inline constexpr SentenceRow low_end_first{"expected.low-end-first", "the low en
 inline constexpr SentenceRow has_left_travel{
     "machine.homing.beyond-travel",
     "{key} is {value}; after a pull-off of {off} the axis would be outside its travel of {low} to {high}"};
-inline constexpr SentenceRow switch_within_travel{"expected.switch-within-travel",
-                                                  "a switch position that is within the travel after {key}"};
+inline constexpr SentenceRow switch_within_travel{
+    "expected.switch-within-travel", "a switch position that leaves the axis within its travel after {key}"};
 inline constexpr SentenceRow key_is{"machine.bad-value", "{key} is {value}"};
 inline constexpr SentenceRow number_within{"expected.number-within", "a number from {low} to {high}"};
 inline constexpr SentenceRow whole_number_within{"expected.whole-number-within", "a whole number from {low} to {high}"};
 inline constexpr SentenceRow motor_taken{"machine.motor.taken", "motor {motor} is already assigned to axis {axis}"};
 inline constexpr SentenceRow own_motor{"expected.own-motor", "a different motor for each axis"};
-inline constexpr SentenceRow no_such_motor{"machine.motor.none", "axis {axis} has motor {motor}"};
+inline constexpr SentenceRow no_such_motor{"machine.motor.none", "axis {axis} has motor {motor}, which does not exist"};
 inline constexpr SentenceRow motor_missing{"machine.motor.missing", "[axis.{axis}] has no key motor"};
 inline constexpr SentenceRow motors_for_all{
-    "expected.motors-for-all", "a motor for every axis, or for none: then they are in the order X Y Z A B C U V W"};
+    "expected.motors-for-all",
+    "a motor for every axis, or for none (then they are assigned in the order X Y Z A B C U V W)"};
 inline constexpr SentenceRow too_fast{
     "machine.too-fast", "axis {axis} needs {steps} steps/s for {speed}/s, but the board makes at most {most} events/s"};
 inline constexpr SentenceRow starts_too_fast{
-    "machine.start-stop", "the start-stop velocity of axis {axis}, {speed}/s, is above its velocity of {most}/s"};
+    "machine.start-stop",
+    "the start-stop velocity of axis {axis}, {speed}/s, is above its maximum velocity of {most}/s"};
 inline constexpr SentenceRow too_weak{"machine.too-weak",
                                       "at {speed}/s the motor of axis {axis} has no torque left for acceleration"};
 inline constexpr SentenceRow stronger_motor{"expected.stronger-motor", "{key} below {most}, or a stronger motor"};

@@ -18,10 +18,9 @@ inline constexpr SentenceRow no_such_axis{"travel.no-such-axis",
                                           "this moves the axis {axis}, which the machine does not have"};
 inline constexpr SentenceRow these_axes{"expected.these-axes", "moves of {axes} only"};
 inline constexpr SentenceRow no_feed{"path.no-feed", "a feed move without a feed rate"};
-inline constexpr SentenceRow feed_above_zero{"expected.feed-above-zero", "F above 0 before the move, or on it"};
+inline constexpr SentenceRow feed_above_zero{"expected.feed-above-zero", "F above 0 in this block or an earlier one"};
 inline constexpr SentenceRow spindle_too_fast{
-    "path.spindle-too-fast",
-    "the program asks for {asked} rpm, and the spindle turns at {most} at most, which is used"};
+    "path.spindle-too-fast", "the program asks for {asked} rpm, but the spindle's maximum of {most} rpm is used"};
 inline constexpr SentenceRow speed_up_to{"expected.speed-up-to", "S up to {most}"};
 
 }  // namespace passo::path_says

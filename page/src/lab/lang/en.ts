@@ -4,7 +4,7 @@ export const en = {
   labLesson: 'See how a controller decides which axis steps and when, and how the motor responds. Nothing here moves the machine.',
   copyLink: 'Copy the link to this view',
   loading: 'Loading the lab …',
-  noCore: 'The server lacks lab.wasm, the module of the lab. See CONTRIBUTING.md for how to build it.',
+  noCore: 'lab.wasm, the module of the lab, is missing on the server. See CONTRIBUTING.md for how to build it.',
   part_steps: 'Steps',
   part_ramps: 'Ramps',
   part_torque: 'Torque',

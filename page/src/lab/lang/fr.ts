@@ -3,7 +3,7 @@ import type { LabWords } from './en';
 
 export const fr: LabWords = {
   lab: 'Laboratoire',
-  labLesson: 'Voyez comment une commande décide quel axe fait un pas et à quel moment, et comment le moteur réagit. Ici, rien ne fait bouger la machine.',
+  labLesson: 'Voyez comment un contrôleur décide quel axe fait un pas et à quel moment, et comment le moteur réagit. Ici, rien ne fait bouger la machine.',
   copyLink: 'Copier le lien vers cette vue',
   loading: 'Chargement du laboratoire …',
   noCore: 'Il manque lab.wasm, le module du laboratoire, sur ce serveur. CONTRIBUTING.md explique comment le compiler.',
@@ -82,7 +82,7 @@ export const fr: LabWords = {
   'lesson_master-slave':
     'L’axe qui a le plus de pas (l’axe principal) fait un pas à chaque impulsion. L’axe secondaire fait un pas quand la droite idéale atteint le milieu entre deux de ses positions. Aucun axe ne s’écarte donc de plus d’un demi-pas : on ne peut pas faire mieux avec des pas entiers.',
   lesson_lean:
-    'Cette méthode donne les mêmes impulsions que l’arrondi, mais ne demande que des additions et des comparaisons. Chaque axe a une somme. À chaque impulsion, on y ajoute deux fois le nombre de pas de l’axe ; quand elle atteint zéro, l’axe fait un pas et on retire deux fois le nombre de pas de l’axe principal. C’est ce que font les petits microcontrôleurs dans leur interruption de pas.',
+    'Cette méthode donne les mêmes impulsions que l’arrondi, mais ne demande que des additions et des comparaisons. Chaque axe a un accumulateur. À chaque impulsion, on y ajoute deux fois le nombre de pas de l’axe ; quand il atteint zéro, l’axe fait un pas et on en retire deux fois le nombre de pas de l’axe principal. C’est ce que font les petits microcontrôleurs dans leur interruption de pas.',
   lesson_dda:
     'À chaque coup d’horloge, chaque axe ajoute son nombre de pas à un registre ; un débordement produit un pas. La méthode ne prend aucune décision et convient à un nombre quelconque d’axes, mais les pas arrivent tard : l’erreur atteint presque un pas entier, et à certains coups aucun axe ne bouge.',
   'lesson_dda-half':
@@ -152,7 +152,7 @@ export const fr: LabWords = {
   rotorInertia: 'Inertie du rotor',
   loadInertia: 'Inertie de la charge',
   loopLesson:
-    'Avec un codeur, la commande garde toujours le champ magnétique en avance sur le rotor. P agit sur l’erreur présente, I élimine l’erreur qui persiste, D amortit les variations rapides. À cause des retards dans la boucle, un gain trop élevé la fait osciller.',
+    'Avec un codeur, le contrôleur garde toujours le champ magnétique en avance sur le rotor. P agit sur l’erreur présente, I élimine l’erreur qui persiste, D amortit les variations rapides. À cause des retards dans la boucle, un gain trop élevé la fait osciller.',
   controlled: 'Grandeur réglée',
   speed: 'Vitesse',
   byTheRule: 'Réglage de Ziegler–Nichols',

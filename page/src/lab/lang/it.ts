@@ -82,7 +82,7 @@ export const it: LabWords = {
   'lesson_master-slave':
     'L’asse con più passi (l’asse principale) fa un passo a ogni impulso. L’asse secondario fa il passo quando la retta ideale raggiunge il punto medio fra due sue posizioni. Così nessun asse si scosta mai più di mezzo passo: con passi interi non si può fare meglio.',
   lesson_lean:
-    'Questo metodo dà gli stessi impulsi dell’arrotondamento, ma richiede solo somme e confronti. Ogni asse ha una somma. A ogni impulso vi si aggiunge il doppio del numero di passi dell’asse; quando arriva a zero, l’asse fa il passo e si toglie il doppio del numero di passi dell’asse principale. È ciò che fanno i piccoli microcontrollori nell’interrupt di passo.',
+    'Questo metodo dà gli stessi impulsi dell’arrotondamento, ma richiede solo somme e confronti. Ogni asse ha un accumulatore. A ogni impulso vi si aggiunge il doppio del numero di passi dell’asse; quando arriva a zero, l’asse fa il passo e si toglie il doppio del numero di passi dell’asse principale. È ciò che fanno i piccoli microcontrollori nell’interrupt di passo.',
   lesson_dda:
     'A ogni colpo di clock ogni asse aggiunge il suo numero di passi a un registro; un overflow produce un passo. Il metodo non prende decisioni e vale per qualsiasi numero di assi, ma i passi arrivano tardi: l’errore raggiunge quasi un passo intero, e in alcuni colpi nessun asse si muove.',
   'lesson_dda-half':

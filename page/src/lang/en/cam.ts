@@ -14,7 +14,7 @@ export const cam = {
   'cam.none': 'No program has been generated yet',
   'cam.open': 'Show the program',
   'cam.board.layers': 'Layers: check each file',
-  'cam.board.layers.what': 'Passo recognises each file by its attributes, its name or its content. Correct it here if it is wrong.',
+  'cam.board.layers.what': 'Passo recognises each file by its attributes, its name or its content. If an assignment is wrong, correct it here.',
   'cam.board.left': 'Not used: {names}',
   'cam.board.do': 'Work steps',
   'cam.board.times': 'Times are estimated from the machine file.',
@@ -68,5 +68,5 @@ export const cam = {
   'cam.figures': 'Report',
   'cam.step.done': 'Step {number} done',
   'cam.more': 'More options',
-  'cam.wire.sides': 'The first drawing is the left side, the second one the right side.',
+  'cam.wire.sides': 'The first drawing is the left side, and the second is the right side.',
 } as const;

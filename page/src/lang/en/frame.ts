@@ -44,7 +44,7 @@ export const frame = {
   'owner.sender': 'A G-code sender',
   'owner.take': 'Take control',
   'owner.take.ask': 'Take control from {name}?',
-  'owner.take.what': 'The other client can no longer move the machine. You can take control only while the machine is stopped.',
+  'owner.take.what': 'The other client will no longer be able to move the machine. You can take control only while the machine is stopped.',
   'owner.give': 'Release control',
   'owner.mine': 'This page is in control.',
   'owner.device': '{browser} on {device}',

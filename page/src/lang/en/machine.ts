@@ -82,5 +82,5 @@ export const machine = {
   'tune.picture': 'Torque curve of each motor: available torque, and torque required by the limits',
   'tune.take': 'Use these limits',
   'tune.take.ask': 'Copy these limits into the table?',
-  'tune.take.facts': 'These values change in the table above. The file is not saved yet.',
+  'tune.take.facts': 'These values replace those in the table above. The file is not saved yet.',
 } as const;

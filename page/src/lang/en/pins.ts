@@ -32,7 +32,7 @@ export const pins = {
   'outputs.only': 'Available only in output test mode',
   'outputs.ask': 'Start output test mode?',
   'outputs.facts': 'You can then switch outputs manually. No motor moves.',
-  'outputs.ends': 'The buttons Stop and Done end output test mode and switch off all outputs.',
+  'outputs.ends': 'The Stop and Done buttons end output test mode and switch off all outputs.',
   'outputs.spindle.ask': 'Start the spindle at {speed} rpm?',
   'outputs.spindle.facts': 'Keep clear of the machine, and make sure that the tool touches nothing.',
   'outputs.spindle.on': 'Start the spindle',

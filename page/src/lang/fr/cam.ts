@@ -17,7 +17,7 @@ export const cam: Same<typeof en> = {
   'cam.none': 'Aucun programme généré pour l’instant',
   'cam.open': 'Afficher le programme',
   'cam.board.layers': 'Couches : vérifiez chaque fichier',
-  'cam.board.layers.what': 'Passo reconnaît chaque fichier à ses attributs, son nom ou son contenu. Corrigez ici en cas d’erreur.',
+  'cam.board.layers.what': 'Passo reconnaît chaque fichier à ses attributs, à son nom ou à son contenu. Si une attribution est fausse, corrigez-la ici.',
   'cam.board.left': 'Non utilisés : {names}',
   'cam.board.do': 'Étapes à suivre',
   'cam.board.times': 'Les durées sont calculées d’après le fichier machine.',

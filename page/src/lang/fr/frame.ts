@@ -41,7 +41,7 @@ export const frame: Same<typeof en> = {
   'connection.token.use': 'Se connecter',
   'connection.unreached': 'Le serveur n’a pas répondu à temps.',
   // The disk
-  'disk.next': 'Passo enregistrera dès qu’il y aura de la place sur le disque. N’éteignez pas l’ordinateur avant.',
+  'disk.next': 'Passo enregistrera les données dès qu’il y aura de la place sur le disque. N’éteignez pas l’ordinateur avant.',
   // Who is in control
   'owner.other': '{name} a la main. Vous pouvez observer, mettre en pause ou arrêter.',
   'owner.sender': 'Un logiciel d’envoi de G-code',
@@ -81,7 +81,7 @@ export const frame: Same<typeof en> = {
   'state.Line.next': 'La ligne suivante vient d’un logiciel d’envoi de G-code.',
   'state.Line.console': 'La broche ou l’arrosage a été mis en marche depuis la console et l’est encore. Envoyer M5 M9 ou appuyer sur Arrêter.',
   'state.Check': 'Vérification',
-  'state.Check.next': 'Rien ne bouge.',
+  'state.Check.next': 'La machine ne bouge pas pendant la vérification.',
   'state.Door': 'Porte ouverte',
   'state.Door.next': 'Fermer la porte, puis appuyer sur Reprendre.',
   'state.Alarm': 'Alarme',

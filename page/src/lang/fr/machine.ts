@@ -54,7 +54,7 @@ export const machine: Same<typeof en> = {
   'file.write': 'Enregistrer le fichier',
   'file.write.ask': 'Enregistrer {name} ?',
   'file.write.facts': 'Ces valeurs changent :',
-  'file.write.when': 'Elles prennent effet au redémarrage de passo serve. Un usinage interrompu ne pourra alors plus reprendre au point exact.',
+  'file.write.when': 'Les modifications prennent effet au redémarrage de passo serve. Un usinage interrompu ne pourra alors plus reprendre au point exact.',
   'file.undo': 'Annuler la modification',
   'file.undo.none': 'Aucune modification',
   'file.load': 'Recharger',
@@ -85,5 +85,5 @@ export const machine: Same<typeof en> = {
   'tune.picture': 'Courbe de couple de chaque moteur : couple disponible, et couple demandé par les limites',
   'tune.take': 'Utiliser ces limites',
   'tune.take.ask': 'Copier ces limites dans le tableau ?',
-  'tune.take.facts': 'Ces valeurs changent dans le tableau ci-dessus. Le fichier n’est pas encore enregistré.',
+  'tune.take.facts': 'Ces valeurs remplacent celles du tableau ci-dessus. Le fichier n’est pas encore enregistré.',
 };

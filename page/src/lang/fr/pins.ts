@@ -35,7 +35,7 @@ export const pins: Same<typeof en> = {
   'outputs.only': 'Seulement pendant le test des sorties',
   'outputs.ask': 'Commencer le test des sorties ?',
   'outputs.facts': 'Les sorties peuvent alors être commutées à la main. Aucun moteur ne bouge.',
-  'outputs.ends': '« Arrêter » et « Fait » quittent le test et coupent toutes les sorties.',
+  'outputs.ends': 'Les boutons Arrêter et Fait quittent le test et coupent toutes les sorties.',
   'outputs.spindle.ask': 'Démarrer la broche à {speed} tr/min ?',
   'outputs.spindle.facts': 'Restez à l’écart de la machine, et vérifiez que l’outil ne touche rien.',
   'outputs.spindle.on': 'Démarrer la broche',
@@ -60,6 +60,6 @@ export const pins: Same<typeof en> = {
   'pulses.none': 'Aucun moteur n’a encore bougé.',
   'pulses.motor': '{axis} {count}, {interval} après l’impulsion précédente : {rate} pas/s',
   'pulses.at': 'À {at} s ; fenêtre de {wide}.',
-  'pulses.many': 'Seules les {shown} premières sont affichées, car il y a trop d’impulsions. Zoomez.',
+  'pulses.many': 'Il y a trop d’impulsions : seules les {shown} premières sont affichées. Zoomez pour voir les autres.',
   'pulses.what': 'Chaque impulsion telle qu’elle a été envoyée à la carte ; pendant un mouvement, son instant est exact au tic du temporisateur de la carte. Les courants des bobines sont calculés d’après les pas et les micropas du fichier machine. Cliquer pour placer le curseur ; glisser pour déplacer ; molette avec Ctrl ou Maj pour zoomer.',
 };

@@ -17,7 +17,7 @@ export const cam: Same<typeof en> = {
   'cam.none': 'Nessun programma ancora generato',
   'cam.open': 'Mostra il programma',
   'cam.board.layers': 'Strati: controlla ogni file',
-  'cam.board.layers.what': 'Passo riconosce ogni file da attributi, nome o contenuto. Correggi qui se è sbagliato.',
+  'cam.board.layers.what': 'Passo riconosce ogni file da attributi, nome o contenuto. Se un’assegnazione è sbagliata, correggila qui.',
   'cam.board.left': 'Non usati: {names}',
   'cam.board.do': 'Fasi di lavoro',
   'cam.board.times': 'I tempi sono calcolati con il file macchina.',

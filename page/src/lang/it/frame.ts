@@ -41,7 +41,7 @@ export const frame: Same<typeof en> = {
   'connection.token.use': 'Connetti',
   'connection.unreached': 'Il server non ha risposto in tempo.',
   // The disk
-  'disk.next': 'Passo lo salverà appena ci sarà spazio sul disco. Fino ad allora non spegnere il computer.',
+  'disk.next': 'Passo salverà i dati appena ci sarà spazio sul disco. Fino ad allora non spegnere il computer.',
   // Who is in control
   'owner.other': '{name} ha il controllo. Da qui puoi osservare, mettere in pausa e fermare.',
   'owner.sender': 'Un sender G-code',
@@ -81,7 +81,7 @@ export const frame: Same<typeof en> = {
   'state.Line.next': 'La riga successiva arriva da un sender G-code.',
   'state.Line.console': 'Il mandrino o il refrigerante è stato acceso dalla console ed è ancora acceso. Invia M5 M9 o premi Stop.',
   'state.Check': 'Verifica',
-  'state.Check.next': 'Nessun asse si muove.',
+  'state.Check.next': 'La macchina non si muove durante la verifica.',
   'state.Door': 'Sportello aperto',
   'state.Door.next': 'Chiudi lo sportello, poi premi Riprendi.',
   'state.Alarm': 'Allarme',

@@ -54,7 +54,7 @@ export const machine: Same<typeof en> = {
   'file.write': 'Salva il file',
   'file.write.ask': 'Salvare {name}?',
   'file.write.facts': 'Cambiano questi valori:',
-  'file.write.when': 'Hanno effetto al riavvio di passo serve. Un lavoro interrotto non potrà più riprendere esattamente da dov’era.',
+  'file.write.when': 'Le modifiche hanno effetto al riavvio di passo serve. Un lavoro interrotto non potrà più riprendere esattamente da dov’era.',
   'file.undo': 'Annulla modifica',
   'file.undo.none': 'Nessuna modifica',
   'file.load': 'Ricarica',
@@ -85,5 +85,5 @@ export const machine: Same<typeof en> = {
   'tune.picture': 'Curva di coppia di ogni motore: coppia disponibile, e coppia richiesta dai limiti',
   'tune.take': 'Usa questi limiti',
   'tune.take.ask': 'Copiare questi limiti nella tabella?',
-  'tune.take.facts': 'Questi valori cambiano nella tabella qui sopra. Il file non è ancora salvato.',
+  'tune.take.facts': 'Questi valori sostituiscono quelli nella tabella qui sopra. Il file non è ancora salvato.',
 };

@@ -35,7 +35,7 @@ export const pins: Same<typeof en> = {
   'outputs.only': 'Solo durante la prova uscite',
   'outputs.ask': 'Attivare la prova uscite?',
   'outputs.facts': 'Potrai poi commutare le uscite a mano. Nessun motore si muove.',
-  'outputs.ends': '“Stop” e “Fatto” terminano la prova uscite e spengono tutte le uscite.',
+  'outputs.ends': 'I pulsanti Stop e Fatto terminano la prova uscite e spengono tutte le uscite.',
   'outputs.spindle.ask': 'Avviare il mandrino a {speed} giri/min?',
   'outputs.spindle.facts': 'Tieniti a distanza dalla macchina e verifica che l’utensile non tocchi nulla.',
   'outputs.spindle.on': 'Avvia il mandrino',
@@ -60,6 +60,6 @@ export const pins: Same<typeof en> = {
   'pulses.none': 'Nessun motore si è ancora mosso.',
   'pulses.motor': '{axis} {count}, {interval} dopo l’impulso precedente: {rate} passi/s',
   'pulses.at': 'A {at} s; intervallo di {wide}.',
-  'pulses.many': 'Si vedono solo i primi {shown}, perché gli impulsi sono troppi. Ingrandisci.',
+  'pulses.many': 'Gli impulsi sono troppi: si vedono solo i primi {shown}. Ingrandisci per vedere gli altri.',
   'pulses.what': 'Ogni impulso come è stato inviato alla scheda; durante un movimento il suo istante è esatto al tick del timer della scheda. Le correnti degli avvolgimenti sono calcolate dai passi e dai micropassi del file macchina. Fai clic per posizionare il cursore; trascina per spostare; rotella con Ctrl o Maiusc per lo zoom.',
 };

@@ -81,7 +81,7 @@ export const frame: Same<typeof en> = {
   'state.Line.next': '下一行由 G 代码发送程序发来。',
   'state.Line.console': '从控制台开启的主轴或冷却尚未关闭。请发送 M5 M9，或按“停止”。',
   'state.Check': '正在检查',
-  'state.Check.next': '机床不动。',
+  'state.Check.next': '检查期间机床不会运动。',
   'state.Door': '防护门已打开',
   'state.Door.next': '请关好防护门，然后按“继续”。',
   'state.Alarm': '报警',

@@ -35,7 +35,7 @@ export const pins: Same<typeof en> = {
   'outputs.only': '仅在输出测试时可用',
   'outputs.ask': '开始输出测试？',
   'outputs.facts': '之后可以手动切换输出。电机不会转动。',
-  'outputs.ends': '“停止”和“完成”会结束输出测试并关闭所有输出。',
+  'outputs.ends': '按“停止”或“完成”会结束输出测试并关闭所有输出。',
   'outputs.spindle.ask': '以 {speed} r/min 启动主轴？',
   'outputs.spindle.facts': '请远离机床，并确认刀具没有接触任何物体。',
   'outputs.spindle.on': '启动主轴',
@@ -60,6 +60,6 @@ export const pins: Same<typeof en> = {
   'pulses.none': '还没有电机动过。',
   'pulses.motor': '{axis} {count}，距上一脉冲 {interval}：每秒 {rate} 步',
   'pulses.at': '位于 {at} s；显示范围 {wide}。',
-  'pulses.many': '脉冲太多，只显示前 {shown} 个。请放大。',
+  'pulses.many': '脉冲太多，只显示前 {shown} 个。放大后可查看其余脉冲。',
   'pulses.what': '每个脉冲都按实际发送到控制板的情况显示；运动中的时刻精确到控制板定时器的一个节拍。绕组电流由步数和机床文件中的细分数算出。点击放置游标；拖动平移；按住 Ctrl 或 Shift 滚动滚轮缩放。',
 };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr SentenceRow no_spindle_speed{
     "check.no-spindle-speed",
-    "the tool cuts while the spindle speed is unknown; the force of such cuts is not included"};
+    "the tool cuts while the spindle speed is unknown; the forces of these cuts are not included"};
 
 }  // namespace
 

@@ -386,8 +386,8 @@ TEST(Diagnostics, a_code_of_another_control_names_what_does_the_same_here) {
     const Interpreted result = interpret_text(program);
     return result.diagnostics.all().front().expected;
   };
-  EXPECT_EQ(expected("G12 I5\n"), "G2 or G3 with I and J, a full circle");
-  EXPECT_EQ(expected("M29 S500\n"), "G33.1: on other controls this announces rigid tapping");
+  EXPECT_EQ(expected("G12 I5\n"), "G2 or G3 with I and J, for a full circle");
+  EXPECT_EQ(expected("M29 S500\n"), "G33.1: on other controls, this code announces rigid tapping");
   EXPECT_EQ(expected("G38 Z-1\n"), "G38.2, G38.3, G38.4 or G38.5");
   EXPECT_EQ(expected("G123\n"), "a code listed in docs/gcode.md");
 }

@@ -188,7 +188,7 @@ const Mistake mistakes[] = {
      "= 25\nstart_stop_velocity_mm_s = 25.5\n",
      "machine.start-stop",
      {18, 28, 4},
-     "the start-stop velocity of axis X, 25.5 mm/s, is above its velocity of 25 mm/s",
+     "the start-stop velocity of axis X, 25.5 mm/s, is above its maximum velocity of 25 mm/s",
      "start_stop_velocity_mm_s = 25 or less"},
     {"too_many_events",
      "50_000",
