@@ -47,7 +47,7 @@ class ProcessBoard : public EmulatedBoard {
   // `clock_rate`: clock frequency in Hz.
   ProcessBoard(double clock_rate, std::size_t motors) : clock_rate_(clock_rate), positions_(motors, 0) {}
 
-  // Sets the emulated chip, and the pins that make steps. The first answer shows that the process is running and the
+  // Sets the emulated chip, and which pins output steps. The first answer shows that the process is running and the
   // firmware boots.
   void start(std::unique_ptr<EmulatorProcess> chip, std::uint32_t stepping) {
     chip_ = std::move(chip);
@@ -104,7 +104,7 @@ class ProcessBoard : public EmulatedBoard {
 
   double clock_rate_;
   std::unique_ptr<EmulatorProcess> chip_;
-  std::uint32_t stepping_ = 0;  // the pins that make steps
+  std::uint32_t stepping_ = 0;  // the pins that output steps
   std::uint32_t levels_ = 0;
   IdealPlant own_plant_;
   Plant* plant_ = &own_plant_;

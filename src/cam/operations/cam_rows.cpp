@@ -21,7 +21,7 @@ CamOption units_row(std::string& units) {
 
 CamOption join_row(std::string& join) {
   using enum CamKind;
-  return {"join", &join, length, "gap up to which the ends of lines are joined", experts_only};
+  return {"join", &join, length, "largest gap across which the ends of lines are joined", experts_only};
 }
 
 CamOption ramp_row(double& angle) {
@@ -128,7 +128,7 @@ std::vector<CamOption> edge_rows(CamOutlineArguments& a) {
       {"tab-height", &a.tab_height, length, "height of a tab above the full depth"},
       ramp_row(a.ramp),
       {"lead", &a.lead, length, "radius of the lead-in, a quarter circle that meets the contour"},
-      {"dog-bones", &a.dog_bones, flag, "dog-bone relief cuts in inner corners, so that a square corner fits in"},
+      {"dog-bones", &a.dog_bones, flag, "dog-bone relief cuts in inside corners, so that a square corner fits"},
   };
 }
 

@@ -18,7 +18,7 @@ std::vector<CamOption> shape_rows(CamReliefArguments& a) {
       {"depth",
        &a.depth,
        length,
-       "height difference of black and white (default: 3 mm, or the model's height)",
+       "height difference between black and white (default: 3 mm, or the model's height)",
        {.usual = "3mm"}},
       {"gamma",
        &a.gamma,

@@ -71,8 +71,8 @@ class BlockExecutor : private CodeFamily {
   bool awaits_probe() const { return probe_.awaits_outcome(); }
   void apply_probe_outcome() { probe_.apply_outcome(); }
 
-  // Returns the lathe cycle that receives the blocks of its subroutine one by one instead of execute(). Null: no such
-  // cycle.
+  // Returns the lathe cycle that receives the blocks of its subroutine one by one instead of execute(), or null if
+  // there is none.
   LatheCodes* wants_contour() { return lathe_.wants_contour() ? &lathe_ : nullptr; }
   void add_to_contour(const Block& block);
   void end_contour();

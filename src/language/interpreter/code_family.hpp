@@ -68,10 +68,11 @@ class CodeFamily {
   void emit(const OperationKind& what) {
     operations_.push(operations_.holding() ? kept_operation(what) : operation_of(what));
   }
-  // Pushes an operation before the moves held back by cutter compensation: one that goes to the operator, or moves
+  // Pushes an operation before the moves held back by cutter compensation: one that addresses the operator, or moves
   // nothing.
   void emit_ahead(const OperationKind& what) { operations_.push_ahead(operation_of(what)); }
-  // LinuxCNC reports changes of its own modes as comments, and other programs compare with its canonical calls.
+  // LinuxCNC reports changes of its modes as comments. Passo does the same, so that its canonical calls can be
+  // compared.
   void emit_comment(std::string_view text) { emit(operation::Comment{text}); }
   Operation operation_of(const OperationKind& what) const {
     return {what, block_.source, block_.word, &block_.axis_words, goes_to_machine()};

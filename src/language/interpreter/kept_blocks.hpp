@@ -2,7 +2,7 @@
 //
 // The line number determines the slot of its block. The next line with the same slot replaces the block. A body with at
 // most as many lines as there are slots is therefore cached completely. Memory is bounded: about 1 KiB for each slot in
-// use, at most 10 MiB in all. A slot keeps its capacity, so lines that share a slot soon need no more allocations.
+// use, at most 10 MiB in total. A slot keeps its capacity, so lines that share a slot soon need no more allocations.
 #pragma once
 
 #include <cstddef>

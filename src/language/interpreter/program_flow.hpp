@@ -45,8 +45,8 @@ class ProgramFlow final : public CallStack {
   ProgramFlow(ProgramReader reader, const Options& options, ProgramState& state, Parameters& parameters,
               SymbolTable& symbols, Reporter& reporter);
 
-  // Returns the next block to execute. Null: the program ends, or an O-word left a subroutine (take_left_sub), or the
-  // contour of call_for_contour() ends.
+  // Returns the next block to execute. Returns null if the program ends, if an O-word left a subroutine
+  // (take_left_sub), or if the contour of call_for_contour() ends.
   const Block* next();
   // Adds a line. Only with `open_ended`, when next() has returned null.
   void push_line(std::string_view text) { lines_.push_line(text); }

@@ -13,7 +13,7 @@ class RunawayGuard {
     std::uint64_t repeated_steps = 0;
     std::uint64_t main_passes = 1;
   };
-  // idle: too many passes while the machine did nothing. steps: too many in all.
+  // idle: too many passes while the machine did nothing. steps: too many in total.
   enum class Reached : std::uint8_t { nothing, idle, steps };
 
   explicit RunawayGuard(const Limits& limits) : limits_(limits) {}

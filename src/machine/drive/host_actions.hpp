@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// True: the action only changes outputs, which the board switches during motion.
+// Returns true if the action only changes outputs, which the board switches during motion.
 constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {
   using Kind = Action::Kind;
   switch (action.kind) {

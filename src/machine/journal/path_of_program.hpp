@@ -35,7 +35,7 @@ class PathOfProgram {
   RewindablePath& path() { return path_; }
   const StepOptions& steps() const { return steps_; }
   bool any_error() const { return diagnostics_.any_error(); }
-  // True: the result of the newest probe move is known.
+  // Returns true if the result of the newest probe move is known.
   bool knows_last_probe() const { return stages_.answers().knows_last(); }
 
  private:

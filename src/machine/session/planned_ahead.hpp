@@ -67,7 +67,7 @@ class PlannedAhead {
     return std::min((left_out + std::max(progress_.at(time), Seconds(0))) / whole_, 1.0);
   }
   bool plans_program_end() const { return program_ends_.has_value(); }
-  // True, once: an M2 or M30 was planned, and the motion before it is executed.
+  // Returns true once, if an M2 or M30 was planned, and the motion before it is executed.
   bool take_program_end(Seconds time) {
     const bool has_ended = program_ends_ && time >= *program_ends_;
     if (has_ended) program_ends_.reset();

@@ -14,9 +14,9 @@ class StopInHold {
     is_reported_ = false;
   }
   void resume() { stops_outputs_ = false; }
-  // Call in each pass. True: the program has stopped, which must be reported now.
+  // Call in each pass. Returns true if the program has stopped, which must be reported now.
   [[nodiscard]] bool begins(bool rests) { return !std::exchange(is_reported_, rests) && rests; }
-  // Call at standstill. True, once: the outputs must be switched off now.
+  // Call at standstill. Returns true once, if the outputs must be switched off now.
   [[nodiscard]] bool take_stop_of_outputs() { return std::exchange(stops_outputs_, false); }
 
  private:

@@ -14,7 +14,7 @@
 //
 // Only continuous lines of equal speed, kind and tolerance are fitted, and never in a thread, where the spindle is
 // synchronised to s. The look-ahead is at most `most_fitted` lines. Time: each line is processed about three times,
-// some 100 ns in total.
+// about 100 ns in total.
 #pragma once
 
 #include <array>

@@ -45,7 +45,7 @@ class RunReader {
 
   // Begins a run: its first piece is pieces()[begin()].
   std::uint64_t begin();
-  // Reads up to the piece with this number. True: the run has that piece.
+  // Reads up to the piece with this number. Returns true if the run has that piece.
   bool has(std::uint64_t number);
 
   const Window<Piece>& pieces() const { return pieces_; }

@@ -56,7 +56,7 @@ class SplinePieces final : public Source<SplinePiece> {
   // spline by more than `tolerance`.
   std::optional<CurveError> begin(int degree, Mm tolerance);
   [[nodiscard]] bool next(SplinePiece& piece) override;
-  // True: the last returned piece ends the spline.
+  // Returns true if the last returned piece ends the spline.
   bool at_end() const { return at_end_; }
 
  private:

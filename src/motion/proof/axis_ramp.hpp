@@ -16,7 +16,7 @@ class AxisRamp {
  public:
   AxisRamp(const ProvenAxis& axis, const SpeedLimit& limit);
 
-  // False: any change of speed is possible at once.
+  // Returns false if any change of speed is possible at once.
   bool limits() const { return strongest_ > 0; }
 
   // Returns the maximum squared speed at this distance after, or before, a point with the given squared speed.

@@ -81,7 +81,7 @@ class SegmentFitter {
     unsigned lender = 0;
     unsigned first = 0;
     unsigned second = 0;  // equal to the first: only one motor has a bend
-    unsigned most = 0;    // the number of events for which the field is free
+    unsigned most = 0;    // the number of events for which the lender's field is free
     bool serves(unsigned motor) const { return motor == lender || motor == first || motor == second; }
   };
   // A segment's bend in the format of the wire protocol.

@@ -53,7 +53,7 @@ inline constexpr std::size_t most_demands_of_cell = most_limited_axes + 1;
 struct FallingDemand {
   const AccelerationCurve* curve = nullptr;
   std::uint32_t demand = 0;  // the index of this axis' demand among the cell's demands
-  std::uint32_t line = 0;    // the curve's line with which the cell was last found feasible
+  std::uint32_t line = 0;    // the line of the curve with which the cell was last found feasible
   double entry_weight = 0;
   double exit_weight = 0;
   double slack = 0;

@@ -25,7 +25,7 @@ class EmergencyBrake {
 
   // Plans the stop from that state, which must be within the limits and these feeds. Returns false, and an empty plan,
   // if the cells have no motion that is certain to be within the limits, or if the path has an earlier stop. Takes
-  // about 0.1 µs per cell; a stop on an arc passes some 30 cells.
+  // about 0.1 µs per cell; a stop on an arc passes about 30 cells.
   [[nodiscard]] bool plan(PathAhead& path, const PathState& from, const FeedFactors& feeds,
                           std::vector<PlannedMove>& plan);
 
@@ -33,7 +33,7 @@ class EmergencyBrake {
   // Returns the squared speed at the end of the segment, or 0 after the stop. Negative: no motion was found.
   double brake_on(const Segment& segment, double from, double speed_squared, double feed,
                   std::vector<PlannedMove>& plan);
-  // The same at the end of the current cell. A cell without a possible motion is halved.
+  // The same for the end of the current cell. A cell without a possible motion is halved.
   double brake_in_cell(const Segment& segment, double entry, int halvings, std::vector<PlannedMove>& plan);
   bool allows(double entry, const Ride& ride) const;
   CellPlace place() { return {cell_, demands_.data(), falling_.data()}; }

@@ -41,8 +41,8 @@ class PathAhead {
     return std::exchange(action_, std::nullopt);
   }
 
-  // Drops an await_line after the last segment, which then ends in its mode `last`. False: there is none, or no segment
-  // is left before it.
+  // Drops an await_line after the last segment, which then ends in its mode `last`. Returns false if there is none, or
+  // no segment is left before it.
   bool go_on(PathMode last) {
     if (!action_ || action_->kind != Action::Kind::await_line || segments_.first() == segments_.end()) return false;
     std::get<Segment>(*segments_[segments_.end() - 1]).mode = last;

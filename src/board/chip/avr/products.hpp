@@ -1,8 +1,9 @@
 // Products: the multiplications that wire/segment_parts.hpp needs, and the steps in many events, by the chip's own
 // 8-bit multiplier.
 //
-// LLVM would call the library's 32-bit product three times: some 500 cycles for a high_product(). This takes 110, and a
-// decelerating part needs four of them. The results are bit-identical: board_test.cpp compares the events.
+// LLVM would call the library's 32-bit product three times: about 500 cycles for a high_product(). This version takes
+// 110 cycles. A decelerating part needs four of these products. The results are bit-identical: board_test.cpp compares
+// the events.
 #pragma once
 
 #include <stdint.h>

@@ -89,8 +89,8 @@ void expand(uint8_t events);
 // The same for events that may be further apart than the timer's 256 ticks, with wait entries in between. All intervals
 // are under 512 ticks: up to two entries per event. Returns the low byte of the address after the last entry.
 uint8_t expand_with_waits(uint8_t events);
-// The same for any intervals. Makes at most `entries` entries (at least one) and at most expansion.events events.
-// Returns `entries` less the number of entries made.
+// The same for any intervals. Makes entries for at most expansion.events events, and no more than `entries` entries,
+// which must be at least one. Returns `entries` less the number of entries made.
 uint8_t expand_slowly(uint8_t entries);
 #endif
 }

@@ -58,7 +58,7 @@ void add_board_flash_options(CLI::App& command, BoardFlashArguments& arguments) 
   command.add_option("--image", arguments.image,
                      "firmware: Intel hex, for a Pico UF2 (default: the firmware built with this program)");
   command.add_option("--backup", arguments.backup,
-                     "file for a backup of the present firmware (default: passo-backup-BOARD.hex)");
+                     "file for a backup of the current firmware (default: passo-backup-BOARD.hex)");
   command.add_option("--programmer", arguments.programmer,
                      "programmer for avrdude -c (default: the board's boot loader)");
   command.add_option("--baud", arguments.baud, "baud rate of the boot loader")->capture_default_str();

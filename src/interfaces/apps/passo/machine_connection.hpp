@@ -50,7 +50,7 @@ class MachineConnection {
   const MachineSession& session() const { return *session_; }
   // Returns the board itself, or the virtual machine that mirrors the board.
   VirtualMachine& machine() { return machine_; }
-  // Returns the motors with physics. Null: without physics they follow their steps exactly.
+  // Returns the motors with physics, or null without physics: then they follow their steps exactly.
   RotorPlant* rotors() { return rotors_; }
   // Returns true if the board is in another process or is emulated.
   bool has_board() const { return port_ != nullptr; }

@@ -65,7 +65,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--view", arguments.view, "view of the pictures: auto, top, front, side or lathe")
       ->check(CLI::IsMember({"auto", "top", "front", "side", "lathe"}))
       ->capture_default_str();
-  command.add_flag("--no-rapids", arguments.no_rapids, "feed moves only in pictures");
+  command.add_flag("--no-rapids", arguments.no_rapids, "draw only feed moves in pictures");
   command.add_option("-t,--trace", arguments.traces, "file for every step of every motor (FILE.vcd or FILE.csv)");
   command.add_option("-r,--report", arguments.report,
                      "file for the summary: JSON if its name ends in .json, otherwise text");
@@ -114,7 +114,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       "AXIS:NM@FROM:SECONDS: torque that disturbs an axis for a time, e.g. X:0.8@1.5:0.2; needs --physics");
   command.add_flag("-y,--yes", arguments.yes, "skip the operator prompts at M0, M1 and M6");
   command.add_flag("--json", arguments.json, "print the summary as JSON");
-  command.add_flag("-q,--quiet", arguments.quiet, "neither progress nor summary");
+  command.add_flag("-q,--quiet", arguments.quiet, "print neither progress nor summary");
   command.footer(
       "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
       "  passo run examples/drill-board.ngc -m examples/machines/forty-eight.toml -p board.svg --colour-by tool "

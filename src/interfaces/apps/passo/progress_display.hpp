@@ -1,5 +1,5 @@
-// ProgressDisplay: the progress of a command, on standard error of a terminal (ProgressLine) and for the process that
-// started this one (background_process.hpp). The line is removed when the work is done.
+// ProgressDisplay: shows the progress of a command on standard error if that is a terminal (ProgressLine), and reports
+// it to the process that started this one (background_process.hpp). The line is removed when the work is done.
 #pragma once
 
 #include <chrono>
@@ -17,13 +17,14 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  // This share of the work, 0 to 1, is done.
+  // `share`: the fraction of the work that is done, 0 to 1.
   void update(double share);
   // Removes the line, so that other text can be shown. The next update() shows the line again.
   void clear();
-  // For a computation, which this outlives. The line is removed when all is done.
+  // Returns a sink for the progress of a computation, which this display must outlive. The line is removed when the
+  // work is done.
   WorkProgress work();
-  // The same as clear(), for the display whose line is on the terminal now, if any.
+  // Clears the display whose line is on the terminal now, if there is one.
   static void clear_shown();
 
  private:

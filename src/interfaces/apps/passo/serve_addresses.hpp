@@ -30,7 +30,7 @@ struct WebPlace {
 std::optional<WebPlace> web_place(const ServeArguments& arguments, int& code);
 
 // --check: checks everything that is possible without a board, without a port, and without motion. Returns the exit
-// code. `machine_name`: of the valid machine file.
+// code. `machine_name`: the name in the valid machine file.
 int check_serve(const ServeArguments& arguments, const std::string& machine_name);
 
 }  // namespace passo

@@ -57,7 +57,7 @@ void add_simulate_options(CLI::App& command, SimulateArguments& arguments) {
       "-m,--machine", arguments.machine,
       "machine file (TOML): cut along the path of this machine, with corners rounded within the tolerance");
   command.add_option("-p,--picture", arguments.pictures,
-                     "picture of the stock, with --compare of the differences (FILE.png or FILE.svg)");
+                     "picture of the stock; with --compare, of the differences (FILE.png or FILE.svg)");
   command.add_option("--stl", arguments.stl, "file for the stock as a solid model (binary STL)");
   command
       .add_option("--stl-step", arguments.stl_step,

@@ -135,7 +135,7 @@ void add_chords_options(CLI::App& command, ChordsArguments& arguments) {
   command.add_option("--knots", arguments.knots,
                      "nurbs: knots, as many as points + degree + 1 (default: clamped, evenly spaced)");
   CLI::Option* const tolerance =
-      command.add_option("-t,--tolerance", arguments.tolerance, "largest distance of chord and curve, mm")
+      command.add_option("-t,--tolerance", arguments.tolerance, "largest distance between chord and curve, mm")
           ->capture_default_str();
   CLI::Option* const feed = command.add_option("--feed", arguments.feed, "feed rate, mm/min; needs --period");
   CLI::Option* const period = command
@@ -149,7 +149,7 @@ void add_chords_options(CLI::App& command, ChordsArguments& arguments) {
                      "method for lines (lean, dda, ...) that steps along the chords: prints a line for each pulse "
                      "instead of each chord");
   command.add_option("-p,--picture", arguments.picture,
-                     "picture of curve, chords and tolerance, with --fine of the pulses (FILE.svg or FILE.png)");
+                     "picture of curve, chords and tolerance, and with --fine the pulses (FILE.svg or FILE.png)");
   command.add_option("-o,--output", arguments.output, "file for the chords");
   command.footer(
       R"(Prints a line for each chord: its number, its end, and its largest distance from the curve. Line 0 is the start.
@@ -310,15 +310,18 @@ void add_loop_options(CLI::App& command, LoopArguments& arguments) {
                   "Ziegler-Nichols rule: p, pi or pid, from the gain at which the loop oscillates")
       ->check(CLI::IsMember({"p", "pi", "pid"}))
       ->capture_default_str();
-  command.add_option("--gains", arguments.gains, "KP,KI,KD: gains, instead of the rule")
+  command.add_option("--gains", arguments.gains, "KP,KI,KD: gains, instead of those of the rule")
       ->delimiter(',')
       ->expected(3)
       ->check(number_range(0.0, 1e9));
-  command.add_option("--speed-gains", arguments.speed_gains, "KP,KI,KD of the inner loop (default: PI by the rule)")
+  command
+      .add_option("--speed-gains", arguments.speed_gains,
+                  "KP,KI,KD of the inner loop (default: PI by the Ziegler-Nichols rule)")
       ->delimiter(',')
       ->expected(3)
       ->check(number_range(0.0, 1e9));
-  command.add_flag("--compare", arguments.compare, "compare P, PI and PID by the rule, and the --gains");
+  command.add_flag("--compare", arguments.compare,
+                   "compare P, PI and PID by the Ziegler-Nichols rule, and the --gains");
   command.add_option("--load", arguments.load, "NM@S: load torque from a time on");
   command.add_option("--time", arguments.time, "simulated time, s")
       ->check(number_range(0.001, 100.0))

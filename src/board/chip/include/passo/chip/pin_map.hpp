@@ -66,7 +66,8 @@ struct KeypadPins {
   }
 };
 
-// A spindle encoder: its pulses on the pin that clocks a timer, its index on an input capture pin. Both exist, or none.
+// A spindle encoder: its pulses on the pin that clocks a timer, its index on an input capture pin. Either both exist,
+// or neither.
 struct EncoderPins {
   Pin pulses = {};
   Pin index = {};

@@ -9,8 +9,8 @@
 //                        |
 //                        +-> staged -> staged -> …     after the switch; the old tail's slots are free
 //
-// Only the main loop uses it, even where the timer is an interrupt. Portable: no heap. Finding item k is a walk through
-// the list.
+// Only the main loop uses it, even where the timer is an interrupt. Portable: no heap. Finding item k means walking
+// through the list.
 #pragma once
 
 #include <stddef.h>
@@ -67,7 +67,7 @@ class PlayList {
   uint8_t free() const { return free_; }
   bool empty() const { return front_ == none; }
   const Slot& front() const { return slots_[front_]; }
-  // Returns the item at index `place` from the front, without gathered items. It walks through the list.
+  // Returns the item at index `place` from the front, not counting gathered items. Walks through the list.
   Slot& at(uint8_t place) {
     uint8_t slot = front_;
     for (; place != 0; --place) slot = slots_[slot].next;
@@ -118,7 +118,7 @@ class PlayList {
   // Puts the replacement in place. `executed` is the number of the last item that was popped. The first `begun` items
   // are being played or prepared for the timer, and stay. Returns false and changes nothing if an item after `after`
   // has begun. The queue ends in a stop: if nothing is replaced, `from_rest` becomes the low byte of the number of the
-  // first new item. This is the longest work of all, so Pause{}() is called between its parts.
+  // first new item. This is the longest operation, so Pause{}() is called between its parts.
   bool complete(uint16_t executed, uint8_t begun, uint8_t& from_rest) {
     uint8_t slot = front_;
     uint8_t place = 1;
@@ -175,7 +175,7 @@ class PlayList {
   uint8_t last_ = none;
   uint8_t unused_ = none;  // the first free slot
   uint8_t free_ = 0;
-  uint8_t size_ = 0;  // without the replacement
+  uint8_t size_ = 0;  // not counting the replacement
   Replacement staged_;
 };
 

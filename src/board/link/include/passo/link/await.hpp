@@ -18,7 +18,7 @@ bool await(BoardSession& session, Done done, Seconds within = endless) {
   return done();
 }
 
-// Performs the handshake and waits for the answer. False: error() gives the reason.
+// Performs the handshake and waits for the answer. If it returns false, error() gives the reason.
 inline bool greet(BoardSession& session, const Greeting& greeting) {
   session.greet(greeting);
   return await(session, [&] { return session.ready(); });

@@ -12,7 +12,8 @@ namespace passo {
 
 class BoardMirror {
  public:
-  // Stores a status and the time of its arrival. True: the board has executed events since the previous status.
+  // Stores a status and the time of its arrival. Returns true if the board has executed events since the previous
+  // status.
   bool update(const BoardStatus& status, Seconds now);
   const std::optional<BoardStatus>& status() const { return status_; }
   Seconds status_time() const { return status_time_; }
@@ -34,8 +35,8 @@ class BoardMirror {
   void record_rest(bool rests) { rests_ = rests; }
   bool rests() const { return rests_; }
 
-  // Inputs are bits of BoardInput. `ignored`: the input that is used for captures and not as a switch. True: an input
-  // was activated.
+  // Inputs are bits of BoardInput. `ignored`: the input that is used for captures and not as a switch. Returns true if
+  // an input was activated.
   bool update_inputs(const BoardStatus& status, std::uint16_t ignored);
   bool record_pressed(std::uint16_t inputs);
   void set_inputs(std::uint16_t inputs) { inputs_ = inputs; }

@@ -18,12 +18,12 @@ class BoardPort {
   virtual ~BoardPort() = default;
 
   virtual void receive(std::span<const std::uint8_t> bytes) = 0;
-  // Lets time pass until the board has sent something, but at most `most`. False: the time is over, and the board has
-  // sent nothing. With an infinite `most`, false: the board has stopped and is silent.
+  // Lets time pass until the board has sent something, but at most `most`. Returns false if the time is over and the
+  // board has sent nothing; with an infinite `most`, if the board has stopped and is silent.
   [[nodiscard]] virtual bool run(Seconds most) = 0;
   // Returns what the board has sent since the last call. The bytes are valid until the next call of any function.
   virtual std::span<const std::uint8_t> replies() = 0;
-  // True: the other side has closed the connection, and all its bytes have been read.
+  // Returns true if the other side has closed the connection, and all its bytes have been read.
   virtual bool hung_up() const { return false; }
   // The time on this side, from an arbitrary zero.
   virtual Seconds elapsed() const = 0;

@@ -26,19 +26,19 @@ class BoardQueries {
   Question usual() const { return usual_; }
   // Delays the usual query until all frames are sent. `waits`: some of them are not sent yet.
   void hold_back(bool waits) { held_back_ = waits; }
-  // True: a delayed query is to be sent now.
+  // Returns true if a delayed query is to be sent now.
   bool release() { return std::exchange(held_back_, false); }
 
   void await(Question question) { awaited_ = question; }
   const std::optional<Question>& awaited() const { return awaited_; }
-  // Registers an answer. True: the host was waiting for this one.
+  // Registers an answer. Returns true if the host was waiting for this one.
   bool settle(Question answered, Seconds now);
   // Starts the measurement of a response time with filler bytes.
   void begin_rehearsal(Seconds now) { rehearsed_ = now; }
 
   // Registers a sent frame: earlier answers are out of date.
   void record_sent(Seconds now);
-  // Registers that the board has answered after all frames. False: this was already known.
+  // Registers that the board has answered after all frames. Returns false if this was already known.
   bool on_answered(Seconds now);
   // Forgets the sent frames.
   void forget_sent() { answered_ = true; }

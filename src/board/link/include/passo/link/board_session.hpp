@@ -73,7 +73,7 @@ class BoardSession final : public Link {
   void hang_up();
   // Clears an error that a user of the link had set with fail(). The board itself is unchanged, and stopped.
   void forgive() { error_.reset(); }
-  // True: the handshake is complete: the board has answered, suits the machine, and has the session's number.
+  // Returns true if the handshake is complete: the board has answered, suits the machine, and has the session's number.
   bool ready() const { return handshake_.phase() == Handshake::Phase::ready && !error_; }
 
   void send(const BoardSegment& segment) override;
@@ -129,7 +129,7 @@ class BoardSession final : public Link {
   std::uint8_t motors() const { return handshake_.motors(); }
   // The board's answer in the handshake. Empty: the board has not answered.
   const std::optional<HelloReply>& board() const { return handshake_.reply(); }
-  // True: the other side has closed the connection.
+  // Returns true if the other side has closed the connection.
   bool hung_up() const { return port_.hung_up(); }
   // The time without a message from the board, although one is due. After patience() this is an error.
   Seconds silent_for() const { return expects() ? silence_.silence(now()) : Seconds(0); }

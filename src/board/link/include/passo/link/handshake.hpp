@@ -35,7 +35,7 @@ class Handshake {
 
   Phase phase() const { return phase_; }
   bool before_hello() const { return phase_ == Phase::before_hello; }
-  // True: an answer of the board is due.
+  // Returns true if an answer of the board is due.
   bool is_under_way() const { return phase_ == Phase::greeting || phase_ == Phase::naming; }
   const Greeting& wanted() const { return wanted_; }
   std::uint8_t motors() const { return wanted_.motors; }
@@ -49,7 +49,7 @@ class Handshake {
 
   // Processes the answer to the pin set-up. Error: the board does not support it, or cannot make the timing.
   std::optional<LinkError> handle(const PinSetup& setup);
-  // True: the board has the requested pin set-up, or none was requested.
+  // Returns true if the board has the requested pin set-up, or none was requested.
   bool is_set_up() const;
   const PinSetup& set_up() const { return set_up_; }
   PinSetup undone_setup() const;

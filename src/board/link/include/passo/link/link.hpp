@@ -75,13 +75,13 @@ class Link {
   virtual int room() const = 0;
   virtual int places() const = 0;
 
-  // True: the board has reported that all frames have arrived, that its queue is empty, and that it is stopped. Items
-  // that are not executed by then never will be.
+  // Returns true if the board has reported that all frames have arrived, that its queue is empty, and that it is
+  // stopped. Items that are not executed by then never will be.
   virtual bool rests() const = 0;
-  // True: some sent items have not been reported as executed.
+  // Returns true if some sent items have not been reported as executed.
   virtual bool busy() const = 0;
-  // True: the board has switched its outputs off after a silence of the host. It accepts no queue update until the host
-  // has sent outputs in a separate message.
+  // Returns true if the board has switched its outputs off after a silence of the host. It accepts no queue update
+  // until the host has sent outputs in a separate message.
   virtual bool outputs_timed_out() const { return false; }
 
   // Queries that must be answered before the host continues. Only one may be open at a time. settled() shows when the
@@ -98,7 +98,7 @@ class Link {
   // Sends at least `bytes` filler bytes while the board is stopped, and queries the spindle. answer_time() then gives
   // the response time of a queue update of that size.
   virtual void rehearse(std::size_t bytes) = 0;
-  // True: no answer is due. Also true after an error.
+  // Returns true if no answer is due. Also true after an error.
   virtual bool settled() const = 0;
 
   virtual const ProbeReport& probe_report() const = 0;
@@ -108,7 +108,7 @@ class Link {
   virtual void ask_for_spindle(bool wanted) = 0;
   // The newest answer about the spindle since the last call.
   virtual std::optional<Turned> take_turned() = 0;
-  // True: the board has answered after all sent frames.
+  // Returns true if the board has answered after all sent frames.
   virtual bool answered() const = 0;
   // The response time of the last such answer.
   virtual Seconds answer_time() const = 0;

@@ -31,10 +31,10 @@ class ProbeWatch {
   // The meaning of a message for the watch.
   enum class News : std::uint8_t { none, happened, begin_again };
 
-  // `limit`: the bit of a limit switch that acts as the probe, or 0. True: the board must confirm the watch. This
-  // includes the end of a watch on a limit switch, which must stop the motors again.
+  // `limit`: the bit of a limit switch that acts as the probe, or 0. Returns true if the board must confirm the watch.
+  // This includes the end of a watch on a limit switch, which must stop the motors again.
   [[nodiscard]] bool wish(ProbeUntil until, std::uint8_t limit);
-  // True: the status shows that the board is stopped with `executed` done, and watches as requested.
+  // Returns true if the status shows that the board is stopped with `executed` done, and watches as requested.
   bool is_confirmed_by(const BoardStatus& status, std::uint16_t executed) const;
   void confirm(const BoardStatus& status);
 

@@ -37,22 +37,24 @@ class SendWindow {
   // Starts with the frame after `number`, with nothing unacknowledged.
   void begin(ItemNumber number);
 
-  // The numbers of the last frame that was pushed, that was sent, and that the board has acknowledged.
+  // The number of the last frame that was pushed; of the last that was sent; of the last that the board has
+  // acknowledged.
   ItemNumber sent() const { return sent_; }
   ItemNumber on_wire() const { return on_wire_; }
   ItemNumber taken() const { return taken_; }
   ItemNumber next() const { return static_cast<ItemNumber>(sent_ + 1); }
   int untaken() const { return later_by(sent_, taken_); }
-  // True: frames still wait to be sent.
+  // Returns whether some frames still wait to be sent.
   bool waits() const { return on_wire_ != sent_; }
-  // True: some frames are not acknowledged yet.
+  // Returns whether some frames are not acknowledged yet.
   bool keeps_any() const { return !kept_.empty(); }
 
   // Adds the frame next(). fill() sends it.
   void push(const Frame& frame);
-  // Sends frames as long as at most `most_bytes` are unacknowledged. True: none waits.
+  // Sends frames as long as at most `most_bytes` bytes are unacknowledged. Returns true if no frame is left to send.
   [[nodiscard]] bool fill(std::size_t most_bytes);
-  // Acknowledges all frames up to the one with this low byte. False: an old acknowledgement, or an unknown frame.
+  // Acknowledges all frames up to the one with this low byte. Returns false for an old acknowledgement or an unknown
+  // frame.
   [[nodiscard]] bool on_accepted(std::uint8_t sequence);
   // Repeats the first unacknowledged frames, in order.
   void repeat(std::size_t most_bytes);

@@ -35,14 +35,14 @@ class TimeoutMonitor {
 
   // The time until the next repeated query.
   Seconds until_question(Seconds now) const;
-  // True: the time since then is longer than an answer may take.
+  // Returns true if the time since then is longer than an answer may take.
   bool is_overdue(Seconds since, Seconds now) const { return now - since > care_.answer_within; }
   Seconds traffic() const { return moved_on_; }
   Seconds silence(Seconds now) const { return now - heard_; }
 
   // Call it while something is expected from the board. `in_vain`: an infinite wait ended without a message.
   std::optional<LinkError> verdict(Seconds now, bool in_vain) const;
-  // True: it is time to repeat the query. `heard`: something arrived; `endless`: the wait was infinite.
+  // Returns true if it is time to repeat the query. `heard`: something arrived; `endless`: the wait was infinite.
   bool is_to_ask_again(Seconds now, bool heard, bool endless) const;
 
  private:

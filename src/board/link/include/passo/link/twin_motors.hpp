@@ -3,9 +3,9 @@
 // The host plans one motor for each axis. Its steps are sent to both motors of a pair. The counts of the pair that the
 // board reports are converted to those of one motor.
 //
-// For squaring, one motor of a pair turns alone, depending on the watched limit switches. If both or none of the pair's
-// two switches are watched, both motors turn. If only one is watched, that switch's motor turns. For the host, the
-// planned motor continues from its last count. The difference from the first motor's own count is the shift.
+// For squaring, one motor of a pair turns alone, depending on the watched limit switches. If both or neither of the
+// pair's two switches are watched, both motors turn. If only one is watched, that switch's motor turns. For the host,
+// the planned motor continues from its last count. The difference from the first motor's own count is the shift.
 #pragma once
 
 #include <cstdint>

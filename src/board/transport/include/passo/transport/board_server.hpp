@@ -46,7 +46,7 @@ class BoardServer {
   void attend(BoardPort& board);
   // Sends the board's own messages to the host. Without a host they are dropped.
   void send_to_host(std::span<const std::uint8_t> bytes);
-  // True: a client was connected, and none is any more.
+  // Returns true if a client was connected, and none is any more.
   bool all_have_left() const { return anybody_came_ && clients_.empty(); }
 
  private:

@@ -53,17 +53,17 @@ const char* name_of(Verdict verdict);
 // An axis and its motor, in the form needed by the survey.
 struct SurveyedMotor {
   Axis axis = Axis::x;
-  MotorSetup setup;  // including the weight, towards the low end
+  MotorSetup setup;  // including the weight, as a torque towards the low end
   double tolerance = 0;
   RadiansPerSecond fastest = {};  // maximum shaft speed
   TorqueBand band;
   Load load = {};      // the load, including the motor's own damping
   double inertia = 0;  // inertia of rotor and load, kg·m²
-  double weight = 0;   // torque of the weight, N·m, towards the low end
+  double weight = 0;   // torque of the weight towards the low end, N·m
   double radians_per_unit = 0;
 };
 
-// `setup`: including the weight, towards the low end.
+// `setup`: including the weight, as a torque towards the low end.
 SurveyedMotor surveyed_motor(Axis axis, const MotorSetup& setup, double tolerance, double radians_per_unit,
                              RadiansPerSecond fastest);
 

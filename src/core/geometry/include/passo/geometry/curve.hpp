@@ -70,7 +70,7 @@ class Curve {
   bool has_length() const { return length_ > 0; }
 
   Point at(Mm s) const;
-  // dP/ds: a unit vector in X Y Z if those move; nearly one for a cubic.
+  // dP/ds. If X, Y or Z moves, its part in X Y Z has length 1 (for a cubic: nearly 1).
   Point tangent(Mm s) const;
   // d²P/ds².
   Point second_derivative(Mm s) const;

@@ -1,4 +1,4 @@
-// Strong units: a length cannot be passed as a speed. They cost no instruction.
+// Strong units: a length cannot be passed as a speed. They add no instructions.
 //
 // All stages after interpreter/ use millimetres and seconds. Millimetres per minute and inches exist only in gcode/,
 // interpreter/ and the user interface. For a rotary axis, degrees replace millimetres.
@@ -31,7 +31,7 @@ class Quantity {
   friend constexpr Quantity operator*(Quantity a, double k) { return Quantity(a.value_ * k); }
   friend constexpr Quantity operator*(double k, Quantity a) { return Quantity(k * a.value_); }
   friend constexpr Quantity operator/(Quantity a, double k) { return Quantity(a.value_ / k); }
-  friend constexpr auto operator<=>(Quantity a, Quantity b) = default;  // NOLINT(modernize-use-nullptr): it is no zero
+  friend constexpr auto operator<=>(Quantity a, Quantity b) = default;  // NOLINT(modernize-use-nullptr): not a pointer
 
  private:
   double value_ = 0;

@@ -1,7 +1,7 @@
 // ProgramPath: the path of a program as points, for viewers. It is generated while the program is checked.
 //
 // The points are stored in chunks. Each chunk has its own bounding box, in which a point has 16 bits per coordinate: 12
-// bytes per point in all, with an error of at most 1/131,000 of the box. Point i of a chunk is the end of the motion
+// bytes per point in total, with an error of at most 1/131,000 of the box. Point i of a chunk is the end of the motion
 // from point i - 1; the first point of a chunk is the last one of the previous chunk. Coarser levels omit points that
 // make no visible difference.
 //

@@ -28,7 +28,7 @@ std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const 
 bool has_setting(const MachineDescription& machine, const GrblChoices& choices, int number, double value);
 
 // Returns the axes of reports: always X, Y and Z, because senders expect them; then the machine's other axes, at most
-// six in all.
+// six in total.
 std::vector<Axis> grbl_axes_of(const MachineDescription& machine);
 
 // Returns the letters of the axes other than X, Y and Z, for InterpreterOptions::more_grbl_axes.

@@ -13,11 +13,11 @@ namespace passo {
 class MachineResults {
  public:
   virtual ~MachineResults() = default;
-  // Returns the outcome of the last probe move. Null: not available, so the probe move is taken to be triggered at its
-  // end.
+  // Returns the outcome of the last probe move, or null if it is not available: then the probe is assumed to be
+  // triggered at the end of the move.
   virtual const ProbeOutcome* probe() const { return nullptr; }
-  // Returns the position at which the spindle reversed in the last tap. Null: taps do not follow the spindle through
-  // the reversal, and retract from their end.
+  // Returns the position at which the spindle reversed in the last tap. Returns null if taps do not follow the spindle
+  // through the reversal, and retract from their end.
   virtual const Point* tap_reversal() const { return nullptr; }
 };
 

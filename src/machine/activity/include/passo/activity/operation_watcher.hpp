@@ -31,7 +31,7 @@ class OperationWatcher {
             .text = std::string(operation.text)};
   }
 
-  // True: a warning of this code is already kept; the operation's line is added to it.
+  // Returns true if a warning of this code is already kept; the operation's line is added to it.
   bool is_noted(const Operation& operation, std::string_view code) const {
     return diagnostics_.count_repeated(code, operation.file.empty() ? file_ : operation.file, operation.source.line);
   }

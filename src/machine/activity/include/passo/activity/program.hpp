@@ -51,7 +51,7 @@ class ProgramChecker {
   void watch(std::function<void(const PathItem&)> watcher) { watcher_ = std::move(watcher); }
   // Adds an observer of each operation of the program.
   void watch_operations(Tap<Operation>::Watcher watcher) { operations_.watch(std::move(watcher)); }
-  // Checks up to `items` more path items. True: the check has ended, and result() is complete.
+  // Checks up to `items` more path items. Returns true if the check has ended, and result() is complete.
   [[nodiscard]] bool go_on(std::uint64_t items);
   const ProgramCheck& result() const { return check_; }
   // The coordinate system of the item passed to the observer.

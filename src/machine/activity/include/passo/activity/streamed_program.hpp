@@ -51,14 +51,14 @@ class StreamedProgram final : public Source<PathItem> {
   [[nodiscard]] std::optional<Diagnostic> judge(std::string_view line);
 
   bool room() const { return !asks_ && queue_.has_room(); }
-  // True: a line needs a result from the machine, which is not available yet.
+  // Returns true if a line needs a result from the machine, which is not available yet.
   bool asks() const { return asks_; }
-  // True: the last line was M2, M30 or another program end. The next line starts a new program.
+  // Returns true if the last line was M2, M30 or another program end. The next line starts a new program.
   bool take_ended() { return std::exchange(ended_, false); }
   std::size_t queued() const { return queue_.size(); }
   // The path mode at the end of the segment that was pulled last.
   PathMode last_mode() const { return last_mode_; }
-  // True: the items are a jog.
+  // Returns true if the items are a jog.
   bool jogs() const { return jogs_; }
 
   // For the session that executes the path: whether a stopped machine is to start, and whether a moving machine is to

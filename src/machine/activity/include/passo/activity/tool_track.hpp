@@ -17,12 +17,12 @@ class ToolTrack {
   // Call it for each operation of the program, in order. The other functions then refer to that operation.
   void follow(const Operation& operation);
 
-  // True: the tool moves by more than a rounding error.
+  // Returns true if the tool moves by more than a rounding error.
   bool moves() const { return moves_; }
   // Start and end in the active work coordinate system. Equal if the operation is not a move.
   const Point& from() const { return from_; }
   const Point& to() const { return to_; }
-  // True: the offsets or the rotation have changed, and so have the work coordinates.
+  // Returns true if the offsets or the rotation have changed, and so have the work coordinates.
   bool frame_changed() const { return frame_changed_; }
 
  private:

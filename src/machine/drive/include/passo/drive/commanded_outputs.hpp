@@ -48,7 +48,7 @@ class CommandedOutputs {
     return outputs;
   }
 
-  // True: the spindle is commanded on, and the board's last command is different.
+  // Returns true if the spindle is commanded on, and the board's last command is different.
   bool is_news() const {
     const BoardOutputs wanted = for_board();
     const bool same = told_ && told_->switches == wanted.switches && told_->spindle_rpm == wanted.spindle_rpm;

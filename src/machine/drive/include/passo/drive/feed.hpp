@@ -65,7 +65,8 @@ class Feed {
   Feed& operator=(const Feed&) = delete;
 
   virtual Progress advance() = 0;
-  // True: advance() may plan more motion. False: advance() only waits for the motion already planned.
+  // Returns true if advance() may plan more motion. Returns false if advance() only waits for the motion already
+  // planned.
   virtual bool plans() const = 0;
   virtual Action take_action() = 0;
   // The drive calls this for all planned motion.
@@ -85,14 +86,14 @@ class Feed {
   virtual Seconds ahead_of(const Turned& turned, Seconds time) = 0;
   // The start time of the current motion, by the same clock. Empty if the feed does not know it.
   virtual std::optional<Seconds> began() const = 0;
-  // True: a message takes time to reach the board, and may come too late.
+  // Returns true if a message takes time to reach the board, and may come too late.
   virtual bool is_remote() const = 0;
   // Records time that passed without motion.
   virtual void record_rest(Seconds time) = 0;
 
   // Decelerates as soon as possible, after the motion that the board will execute in any case.
   virtual void brake() = 0;
-  // True: the board executes a stop ramp, because no queue update has reached it, and will stop by itself.
+  // Returns true if the board executes a stop ramp, because no queue update has reached it, and will stop by itself.
   virtual bool plays_tail() const = 0;
   // Call at standstill, after the planner has dropped the path up to the next action. Returns the machine position;
   // empty: the end of the planned motion.
@@ -104,8 +105,8 @@ class Feed {
   // Announces that the path reaches a part that follows the spindle.
   virtual void expect_thread() = 0;
 
-  // The items sent in queue updates, and those of them that the board has executed. Null: items go to the board
-  // directly, and are executed as they are sent.
+  // Returns the items sent in queue updates, and those of them that the board has executed. Returns null if items go to
+  // the board directly, and are executed as they are sent.
   virtual QueueUpdateLedger* ledger() = 0;
 };
 

@@ -104,7 +104,7 @@ class MotionDrive {
   // Holds and ends the drive: the remaining path is dropped, a dwell is cut short, and the outputs are switched off.
   void stop();
   bool stopped() const { return holds_.has(HoldReason::stop); }
-  // True: the drive stopped because of a probe contact outside a probe move.
+  // Returns true if the drive stopped because of a probe contact outside a probe move.
   bool stopped_by_probe() const { return stopped_by_probe_; }
   // Only with stop ramps (tails), before the first advance(). Switches the outputs on as required at the start of the
   // path: the spindle first, then the wait, then the other outputs.

@@ -39,7 +39,7 @@ class ProbeMove {
   // backlash is taken up there for motion in the negative direction.
   void begin(const Action& action, AxisSet downs);
   bool is_running() const { return running_; }
-  // True: the watched event has happened.
+  // Returns true if the watched event has happened.
   bool contact() const { return link_.probe_report().happened; }
   // The same, once for each watch.
   [[nodiscard]] bool is_new_contact() { return contact() && !std::exchange(contact_seen_, true); }

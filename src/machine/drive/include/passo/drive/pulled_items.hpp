@@ -28,9 +28,9 @@ class PulledItems {
   const Item& operator[](std::size_t i) const { return items_[i]; }
   Item& last() { return items_.back(); }
   Seconds time() const { return time_; }
-  // True: a queue update may end after the last item.
+  // Returns true if a queue update may end after the last item.
   bool may_end() const { return items_.empty() || items_.back().tail; }
-  // True: it is worth computing a stop ramp after the last item.
+  // Returns true if it is worth computing a stop ramp after the last item.
   bool is_far_from_last_tail() const;
   StopRampSpeedLimiter::Speed highest_speed() const;
   // Removes the first `items` items, which were sent.

@@ -68,7 +68,7 @@ class QueueUpdateLedger {
 
   // Processes the number of the last executed item, as reported by the board.
   void on_executed(ItemNumber executed);
-  // The queue update that the board executes: none later has begun. Null: none.
+  // Returns the queue update that the board is executing (no later one has begun), or null if there is none.
   const Refill* under_way() const { return under_way_.empty() ? nullptr : &under_way_.front(); }
   // Call when the board has executed the last queue update. `on_tail`: including its stop ramp. Returns the stop point.
   StopOnPath end_refill(bool on_tail);

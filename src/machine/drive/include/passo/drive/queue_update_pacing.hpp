@@ -35,7 +35,7 @@ class QueueUpdatePacing {
 
   // Call when a query was sent after a queue update.
   void on_question() { asked_ = true; }
-  // True, once: the answer to that query must still be judged.
+  // Returns true once, if the answer to that query must still be judged.
   [[nodiscard]] bool take_question() { return std::exchange(asked_, false); }
   // Judges a response time. Returns false if the answer took too long, so that its contents are out of date. Longer
   // response times are expected from now on.

@@ -47,7 +47,7 @@ class RewindablePath final : public Source<PathItem> {
   std::uint64_t rewinds() const { return rewinds_; }
   // The point at `place`. The item must have been returned and be kept.
   Point point_at(const PathPosition& place) const;
-  // True: the item that next() returns next is known, and is locked to the spindle's angle.
+  // Returns true if the item that next() returns next is known, and is locked to the spindle's angle.
   bool is_in_thread() const;
   // The position of the item returned last.
   PathPosition last() const { return {.item = next_ - 1}; }

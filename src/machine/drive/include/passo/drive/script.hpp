@@ -23,7 +23,7 @@ class Script {
   void until(Condition condition) { steps_.push_back(std::move(condition)); }
   void clear() { steps_.clear(); }
 
-  // Runs all steps that are possible now. True: none is left.
+  // Runs all steps that are possible now. Returns true if none is left.
   [[nodiscard]] bool go_on() {
     while (!steps_.empty()) {
       // Moved out first, because the step may clear the script, including itself.

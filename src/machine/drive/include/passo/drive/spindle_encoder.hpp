@@ -33,10 +33,10 @@ class SpindleEncoder {
   Seconds stood() const { return now_.time - moved_at_; }
   // The time of `counts` at one revolution per second.
   Seconds time_of_counts(double counts) const { return Seconds(counts / counts_per_turn_); }
-  // True: index pulses were not a whole number of revolutions after the first one, or no index came for several
-  // revolutions.
+  // Returns true if index pulses were not a whole number of revolutions after the first one, or no index came for
+  // several revolutions.
   bool is_wrong() const;
-  // True: two index pulses were a whole number of revolutions apart, and no doubt is open.
+  // Returns true if two index pulses were a whole number of revolutions apart, and no doubt is open.
   bool is_right() const { return known_good_ && doubts_ == 0; }
 
  private:

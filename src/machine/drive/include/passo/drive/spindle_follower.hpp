@@ -33,7 +33,7 @@ class SpindleFollower {
   void reverse() { direction_ = -1; }
   // The spindle's speed, from the last readings. Negative: the counts decrease.
   double turns_per_second() const;
-  // True: according to the readings, the spindle is stopped or reversed `committed` after the last reading.
+  // Returns true if, according to the readings, the spindle is stopped or reversed `committed` after the last reading.
   bool is_reversing(Seconds committed) const;
   // Records a committed move.
   void watch(const PlannedMove& move);
@@ -48,7 +48,7 @@ class SpindleFollower {
 
   // The angle error of the tool at the end of the committed motion, in revolutions. 0 until the tool has had a lead-in.
   double missing(Seconds committed) const;
-  // True: the spindle is too fast for the axes to reach its speed.
+  // Returns true if the spindle is too fast for the axes to reach its speed.
   bool outruns_axes(Seconds committed) const;
   // The smallest and the largest result of ratio(). A spindle slower than `least_ratio` is not followed.
   static constexpr double least_ratio = 0.02;

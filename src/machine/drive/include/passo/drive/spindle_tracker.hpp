@@ -33,7 +33,7 @@ class SpindleTracker {
   void watch(const PlannedMove& move) { follower_.watch(move); }
   // How the last planned motion follows the spindle.
   SpindleLock lock() const { return follower_.lock(); }
-  // True: motion follows the spindle, or is about to.
+  // Returns true if motion follows the spindle, or is about to.
   bool follows() const { return follows_; }
 
   // Call between two steps of the drive. Returns false if the board has to answer first.
@@ -44,8 +44,8 @@ class SpindleTracker {
 
   // Starts to wait, at standstill, until the spindle reaches this speed and its index passes.
   void begin_await(double revolutions_per_minute);
-  // True: the motion must start now, or the tracker has given up. False: call again when the board has answered, or at
-  // next_poll().
+  // Returns true if the motion must start now, or the tracker has given up. Otherwise call again when the board has
+  // answered, or at next_poll().
   [[nodiscard]] bool await_index();
   Seconds next_poll() const { return looks_at_; }
 

@@ -82,12 +82,12 @@ class JobHistory {
   std::optional<HistoryJob> find(std::int64_t id) const;
   // Returns a job's program. Empty: there is no such job, or its program was deleted when it ended.
   std::optional<std::string> program_of(std::int64_t id) const;
-  // False: there is no such job, or it cannot be written; an end is then kept in memory. The program of a completed job
-  // is deleted.
+  // Returns false if there is no such job, or it cannot be written; an end is then kept in memory. The program of a
+  // completed job is deleted.
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now, std::string_view why_sentence = {});
   bool record_wait(std::int64_t id, const HistoryWait& wait);
-  // Removes a waiting job from the queue. False: it is not waiting.
+  // Removes a waiting job from the queue. Returns false if it is not waiting.
   bool remove(std::int64_t id);
   bool record_alarm(std::string_view words, double now, std::string_view sentence = {});
 
@@ -97,11 +97,11 @@ class JobHistory {
   std::vector<HistoryJob> ended(std::int64_t most) const;
   std::vector<HistoryAlarm> alarms(std::int64_t most) const;
 
-  // Flushes everything to the disk. False: some data is not on the disk yet; try again.
+  // Flushes everything to the disk. Returns false if some data is not on the disk yet; try again.
   bool keep();
   // The error of the last call that writes. Empty: it succeeded.
   const std::string& trouble() const { return trouble_; }
-  // True: some events are not written yet.
+  // Returns true if some events are not written yet.
   bool is_behind() const { return !unwritten_.empty() || !unwritten_alarms_.empty(); }
 
  private:

@@ -16,13 +16,13 @@ class JournaledRun {
   explicit JournaledRun(JournalStore& store) : writer_(store) {}
 
   // Writes the head. `entry`: for a continued job; empty: the caller of add_to() gives the entry point of the path.
-  // False: the head cannot be written.
+  // Returns false if the head cannot be written.
   [[nodiscard]] bool begin(const JournalHead& head, std::optional<JobEntry> entry = {});
   const std::optional<JobEntry>& entry() const { return entry_; }
   // Sets the run's entry point on the path, and adds the recording of stop points and probe results in the journal.
   // This object must outlive the run.
   void add_to(request::Start& start);
-  // False: a write failed, so the job could not be continued.
+  // Returns false if a write failed, so the job could not be continued.
   bool is_written() const { return !writer_.failed(); }
 
  private:

@@ -39,7 +39,7 @@ class KeptJob {
   // The same for a board that was disconnected, at another handshake. poll() determines the position later.
   void hear(const BoardStatus& status, const Greeting& greeting);
   void poll();
-  // Null: there is no interrupted job. The reason is up to date, because the machine may have moved since.
+  // Returns null if there is no interrupted job. The reason is up to date, because the machine may have moved since.
   const InterruptedJob* interrupted();
   // The job's program, and its start.
   std::string program() const;
@@ -54,8 +54,8 @@ class KeptJob {
     Point start;                       // start point of the path
     std::vector<ProbeOutcome> probes;  // the results of the probe moves before that position
   };
-  // Begins the journal of a job: writes its head, and gives the board a new session number. False: the journal cannot
-  // be written.
+  // Begins the journal of a job: writes its head, and gives the board a new session number. Returns false if the
+  // journal cannot be written.
   [[nodiscard]] bool begin(Beginning job);
   // The same, to continue the interrupted job. False, with the reason in interrupted(): it cannot continue.
   [[nodiscard]] bool resume(std::uint64_t path);
@@ -63,9 +63,9 @@ class KeptJob {
   Result<Reentry, Sentence> reentry();
   // The same as resume(), on that path.
   [[nodiscard]] bool reenter(std::uint64_t path);
-  // True: the board has received the number, so the job may start.
+  // Returns true if the board has received the number, so the job may start.
   bool is_named() const { return session_.board().ready(); }
-  // False: a write to the journal of the job failed, so the job could not be resumed.
+  // Returns false if a write to the journal of the job failed, so the job could not be resumed.
   bool is_written() const { return run_.is_written(); }
   // For the job that is about to start. After its start, an earlier interrupted job is no longer offered.
   void add_to(request::Start& start);

@@ -15,7 +15,7 @@ std::optional<std::string> read_state_file(const std::string& path);
 // Replaces such a file atomically: after a crash, the disk has the old or the new file. Returns its descriptor, open
 // for writing; a negative value is -errno, if it cannot be written.
 int replace_state_file(const std::string& path, std::string_view text);
-// Writes all bytes at this offset. False: errno gives the reason.
+// Writes all bytes at this offset. If it returns false, errno gives the reason.
 [[nodiscard]] bool write_all(int descriptor, std::string_view bytes, std::size_t offset);
 
 }  // namespace passo

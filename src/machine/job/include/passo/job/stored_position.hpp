@@ -23,9 +23,9 @@ class StoredPosition {
   // machine zero.
   KnownPosition counted(const MachineDescription& machine, const BoardStatus& status) const;
   // Stores the position. Call it before the board receives the numbers, because the board keeps them until it loses
-  // power. `zero_counts`: the board's count of each motor at machine zero. False: the file cannot be written, so the
-  // next process will not know the machine position. The previous record becomes useless once the board has the new
-  // numbers.
+  // power. `zero_counts`: the board's count of each motor at machine zero. Returns false if the file cannot be written,
+  // so the next process will not know the machine position. The previous record becomes useless once the board has the
+  // new numbers.
   [[nodiscard]] bool keep(const MachineDescription& machine, const KnownPosition& position,
                           const MotorSteps& zero_counts, const SessionNumbers& numbers);
 

@@ -58,7 +58,7 @@ struct JournalHead {
 class JournalStore {
  public:
   virtual ~JournalStore() = default;
-  // Replaces the whole contents by `text`, completely or not at all. False: `text` cannot be written.
+  // Replaces the whole contents by `text`, completely or not at all. Returns false if `text` cannot be written.
   [[nodiscard]] virtual bool replace(std::string_view text) = 0;
   // Overwrites bytes within the contents.
   [[nodiscard]] virtual bool overwrite(std::size_t offset, std::string_view bytes) = 0;
@@ -76,7 +76,7 @@ class JournalWriter {
   void begin(const JournalHead& head);
   void record(const BoardStop& rest);
   void record(const ProbeOutcome& outcome);
-  // True: a write failed, so the journal is unreliable.
+  // Returns true if a write failed, so the journal is unreliable.
   bool failed() const { return failed_; }
 
  private:
@@ -91,12 +91,12 @@ class Journal {
  public:
   // Reads a journal. Empty: the head or a probe result is damaged.
   static std::optional<Journal> read(std::string_view text);
-  // True: the text is a journal of any version, even if it is incomplete.
+  // Returns true if the text is a journal of any version, even if it is incomplete.
   static bool is_journal(std::string_view text);
 
   // The head with all known probe results, including those of its session.
   const JournalHead& head() const { return head_; }
-  // True: the board last worked on this job.
+  // Returns true if the board last worked on this job.
   bool is_of(const BoardStatus& status) const { return stage_of(status) != SessionNumbers::Stage::another; }
   // Returns the board's stop point on the path. The status must be that of a stopped board. Empty: the journal does not
   // contain that stop point.

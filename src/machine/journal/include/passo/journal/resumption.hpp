@@ -43,8 +43,8 @@ std::optional<ResumeRefusal> refuse_rest(const Journal& journal, const BoardStat
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
                                                    const ProgramReader& program, const MachineDescription& machine,
                                                    const InterpreterOptions& options);
-// True: the board's counts agree with the job at that point, or, before an unknown probe move, with a position on that
-// move.
+// Returns true if the board's counts agree with the job at that point, or, before an unknown probe move, with a
+// position on that move.
 bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status,
                const MachineDescription& machine);
 // Returns the machine position, at that point or on an unknown probe move.

@@ -2,7 +2,7 @@
 //
 // While the link is cut, all bytes in both directions are lost, including those in transit when the cut begins. Other
 // faults are modelled by a function of the caller, which gets every frame from the host and all bytes from the board,
-// and returns what arrives instead. A frame arrives with its last byte.
+// and returns what arrives instead. A frame arrives when its last byte does.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class VirtualLine final : public BoardPort {
   // The machine must outlive the link.
   VirtualLine(VirtualMachine& machine, Hertz clock, const LineOptions& options);
 
-  // Cuts the link at the time `from`, for `time`.
+  // Cuts the link at the time `from`, for the duration `time`.
   void cut(Seconds from, Seconds time);
   // `spoil(to_board, bytes)` returns the bytes that are transmitted instead of `bytes`.
   void set_trouble(std::function<Bytes(bool to_board, Bytes bytes)> spoil) { spoil_ = std::move(spoil); }

@@ -68,7 +68,7 @@ class VirtualMachine final : public BoardPort {
   // at 0, as after a reset.
   void stand_at(const MotorSteps& positions);
 
-  // False: the motors have no holding torque.
+  // Returns false if the motors have no holding torque.
   bool drivers_on() const { return hardware_.drivers_on == hardware_.drivers_obey(); }
 
   Ticks now() const { return Ticks{hardware_.now}; }

@@ -52,7 +52,7 @@ class BoundedMotor {
   NewtonMetres mean_torque() const { return is_reduced_ ? reduced_->mean_torque() : full_.mean_torque(); }
   bool rests() const { return is_reduced_ ? reduced_->rests() : full_.rests(); }
   int steps_per_full_step() const { return full_.steps_per_full_step(); }
-  // True: the bound holds now.
+  // Returns true if the bound holds now.
   bool is_reduced() const { return is_reduced_; }
 
  private:

@@ -46,7 +46,7 @@ class ReducedMotor {
   // Ends the current block, so that the state is that of this time.
   void end_block();
 
-  // Makes one driver step. False: the currents might not have settled yet. Then nothing was done.
+  // Makes one driver step. Returns false if the currents might not have settled yet. Then nothing was done.
   [[nodiscard]] bool step(int way) {
     if (since_ < need_) return false;
     since_ = 0;
@@ -74,7 +74,7 @@ class ReducedMotor {
     if (rests_ || !holds_) return PulseDone::time_only;
     return way == 0 || step(way) ? PulseDone::all : PulseDone::time_only;
   }
-  // True: the bound holds at the end of the last block. If not, the motor's time stops there.
+  // Returns true if the bound holds at the end of the last block. If not, the motor's time stops there.
   bool holds() const { return holds_; }
   // The time that has not passed, because the bound does not hold.
   Seconds left() const { return Seconds(left_); }

@@ -103,7 +103,7 @@ class RunningMotor {
   NewtonMetres torque() const { return {torque_}; }
   // The torque without its ripple: averaged over a few milliseconds.
   NewtonMetres mean_torque() const { return {mean_torque_}; }
-  // True: the rotor and its currents have settled. Until the next step, run() costs nothing.
+  // Returns true if the rotor and its currents have settled. Until the next step, run() costs nothing.
   bool rests() const { return rests_; }
 
  private:

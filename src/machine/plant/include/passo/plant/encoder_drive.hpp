@@ -35,7 +35,7 @@ class EncoderDrive {
   // Lets time pass, with one sample per cycle.
   void run(BoundedMotor& rotor, Seconds time);
 
-  // True: the drive is settled, and stays so until the next pulse.
+  // Returns true if the drive is settled, and stays so until the next pulse.
   bool rests(const BoundedMotor& rotor) const { return rotor.rests() && !recovers_ && settled_; }
   // The error counted in the last cycle, in steps. Positive: the rotor is behind.
   double error() const { return error_; }

@@ -82,7 +82,7 @@ class MachineSession {
   // The reason why this board cannot control the machine, as a sentence without a full stop.
   const std::string& trouble_words() const { return trouble_.sentence.text; }
 
-  // The current or else the last activity, for reports. Null: none of this kind.
+  // Returns the current activity, or otherwise the last one, for reports; null if there is none of this kind.
   const MotionDrive* drive() const;
   const Program* program() const;
   const HomingPath* homing() const;

@@ -53,8 +53,8 @@ class PositionTracker {
   void find_again(const BoardStatus& board, bool has_counted);
   // Sets the position at the end of a motion.
   void rest_at(const BoardPosition& place, AxisSet downs);
-  // False: the counts differ from the commanded position. This is reported once; later counts are compared from there
-  // on.
+  // Returns false if the counts differ from the commanded position. This is reported once; later counts are compared
+  // from there on.
   [[nodiscard]] bool agrees_with(const BoardStatus* board);
   // Sets the positions of homed axes from their switches. The other axes keep their positions.
   void home(const std::vector<HomedAxis>& homed, const BoardStatus* board);

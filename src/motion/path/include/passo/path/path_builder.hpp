@@ -117,7 +117,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   void expand(const operation::RigidTap& tap);
   Mm room_to_turn(const Curve& way) const;
   void switch_off();
-  // True: the function wrote an item.
+  // Returns true if the function wrote an item.
   bool add(const Operation& operation, PathItem& item);
   bool add_line(const Point& work_end, bool rapid, PathItem& item);
   bool add_probe(const operation::StraightProbe& probe, PathItem& item);
