@@ -57,7 +57,8 @@ std::string words_on_scale(const Drawing& drawing) {
     for (const double factor : {0.1, 10.0, 1 / mm_per_inch, mm_per_inch}) {
       if (!is_usual(middle * factor)) continue;
       return fmt::format(
-          "the median hole diameter is {:.4g} mm; the scale may be wrong by {:.4g}: with a factor of {:.4g} it would "
+          "the median hole diameter is {:.4g} mm; the scale may be off by a factor of {:.4g}: with a factor of {:.4g} "
+          "it would "
           "be {:.4g} mm",
           middle, factor < 1 ? 1 / factor : factor, factor, middle * factor);
     }
@@ -68,12 +69,14 @@ std::string words_on_scale(const Drawing& drawing) {
   const double middle = middle_of(distances);
   if (middle > 12 && are_multiples(distances, half_pitch * 10)) {
     return fmt::format(
-        "the hole spacing is a multiple of 12.7 mm; the scale may be wrong by 10: with a factor of 0.1 it would be "
+        "the hole spacing is a multiple of 12.7 mm; the scale may be off by a factor of 10: with a factor of 0.1 it "
+        "would be "
         "1.27 mm");
   }
   if (middle < 1.2 && are_multiples(distances, half_pitch / 10)) {
     return fmt::format(
-        "the hole spacing is a multiple of 0.127 mm; the scale may be wrong by 10: with a factor of 10 it would be "
+        "the hole spacing is a multiple of 0.127 mm; the scale may be off by a factor of 10: with a factor of 10 it "
+        "would be "
         "1.27 mm");
   }
   return {};

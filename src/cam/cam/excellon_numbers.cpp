@@ -148,7 +148,7 @@ void ExcellonNumbers::guess(const Evidence& evidence, std::vector<std::string>& 
   if (known_.zeros) zeros_ = *known_.zeros;
   if (!evidence.has_digits || evidence.says_zeros || known_.zeros) return;
   const std::size_t all = whole_digits() + decimals();
-  const char* reason = "the numbers do not show it";
+  const char* reason = "it cannot be inferred from the numbers";
   if (evidence.starts_with_0 && !evidence.ends_with_0) {
     zeros_ = LeftOutZeros::trailing;
     reason = "numbers start with 0, and none ends with 0";

@@ -107,7 +107,7 @@ const PlotterAperture* GerberPlotter::aperture() {
   if (found != apertures_.end()) return &found->second;
   if (code_ == 0) {
     findings_.refuse(0, 0, "gerber.no-aperture", "this draws without a selected aperture",
-                     "D10, or another aperture, before");
+                     "D10 or another aperture first");
   } else {
     findings_.refuse(
         0, 0, "gerber.no-aperture", fmt::format("aperture D{} is not defined", code_),
@@ -155,7 +155,7 @@ bool GerberPlotter::find_arc(DrawnPoint to, const ArcWords& words, GerberArc& ar
   if (quadrants == Quadrants::single) {
     if (find_quarter(at_, to, words.ij, counterclockwise, arc)) return arc.sweep != 0;
     return findings_.refuse(0, 0, "gerber.bad-arc", "no arc of up to 90 degrees joins these points",
-                            "I and J of the arc's centre, or G75 before");
+                            "I and J of the arc's centre, or G75 first");
   }
   const Offset start = offset_of(at_);
   arc = {at_, to, {start.x + words.ij.x, start.y + words.ij.y}, 0};
@@ -292,7 +292,7 @@ void GerberPlotter::end_region() {
 GerberPlotter::Frame* GerberPlotter::push_frame() {
   finish_stroke();
   if (frames_.size() < most_frames) return &frames_.emplace_back();
-  findings_.refuse(0, 0, "gerber.nested-too-deep", "aperture blocks are nested too deep",
+  findings_.refuse(0, 0, "gerber.nested-too-deep", "aperture blocks are nested too deeply",
                    fmt::format("at most {}", most_frames));
   return nullptr;
 }

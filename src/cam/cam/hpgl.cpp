@@ -148,7 +148,7 @@ bool HpglPlotter::carry_out_text(const HpglCommand& command) {
     const std::string_view text = words_.until(label_end_);
     if (from + text.size() >= text_.size()) {
       refuse(command.place, "hpgl.label", "this label is not closed",
-             label_end_ == '\x03' ? "the character ETX (code 3), or another terminator set by DT before"
+             label_end_ == '\x03' ? "the character ETX (code 3), or another terminator, set earlier by DT"
                                   : fmt::format("'{}', the terminator set by DT", label_end_));
       return true;
     }

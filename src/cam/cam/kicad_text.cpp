@@ -111,7 +111,7 @@ KicadItem KicadText::next() {
     const bool too_many = nodes_.size() > most_nodes;
     if (too_many || parents.size() > deepest) {
       refuse_at(at_, 1, too_many ? "kicad.too-large" : "kicad.too-deep",
-                too_many ? "this item has too many words" : "lists are nested too deep",
+                too_many ? "this item has too many words" : "lists are nested too deeply",
                 fmt::format("at most {}", too_many ? most_nodes : deepest));
       break;
     }

@@ -112,7 +112,7 @@ bool LineParser::parse_value(const char* owner) {
   const char c = peek();
   if (is_digit(c) || c == '.') return parse_number(owner);
   if (nesting_ == deepest_expression && !at_end()) {
-    return fail("gcode.expression-too-deep", at_, 1, "the expression is nested too deep",
+    return fail("gcode.expression-too-deep", at_, 1, "the expression is nested too deeply",
                 "at most " + std::to_string(deepest_expression) + " levels; store a part of it in a parameter");
   }
   ++nesting_;

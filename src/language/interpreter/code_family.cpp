@@ -99,7 +99,7 @@ bool CodeFamily::machine_end_point(Point& end) {
 bool CodeFamily::apply_polar(Point& end) {
   const char letter = words_.has('@') ? '@' : '^';
   if (state_.modal.plane() != Plane::xy) {
-    return fail("gcode.bad-polar", words_.span(letter), "polar coordinates outside the plane XY", "G17 before");
+    return fail("gcode.bad-polar", words_.span(letter), "polar coordinates outside the plane XY", "G17 first");
   }
   for (const char beside : {'X', 'Y'}) {
     if (!words_.has(beside)) continue;
@@ -134,7 +134,7 @@ bool CodeFamily::check_feed() {
   }
   if (state_.modal.per_revolution() && state_.spindles[0].speed == 0) {
     return fail("gcode.missing-speed", motion_span(), "feed per revolution (G95) without a spindle speed",
-                "S before, or in this block");
+                "S in this block or earlier");
   }
   return true;
 }

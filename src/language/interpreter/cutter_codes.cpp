@@ -114,7 +114,7 @@ bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
   setup.orientation = orientation;
   if (setup.plane == Plane::zx) return true;
   return fail("gcode.cutter-compensation", words_.span('L'),
-              "L, the orientation of a lathe tool, is only allowed in the plane ZX", "G18 before, or no L");
+              "L, the orientation of a lathe tool, is only allowed in the plane ZX", "G18 first, or no L");
 }
 
 // G41 and G42: D is a tool's number. Without D or with D0, the tool in the spindle counts.
@@ -139,7 +139,7 @@ bool CutterCodes::from_table(CutterSetup& setup) {
   }
   if (setup.plane == Plane::zx || setup.orientation == 0 || setup.orientation == 9) return true;
   return fail("gcode.cutter-compensation", span, fmt::format("tool {} is a lathe tool", tool->number),
-              "G18, the plane ZX, before");
+              "G18 (plane ZX) first");
 }
 
 bool CutterCodes::follow(const OperationKind& what) {

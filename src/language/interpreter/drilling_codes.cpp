@@ -84,7 +84,7 @@ bool DrillingCodes::check_spindle(CodeNumber number) {
   }
   if (!stops_spindle(number) || direction != SpindleDirection::off) return true;
   return fail("gcode.cycle-spindle", motion_span(), fmt::format("{} while the spindle does not turn", name),
-              "M3 or M4 before, or in this block");
+              "M3 or M4 in this block or earlier");
 }
 
 // Checks the words of the cycle. Only the first block must give all of them; later blocks may leave them out.

@@ -209,7 +209,7 @@ class GrblCheck {
     }
     if (codes_[group] != nullptr) {
       return fail(21, word.span,
-                  fmt::format("{} and {} are of the same group ({})", spelling(*codes_[group]), spelling(*entry),
+                  fmt::format("{} and {} are in the same group ({})", spelling(*codes_[group]), spelling(*entry),
                               row_of(entry->group).name),
                   interpreter_says::one_or_two_blocks);
     }
@@ -312,7 +312,7 @@ class GrblCheck {
   bool fail_feed() {
     const Span at = code_of(ModalGroup::motion) != nullptr ? code_span_ : first_axis_span();
     return fail(22, at, interpreter_says::no_feed,
-                is_inverse_time() ? "F in each block that feeds (G93)" : "F before, or in this block");
+                is_inverse_time() ? "F in each block that feeds (G93)" : "F in this block or earlier");
   }
   Span word_span(char letter, CodeNumber number) const {
     for (const Word& word : block_.words) {

@@ -27,7 +27,7 @@ inline constexpr SentenceRow unused_word{"gcode.unused-word", "no code of this b
 inline constexpr SentenceRow second_letter{"gcode.repeated-word", "a second {letter} in one block"};
 inline constexpr SentenceRow letter_once{"expected.letter-once", "each letter except G and M at most once"};
 inline constexpr SentenceRow same_group{
-    "gcode.modal-conflict", "{first} and {second} are of the same group ({group}) and cannot be in one block"};
+    "gcode.modal-conflict", "{first} and {second} are in the same group ({group}) and cannot be in one block"};
 inline constexpr SentenceRow one_or_two_blocks{"expected.one-or-two-blocks",
                                                "only one of them, or two separate blocks"};
 inline constexpr SentenceRow two_blocks{"expected.two-blocks", "two separate blocks"};

@@ -63,7 +63,7 @@ bool LatheCodes::check(CodeNumber number) {
                 "Q, the number of the subroutine with the contour");
   }
   if (state_.modal[plane] != code(18)) {
-    return fail("gcode.wrong-plane", motion_span(), fmt::format("{} outside the plane ZX", name), "G18 before");
+    return fail("gcode.wrong-plane", motion_span(), fmt::format("{} outside the plane ZX", name), "G18 first");
   }
   if (!(finishes(number) ? check_no_inverse_time(name) : check_cycle(name))) return false;
   const auto positive = [&](char letter) {

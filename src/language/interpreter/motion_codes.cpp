@@ -55,7 +55,7 @@ bool MotionCodes::check_scaling(CodeNumber number) {
   if (!state_.scaling.on) return true;
   if (words_.has_code(non_modal, code(53))) return true;
   if ((words_.present() & polar_letters).any()) {
-    return fail("gcode.scaled-motion", motion_span(), "polar coordinates while G51 scales", "G50 before, or X and Y");
+    return fail("gcode.scaled-motion", motion_span(), "polar coordinates while G51 scales", "G50 first, or X and Y");
   }
   if (number == code(2) || number == code(3)) {
     const PlaneAxes plane_axes = axes_of(state_.modal.plane());
@@ -69,7 +69,7 @@ bool MotionCodes::check_scaling(CodeNumber number) {
   }
   if (number <= code(5, 3) || number == code(33) || number == code(80)) return true;
   return fail("gcode.scaled-motion", motion_span(), fmt::format("{} while G51 scales", spelling('G', number)),
-              "G50 before");
+              "G50 first");
 }
 
 bool MotionCodes::traverse() {
@@ -99,7 +99,7 @@ bool MotionCodes::arc(bool clockwise) {
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
   if (is_of_uvw(state_.modal.plane())) {
     return fail("gcode.wrong-plane", motion_span(),
-                fmt::format("an arc in the plane {}", name_of(state_.modal.plane())), "G17, G18 or G19 before");
+                fmt::format("an arc in the plane {}", name_of(state_.modal.plane())), "G17, G18 or G19 first");
   }
 
   ArcCenter found;
@@ -240,7 +240,7 @@ bool MotionCodes::threading(bool tapping) {
   if (!spindle_word(SpindleChoice::one, spindle)) return false;
   if (state_.spindles[spindle.first].direction == SpindleDirection::off) {
     return fail("gcode.spindle-off", motion_span(), fmt::format("{} while the spindle does not turn", name),
-                "M3 or M4 before, or in this block");
+                "M3 or M4 in this block or earlier");
   }
   emit(operation::StartSpeedFeedSync{Mm(words_['K'] * state_.length_unit()), false, spindle.first});
   if (tapping) {

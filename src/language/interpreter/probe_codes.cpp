@@ -77,12 +77,12 @@ void ProbeCodes::apply_outcome() {
 bool ProbeCodes::check(CodeNumber number) {
   const std::string name = spelling('G', number);
   if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.probe-mode", motion_span(), name + " while the cutter radius is compensated", "G40 before");
+    return fail("gcode.probe-mode", motion_span(), name + " while the cutter radius is compensated", "G40 first");
   }
   if ((state_.modal.inverse_time() && !speaks_grbl()) || state_.modal.per_revolution()) {
     return fail("gcode.probe-mode", motion_span(),
                 fmt::format("{} in {}", name, state_.modal.inverse_time() ? "inverse time (G93)" : "G95"),
-                "G94 and F before");
+                "G94 and F first");
   }
   return check_feed();
 }

@@ -81,7 +81,7 @@ void Reporter::error(const EvaluationError& error) {
     case Kind::not_finite:
       return this->error("gcode.overflow", error.span, fmt::format("{} is too large to compute", what), {});
     case Kind::too_deep:
-      return this->error("gcode.too-deep", error.span, "the expression is nested too deep",
+      return this->error("gcode.too-deep", error.span, "the expression is nested too deeply",
                          fmt::format("at most {} pending operands", deepest_expression));
   }
 }

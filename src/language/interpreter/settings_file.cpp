@@ -77,7 +77,7 @@ constexpr Unfollowed unfollowed[] = {
     {"AXIS_B", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "B moves only by itself, unlocked, with G0"},
     {"AXIS_C", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "C moves only by itself, unlocked, with G0"},
     {"PYTHON", "TOPLEVEL", Severity::warning, "", "subroutines can be Python functions"},
-    {"WIZARD", "WIZARD_ROOT", Severity::warning, "", "subroutines are also searched in this folder"},
+    {"WIZARD", "WIZARD_ROOT", Severity::warning, "", "subroutines are also searched for in this folder"},
     {"TRAJ", "ANGULAR_UNITS", Severity::error, " deg degree 1 1.0 ", "angles are not in degrees"},
 };
 

@@ -43,10 +43,10 @@ double length_of(std::span<const ControlPoint> points) {
 bool SplineCodes::check() {
   if (state_.modal[cutter_compensation] != code(40) || cutter_.leaving()) {
     return fail("gcode.spline-compensated", motion_span(), "a spline while the cutter's radius is compensated",
-                "G40 and a straight move before, or lines and arcs");
+                "G40 and a straight move first, or lines and arcs");
   }
   if (state_.modal.plane() != Plane::xy) {
-    return fail("gcode.spline-plane", motion_span(), "a spline outside the plane XY", "G17 before");
+    return fail("gcode.spline-plane", motion_span(), "a spline outside the plane XY", "G17 first");
   }
   return check_axes();
 }
@@ -147,7 +147,7 @@ bool SplineCodes::nurbs_point() {
 bool SplineCodes::check_nurbs() {
   if (state_.modal[cutter_compensation] != code(40) || cutter_.leaving()) {
     return fail("gcode.spline-compensated", motion_span(), "a NURBS while the cutter's radius is compensated",
-                "G40 and a straight move before, or lines and arcs");
+                "G40 and a straight move first, or lines and arcs");
   }
   std::int32_t order = 0;
   if (words_.has('L')) {
@@ -159,7 +159,7 @@ bool SplineCodes::check_nurbs() {
 
 bool SplineCodes::check_nurbs_feed() {
   if (!state_.modal.inverse_time()) return check_feed();
-  return fail("gcode.spline-inverse-time", motion_span(), "a NURBS in inverse time (G93)", "G94 or G95 before");
+  return fail("gcode.spline-inverse-time", motion_span(), "a NURBS in inverse time (G93)", "G94 or G95 first");
 }
 
 bool SplineCodes::add_nurbs_point(bool first) {
@@ -196,7 +196,7 @@ bool SplineCodes::add_nurbs_point(bool first) {
 bool SplineCodes::end_nurbs() {
   state_.modal.set(motion, code(80));
   if (!nurbs_.open) {
-    return fail("gcode.no-nurbs", motion_span(), "G5.3 without G5.2 before", "G5.2 and its control points before");
+    return fail("gcode.no-nurbs", motion_span(), "G5.3 without a preceding G5.2", "G5.2 and its control points first");
   }
   close_nurbs();
   if (nurbs_.wrong) return false;  // which was reported

@@ -85,7 +85,7 @@ bool SubprogramCodes::check_macro_words(const SubprogramJump& call) {
         "P (the program), L (the number of calls), and the arguments A B C D E F H I J K M Q R S T U V W X Y Z");
   }
   if (call.kind == Kind::find_macro && modal_macro_) {
-    return fail("gcode.nested-macro", call.span, "G66 while another G66 is active", "G67 before");
+    return fail("gcode.nested-macro", call.span, "G66 while another G66 is active", "G67 first");
   }
   return true;
 }

@@ -75,7 +75,7 @@ bool ThreadingCodes::check() {
   }
   if (state_.spindles[0].direction != SpindleDirection::off) return true;
   return fail("gcode.spindle-off", motion_span(), "G76 while the spindle does not turn",
-              "M3 or M4 before, or in this block");
+              "M3 or M4 in this block or earlier");
 }
 
 bool ThreadingCodes::check_words() {

@@ -115,7 +115,7 @@ bool ToolCodes::reload_tools() {
   if (state_.tool != 0) {
     return fail("gcode.tool-loaded", words_.span('L'),
                 fmt::format("the tool table cannot be reloaded while tool {} is in the spindle", state_.tool),
-                "T0 M6 before");
+                "T0 M6 first");
   }
   for (const Word& word : reporter_.block().words) {
     if (word.letter == 'G' || word.letter == 'L' || !(LetterSet("PRIJQ") | axis_letters).has(word.letter)) continue;

@@ -121,7 +121,8 @@ void KeptJob::check_place() {
   if (!is_sure || session_.state() != MachineState::idle || !status) return;
   interrupted_->why = {};
   if (stands_at(interrupted_->journal.head, *interrupted_->point, *status, machine_)) return;
-  refuse(code_of(ResumeRefusal::counts_differ), "the machine was moved since: move it back to where the job stopped");
+  refuse(code_of(ResumeRefusal::counts_differ),
+         "the machine has been moved since then: move it back to where the job stopped");
 }
 
 const InterruptedJob* KeptJob::interrupted() {

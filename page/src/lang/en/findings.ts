@@ -53,7 +53,7 @@ export const findings = {
   'gcode.unused-word': 'no code of this block uses the word {letter}',
   'gcode.repeated-word': 'a second {letter} in one block',
   'expected.letter-once': 'each letter except G and M at most once',
-  'gcode.modal-conflict': '{first} and {second} are of the same group ({group}) and cannot be in one block',
+  'gcode.modal-conflict': '{first} and {second} are in the same group ({group}) and cannot be in one block',
   'expected.one-or-two-blocks': 'only one of them, or two separate blocks',
   'expected.two-blocks': 'two separate blocks',
   'gcode.axis-conflict': '{first} and {second} both use the axis words of the block',
