@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "passo/activity/activity.hpp"
-#include "passo/activity/common_mistakes.hpp"
+#include "passo/activity/frequent_mistakes.hpp"
 #include "passo/activity/low_rapids.hpp"
 #include "passo/activity/operator_messages.hpp"
 #include "passo/activity/program_stages.hpp"
@@ -67,7 +67,7 @@ class ProgramChecker {
   ToolTable tools_;  // the tool table before the check
   Interpreter interpreter_;
   ToolTrack track_;
-  CommonMistakes mistakes_;
+  FrequentMistakes mistakes_;
   LowRapids low_rapids_;
   SpindleMistakes spindle_mistakes_;
   Tap<Operation> operations_;

@@ -1,6 +1,6 @@
-// CommonMistakes: warns of code that is valid, but rarely intended: a program without a unit; a feed while the spindle
-// is off; M3 at S0; '%' at the end with the spindle on; a dwell of minutes, probably meant in milliseconds; an arc that
-// is nearly a circle; S or T without effect.
+// FrequentMistakes: warns of code that is valid, but rarely intended: a program without a unit; a feed while the
+// spindle is off; M3 at S0; '%' at the end with the spindle on; a dwell of minutes, probably meant in milliseconds; an
+// arc that is nearly a circle; S or T without effect.
 //
 // Each mistake is reported once, at its first position, with the other lines that repeat it. The spindle warnings are
 // for machines whose file gives the spindle a speed (tool.max_rpm). A laser, a hot wire and a pen have none; there S is
@@ -14,10 +14,10 @@
 
 namespace passo {
 
-class CommonMistakes : OperationWatcher {
+class FrequentMistakes : OperationWatcher {
  public:
   // `units`: the units before the program sets any; inches were then chosen by the user.
-  CommonMistakes(const MachineDescription& machine, LengthUnits units, std::string file, Diagnostics& diagnostics);
+  FrequentMistakes(const MachineDescription& machine, LengthUnits units, std::string file, Diagnostics& diagnostics);
 
   // Call it for each operation of the program, in order.
   void watch(const Operation& operation, const ToolTrack& track);

@@ -1,4 +1,4 @@
-#include "passo/activity/common_mistakes.hpp"
+#include "passo/activity/frequent_mistakes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,13 +40,13 @@ bool is_nearly_circle(const operation::ArcFeed& arc, const Point& from) {
 
 }  // namespace
 
-CommonMistakes::CommonMistakes(const MachineDescription& machine, LengthUnits units, std::string file,
-                               Diagnostics& diagnostics)
+FrequentMistakes::FrequentMistakes(const MachineDescription& machine, LengthUnits units, std::string file,
+                                   Diagnostics& diagnostics)
     : OperationWatcher(std::move(file), diagnostics),
       has_spindle_(machine.tool.highest_rpm > 0),
       knows_units_(units == LengthUnits::inch) {}
 
-void CommonMistakes::watch(const Operation& operation, const ToolTrack& track) {
+void FrequentMistakes::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
   const OperationKind& what = operation.what;
   if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(operation)) {
@@ -73,29 +73,29 @@ void CommonMistakes::watch(const Operation& operation, const ToolTrack& track) {
 }
 
 // A speed has no effect on a spindle that is switched on and off.
-void CommonMistakes::idle_speed(const Operation& operation) {
+void FrequentMistakes::idle_speed(const Operation& operation) {
   warn(operation, "path.idle-speed", mistakes_say::idle_speed, mistakes_say::speed_in_machine_file);
 }
 
-void CommonMistakes::change_tool() {
+void FrequentMistakes::change_tool() {
   probes_ = false;
   changes_tools_ = true;
   idle_tool_.reset();
 }
 
 // T alone selects a tool. Programs often select the next tool early, so only a program without any change is wrong.
-void CommonMistakes::select(const Operation& operation, std::int32_t tool) {
+void FrequentMistakes::select(const Operation& operation, std::int32_t tool) {
   if (changes_tools_ || tool == 0) return;
   if (idle_tool_) return idle_tool_->add_line(operation.source.line);
   idle_tool_ = warning(operation, "path.idle-tool", mistakes_say::idle_tool.with({{"tool", std::to_string(tool)}}),
                        mistakes_say::tool_change);
 }
 
-void CommonMistakes::finish() {
+void FrequentMistakes::finish() {
   if (idle_tool_) diagnostics_.add_certain(*std::exchange(idle_tool_, std::nullopt));
 }
 
-void CommonMistakes::dwell(const Operation& operation, Seconds time) {
+void FrequentMistakes::dwell(const Operation& operation, Seconds time) {
   if (!is_in_milliseconds(time) || is_noted(operation, "path.long-dwell")) return;
   const std::string written = fmt::format("{:g}", time.value());
   diagnostics_.add_certain(warning(
@@ -103,7 +103,7 @@ void CommonMistakes::dwell(const Operation& operation, Seconds time) {
       mistakes_say::dwell_in_seconds.with({{"short", fmt::format("{:g}", time.value() / 1000)}, {"time", written}})));
 }
 
-void CommonMistakes::turn_spindle(const Operation& operation, SpindleDirection direction) {
+void FrequentMistakes::turn_spindle(const Operation& operation, SpindleDirection direction) {
   spindle_ = direction;
   turned_at_zero_.reset();
   left_on_.reset();
@@ -115,12 +115,12 @@ void CommonMistakes::turn_spindle(const Operation& operation, SpindleDirection d
       warning(operation, "path.spindle-at-zero", mistakes_say::spindle_at_zero, mistakes_say::speed_first);
 }
 
-void CommonMistakes::move(const Operation& operation) {
+void FrequentMistakes::move(const Operation& operation) {
   if (std::exchange(knows_units_, true)) return;
   diagnostics_.add_certain(warning(operation, "path.no-units", mistakes_say::no_units, mistakes_say::units_first));
 }
 
-void CommonMistakes::feed(const Operation& operation) {
+void FrequentMistakes::feed(const Operation& operation) {
   move(operation);
   if (!has_spindle_) return;
   if (turned_at_zero_) {
@@ -130,7 +130,7 @@ void CommonMistakes::feed(const Operation& operation) {
   }
 }
 
-void CommonMistakes::arc(const Operation& operation, const operation::ArcFeed& arc, const Point& from) {
+void FrequentMistakes::arc(const Operation& operation, const operation::ArcFeed& arc, const Point& from) {
   if (!is_nearly_circle(arc, from) || is_noted(operation, "path.nearly-circle")) return;
   const PlaneAxes axes = axes_of(arc.plane);
   const double gap = std::hypot(arc.end[axes.first] - from[axes.first], arc.end[axes.second] - from[axes.second]);
