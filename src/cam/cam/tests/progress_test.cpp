@@ -1,5 +1,6 @@
 // The progress of the operations: it grows step by step to its end, and changes no program.
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -56,12 +57,20 @@ void expect_even(const std::vector<double>& shares, double longest) {
   EXPECT_GE(before, 1 - longest);
 }
 
+// After the loops, the union of all that they sweep is a single call of Clipper: three quarters of the time.
 TEST(CamProgress, of_a_pocket_grows_with_each_loop) {
-  expect_even(shares_of([](const WorkProgress& progress) {
-                Diagnostics findings;
-                return text_of(plan_pocket(square(0, 0, 60), {}, findings, progress).mill);
-              }),
-              0.45);
+  const std::vector<double> shares = shares_of([](const WorkProgress& progress) {
+    Diagnostics findings;
+    return text_of(plan_pocket(square(0, 0, 60), {}, findings, progress).mill);
+  });
+  ASSERT_GT(shares.size(), 5U);
+  EXPECT_EQ(shares.back(), 1);
+  double before = 0;
+  for (const double share : std::span(shares).first(shares.size() - 1)) {
+    EXPECT_LE(share - before, 0.1) << "from " << before;
+    before = share;
+  }
+  EXPECT_NEAR(before, 0.25, 1e-9);
 }
 
 TEST(CamProgress, of_constant_engagement_grows_while_discs_are_placed) {

@@ -67,7 +67,7 @@ TEST(LevelPicture, that_is_too_large_is_refused_before_memory_is_taken) {
   EXPECT_THAT(read_picture(test::png_of_levels(wide)).words, HasSubstr("65,535 per side"));
   LevelPicture thin{.columns = 1, .rows = 5};
   thin.levels.assign(5, 0);
-  EXPECT_THAT(read_picture(test::png_of_levels(thin)).words, HasSubstr("less than two rows or columns"));
+  EXPECT_THAT(read_picture(test::png_of_levels(thin)).words, HasSubstr("fewer than two rows or columns"));
   EXPECT_THAT(read_picture(test::png_of_levels(all_levels()), PixelLevel::alpha).words, HasSubstr("no alpha channel"));
 }
 

@@ -32,7 +32,7 @@ TEST(TuningPrograms, stay_within_the_travel_and_move_the_named_axes_only) {
 
 TEST(TuningRuns, lower_the_limits_until_the_motors_are_safe) {
   const MachineDescription machine = test::example_machine("strong-router");
-  const auto result = tuned(machine, {.wish = {}, .axes = {Axis::x}});
+  const auto result = tuned(machine, {.wish = {.margin = 0.3}, .axes = {Axis::x}});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->verdict, Verdict::safe);
   ASSERT_EQ(result->axes.size(), 1U);
