@@ -43,6 +43,9 @@ if(PASSO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     "${PASSO_CCACHE}")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(passo_compiler INTERFACE -fpch-preprocess)
+  else()
+    # What the cache returns was compiled from another file of the same contents.
+    target_compile_options(passo_compiler INTERFACE "SHELL:-Xclang -fno-pch-timestamp")
   endif()
 endif()
 
