@@ -66,7 +66,8 @@ TEST(Dxf, units_come_from_the_header_or_are_told_or_guessed) {
 
 TEST(Dxf, a_drawing_that_is_off_by_ten_is_told) {
   const ReadDxf wide = read_text(entities("0 CIRCLE 8 0 10 1 20 0 40 4 0 CIRCLE 8 0 10 26 20 0 40 4", in_mm));
-  EXPECT_THAT(wide.drawing.notes, testing::ElementsAre(testing::HasSubstr("off by a factor of 10: with a factor of 0.1")));
+  EXPECT_THAT(wide.drawing.notes,
+              testing::ElementsAre(testing::HasSubstr("off by a factor of 10: with a factor of 0.1")));
   std::string points;
   for (int i = 0; i < 8; ++i) points += "0 POINT 8 0 10 " + std::to_string(i * 25.4) + " 20 7 ";
   EXPECT_THAT(read_text(entities(points, in_mm)).drawing.notes,
