@@ -28,10 +28,6 @@ constexpr std::array speeds = {Speed{9600, B9600},         Speed{19200, B19200},
                                Speed{921'600, B921600},    Speed{1'000'000, B1000000}, Speed{1'152'000, B1152000},
                                Speed{1'500'000, B1500000}, Speed{2'000'000, B2000000}};
 
-std::string reason() {
-  return std::strerror(errno);
-}
-
 // Eight raw bits, without flow control. No hang-up at the end: closing the line does not reset an Arduino.
 bool set_raw(int descriptor, speed_t speed) {
   termios settings{};
@@ -77,7 +73,7 @@ Result<int, std::string> open_serial_line(const std::string& device, unsigned ba
   const int descriptor = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     const bool denied = errno == EACCES;
-    return Failure{device + ": " + reason() +
+    return Failure{device + ": " + std::strerror(errno) +
                    (denied ? " (only members of the group dialout have access: adduser NAME dialout)" : "")};
   }
   // Two programs on one line would each get half of the answers.
@@ -89,7 +85,7 @@ Result<int, std::string> open_serial_line(const std::string& device, unsigned ba
     static_cast<void>(hurry_adapter(descriptor, device));
     return descriptor;
   }
-  std::string message = device + ": not a serial port: " + reason();
+  std::string message = device + ": not a serial port: " + std::strerror(errno);
   close(descriptor);
   return Failure{std::move(message)};
 }

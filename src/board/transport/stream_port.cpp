@@ -25,10 +25,6 @@ constexpr Seconds longest_write{2};
 constexpr Seconds between_attempts{0.2};
 constexpr timeval longest_connect{.tv_sec = 5, .tv_usec = 0};
 
-std::string reason_of_failure() {
-  return std::strerror(errno);
-}
-
 // As write(), but a connection that the other side has closed is an error and no signal: the program goes on.
 ssize_t put(int descriptor, std::span<const std::uint8_t> bytes) {
   const ssize_t sent = send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -57,7 +53,7 @@ Result<int, std::string> connect_tcp(const BoardAddress& address) {
     }
   }
   freeaddrinfo(found);
-  if (descriptor < 0) return Failure{name + ": " + reason_of_failure()};
+  if (descriptor < 0) return Failure{name + ": " + std::strerror(errno)};
   // Frames are small and must not wait for more data.
   const int on = 1;
   setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

@@ -12,6 +12,10 @@
 
 namespace passo::proof {
 
+constexpr double squared(double value) {
+  return value * value;
+}
+
 class AxisRamp {
  public:
   AxisRamp(const ProvenAxis& axis, const SpeedLimit& limit);

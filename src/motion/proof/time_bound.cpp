@@ -21,14 +21,10 @@ constexpr double least_part = 1e-6;
 constexpr double nearly_back = 0.999;
 constexpr int halvings = 60;  // of a bisection: down to rounding
 
-double square(double value) {
-  return value * value;
-}
-
 template <class Row>
 double squares_of(const Row& slope) {
   double sum = 0;
-  for (const double part : slope) sum += square(part);
+  for (const double part : slope) sum += squared(part);
   return sum;
 }
 
@@ -71,17 +67,17 @@ void TimeBound::rest(Seconds dwell) {
 
 void TimeBound::add_curve(const Segment& segment) {
   const ExactCurve curve(segment.curve);
-  const double feed = std::min(square(segment.speed.value()), fastest);
+  const double feed = std::min(squared(segment.speed.value()), fastest);
   Place from = place_at(curve, 0);
   Joint start = joint_at(from);
   double scale = 1;
   double kink = fastest;
   if (joint_) {
-    scale = start.steepness > 0 ? square(joint_->steepness / start.steepness) : 1;
+    scale = start.steepness > 0 ? squared(joint_->steepness / start.steepness) : 1;
     kink = kink_cap(*joint_, start);
     double slowest = fastest;
     for (const ProvenAxis& axis : axes_) slowest = std::min(slowest, axis.velocity.value());
-    bool rests = kink * square(start.steepness) < square(as_good_as_rest * slowest);
+    bool rests = kink * squared(start.steepness) < squared(as_good_as_rest * slowest);
     if (any_jumps_ && kink < std::max(start.rest_cap, joint_->rest_cap * scale)) {
       // The motion passes the kink, or stops and starts at two speeds of its own.
       start.rest_cap = std::max(start.rest_cap, kink);
@@ -152,10 +148,10 @@ void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place
   cell.cap = std::min(feed, cap_within(from, middle, to));
   cell.entry.cap = std::min(feed, from.cap);
   cell.exit.cap = std::min(feed, to.cap);
-  cell.standing = square(standing) * std::max(squares_of(from.slope), squares_of(to.slope));
+  cell.standing = squared(standing) * std::max(squares_of(from.slope), squares_of(to.slope));
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    cell.entry.slope[i] = square(from.slope[i]);
-    cell.exit.slope[i] = square(to.slope[i]);
+    cell.entry.slope[i] = squared(from.slope[i]);
+    cell.exit.slope[i] = squared(to.slope[i]);
     // Simpson's rule, exact for cubics. A difference of places would lose the digits of a short way.
     cell.way[i] = (from.slope[i] + 4 * middle.slope[i] + to.slope[i]) * cell.length / 6;
   }
@@ -170,7 +166,7 @@ TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
     place.slope[i] = q.first;
     place.bend[i] = q.second;
     const double velocity = axes_[i].velocity.value();
-    if (velocity > 0 && q.first != 0) place.cap = std::min(place.cap, square(velocity / q.first));
+    if (velocity > 0 && q.first != 0) place.cap = std::min(place.cap, squared(velocity / q.first));
   }
   if (curve.is_line()) return place;
   std::size_t pair = 0;
@@ -218,7 +214,7 @@ double TimeBound::cap_within(const Place& from, const Place& middle, const Place
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double least = std::min(std::abs(from.slope[i]), std::abs(to.slope[i]));
     const double velocity = axes_[i].velocity.value();
-    if (velocity > 0 && least > 0) cap = std::min(cap, square(velocity / least));
+    if (velocity > 0 && least > 0) cap = std::min(cap, squared(velocity / least));
   }
   const std::size_t pairs = axes_.size() * (axes_.size() - 1) / 2;
   for (std::size_t pair = 0; pair < pairs; ++pair) {
@@ -243,7 +239,7 @@ double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double jump = std::abs(after.direction[i] - before.direction[i]) * after.steepness;
     if (jump > 0 && axes_[i].velocity.value() > 0)
-      cap = std::min(cap, square(rounding * axes_[i].velocity.value() / jump));
+      cap = std::min(cap, squared(rounding * axes_[i].velocity.value() / jump));
   }
   return cap;
 }
@@ -255,7 +251,7 @@ double TimeBound::rest_cap(const Row& slope) const {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (!ramps_[i].limits() || slope[i] == 0) continue;
     const double most = axes_[i].start_stop.value() + rounding * axes_[i].velocity.value();
-    cap = std::min(cap, square(most / slope[i]));
+    cap = std::min(cap, squared(most / slope[i]));
   }
   return cap;
 }
@@ -276,7 +272,7 @@ double TimeBound::least_time(const Cell& cell, double entry, double exit) const 
     const double steepest = std::max(cell.entry.slope[i], cell.exit.slope[i]);
     if (!ramps_[i].limits() || !(steepest > cell.standing)) continue;
     double top = steepest * cell.cap;
-    if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, square(axes_[i].velocity.value()));
+    if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, squared(axes_[i].velocity.value()));
     const AxisRamp::Squares squares{.start = cell.entry.slope[i] * entry, .end = cell.exit.slope[i] * exit, .top = top};
     time = std::max(time, ramps_[i].least_time(squares, std::abs(cell.way[i])));
   }
@@ -334,7 +330,7 @@ JerkTimeBound::Rides TimeBound::rides_in(const Cell& cell, double entry, double 
     const double steepest = std::max(cell.entry.slope[i], cell.exit.slope[i]);
     if (!(steepest > cell.standing)) continue;
     const double velocity = axes_[i].velocity.value();
-    const double top = velocity > 0 ? std::min(steepest * cell.cap, square(velocity)) : steepest * cell.cap;
+    const double top = velocity > 0 ? std::min(steepest * cell.cap, squared(velocity)) : steepest * cell.cap;
     rides[i] = {
         .way = cell.way[i], .entry = cell.entry.slope[i] * entry, .exit = cell.exit.slope[i] * exit, .top = top};
   }
@@ -350,8 +346,8 @@ bool TimeBound::goes_back(const Joint& before, const Joint& after) const {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (!(axes_[i].jerk > MmPerSecond3(0))) continue;
     common += before.direction[i] * after.direction[i];
-    size_before += square(before.direction[i]);
-    size_after += square(after.direction[i]);
+    size_before += squared(before.direction[i]);
+    size_after += squared(after.direction[i]);
   }
   return common < -nearly_back * std::sqrt(size_before * size_after);
 }
@@ -368,7 +364,7 @@ void TimeBound::add_to_line(const Segment& segment, const Place& place) {
     return;
   }
   line.length += segment.curve.length().value();
-  line.top = std::max(line.top, std::sqrt(std::min(place.cap, square(segment.speed.value()))));
+  line.top = std::max(line.top, std::sqrt(std::min(place.cap, squared(segment.speed.value()))));
   if (line.curves++ > 0) return;
   line.direction = place.slope;
   const auto lower = [](double& lowest, double limit, double part) {

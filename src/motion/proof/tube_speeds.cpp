@@ -12,10 +12,6 @@ constexpr std::array<std::size_t, 3> spans = {1, 4, 16};  // of the legs whose n
 constexpr double parallel = 1e-6;
 constexpr double as_good = 0.98;
 
-double squared(double value) {
-  return value * value;
-}
-
 // The greatest speed with which a way can be left that is no longer than this and takes no less than this time.
 double speed_on(double way, double time, double strength) {
   const double free = std::sqrt(2 * strength * way);
