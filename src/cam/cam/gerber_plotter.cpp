@@ -28,10 +28,6 @@ double radius_at(DrawnPoint point, Offset centre) {
   return std::hypot(static_cast<double>(point.x.count) - centre.x, static_cast<double>(point.y.count) - centre.y);
 }
 
-Offset offset_of(DrawnPoint point) {
-  return {static_cast<double>(point.x.count), static_cast<double>(point.y.count)};
-}
-
 // Single quadrant mode: I and J have no signs. Of the centres that make the arc turn by a right angle at most, the one
 // that is as far from both ends.
 bool find_quarter(DrawnPoint from, DrawnPoint to, Offset ij, bool counterclockwise, GerberArc& arc) {

@@ -17,6 +17,9 @@ struct Offset {  // a point before rounding, nm
   double y = 0;
 };
 
+inline Offset offset_of(DrawnPoint point) {
+  return {static_cast<double>(point.x.count), static_cast<double>(point.y.count)};
+}
 DrawnPoint rounded(Offset place);
 Offset turned(Offset place, double radians);
 inline DrawnPoint moved(DrawnPoint point, DrawnPoint by) {

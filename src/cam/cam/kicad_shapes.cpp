@@ -18,18 +18,14 @@ double as_double(Nanometres length) {
   return static_cast<double>(length.count);
 }
 
-Offset offset_to(DrawnPoint point) {
-  return {as_double(point.x), as_double(point.y)};
-}
-
 Nanometres half_of(Nanometres length) {
   return {length.count / 2};
 }
 
 // An arc by its middle: the angle there, between the ways to both ends, is half a turn less half of the sweep.
 double bulge_by_middle(DrawnPoint from, DrawnPoint middle, DrawnPoint to) {
-  const Offset a = offset_to({from.x - middle.x, from.y - middle.y});
-  const Offset b = offset_to({to.x - middle.x, to.y - middle.y});
+  const Offset a = offset_of({from.x - middle.x, from.y - middle.y});
+  const Offset b = offset_of({to.x - middle.x, to.y - middle.y});
   const double cross = a.x * b.y - a.y * b.x;
   const double angle = std::atan2(std::abs(cross), a.x * b.x + a.y * b.y);
   const double bulge = std::tan((pi - angle) / 2);
@@ -82,7 +78,7 @@ void add_arc(KicadText& text, KicadItem item, const KicadFrame& frame, DrawnPath
   const KicadItem angle = item.find("angle");
   const double sweep = angle ? std::clamp(-text.number(angle, 0), -360.0, 360.0) / 180 * pi : 0;
   const auto at = [&](double share) {
-    const Offset place = turned(offset_to({end.x - start.x, end.y - start.y}), sweep * share);
+    const Offset place = turned(offset_of({end.x - start.x, end.y - start.y}), sweep * share);
     return frame.placed(moved(rounded(place), start));
   };
   const double bulge = std::tan(sweep / 8);
@@ -93,7 +89,7 @@ void add_curve(KicadText& text, KicadItem item, const KicadFrame& frame, DrawnPa
   const std::vector<PathPoint> points = kicad_points(text, item.find("pts"));
   if (points.size() != 4) return;
   Offset p[4];
-  for (std::size_t i = 0; i < 4; ++i) p[i] = offset_to(points[i].at);
+  for (std::size_t i = 0; i < 4; ++i) p[i] = offset_of(points[i].at);
   const auto bend = [&p](std::size_t i) {
     return std::hypot(p[i].x - 2 * p[i + 1].x + p[i + 2].x, p[i].y - 2 * p[i + 1].y + p[i + 2].y);
   };
@@ -165,7 +161,7 @@ double share_of(KicadText& text, KicadItem shape, std::string_view name) {
 }  // namespace
 
 DrawnPoint KicadFrame::placed(DrawnPoint local) const {
-  if (degrees != 0) local = rounded(turned(offset_to(local), degrees / 180 * pi));
+  if (degrees != 0) local = rounded(turned(offset_of(local), degrees / 180 * pi));
   return moved(local, at);
 }
 
