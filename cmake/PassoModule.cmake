@@ -128,18 +128,19 @@ function(passo_test_headers)
 endfunction()
 
 
-# passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number] [COST seconds]
-#            [ALONE] [CALCULATES])
+# passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [SLOW filter] [DEFINITIONS name=value…]
+#            [COST seconds] [ALONE] [CALCULATES])
 #
-# A GoogleTest program; APART as for passo_module. Tests without a label are fast: a developer runs them at every change. ONE_IN: of the trials of
-# random tests they make one in so many (tests/kit/in_full.hpp). COST: how long they take, as for passo_slow_test.
+# A GoogleTest program; APART as for passo_module. Tests without a label are fast: a developer runs them at every change.
+# SLOW: the tests of this filter of GoogleTest get the label slow. COST: how long they take, as for passo_slow_test.
 # ALONE: no other test runs beside it. CALCULATES: its own code is worth optimising.
 function(passo_test name)
-  cmake_parse_arguments(ARG "ALONE;CALCULATES" "ONE_IN;COST" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;CALCULATES" "COST;SLOW" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  set(one_in 0)  # of the trials of random tests, as each decides (tests/kit/in_full.hpp)
   if(PASSO_SANITIZE)
-    set(ARG_ONE_IN 16)  # a trial takes ten times as long
-  elseif(PASSO_TESTS_IN_FULL OR NOT ARG_ONE_IN)
-    set(ARG_ONE_IN 1)
+    set(one_in 16)  # a trial takes ten times as long
+  elseif(PASSO_TESTS_IN_FULL)
+    set(one_in 1)
   endif()
   add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   if(PASSO_TOGETHER)
@@ -157,7 +158,7 @@ function(passo_test name)
   target_compile_options(${name} PRIVATE ${PASSO_TEST_OPTIMISATION_${calculates}})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
-    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${ARG_ONE_IN}
+    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${one_in}
     $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> $<$<TARGET_EXISTS:motion_uno>:PASSO_MAKES_FIRMWARE> ${ARG_DEFINITIONS})
   target_precompile_headers(${name} REUSE_FROM passo_test_headers_${calculates})
   set(properties TIMEOUT 600)
@@ -177,7 +178,11 @@ function(passo_test name)
       ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks_of_libraries.txt")
     return()
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  if(ARG_SLOW)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${ARG_SLOW}" PROPERTIES ${properties} LABELS slow)
+    set(ARG_SLOW TEST_FILTER "-${ARG_SLOW}")
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 ${ARG_SLOW} PROPERTIES ${properties})
 endfunction()
 
 # passo_slow_test(NAME SECONDS COMMAND program [argument…] [ENVIRONMENT name=value…] [IN_FULL name=value…])

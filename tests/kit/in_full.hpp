@@ -1,7 +1,8 @@
 // The number of trials of tests.
 //
 // PASSO_IN_FULL=N in the environment runs the tests that take minutes, with one in N of their trials. 1 means all
-// trials. cmake/PassoModule.cmake defines PASSO_ONE_IN: all other tests run one in PASSO_ONE_IN of their trials.
+// trials. cmake/PassoModule.cmake defines PASSO_ONE_IN for all other tests: they run one in so many of their trials;
+// with 0 each test decides.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +27,12 @@ class InFull : public Test {
   }
 };
 
-inline constexpr int one_in = PASSO_ONE_IN;
-constexpr int fewer(int trials) {
-  return std::max(trials / one_in, 1);
+// `usual`: the test's own decision.
+constexpr int one_in(int usual = 1) {
+  return PASSO_ONE_IN != 0 ? PASSO_ONE_IN : usual;
+}
+constexpr int fewer(int trials, int usual = 1) {
+  return std::max(trials / one_in(usual), 1);
 }
 
 }  // namespace passo::test

@@ -307,12 +307,12 @@ struct RandomJob {
 };
 
 // Calls `try_one` for PASSO_RUNS numbers, beginning with PASSO_SEED, each time with the number's job and generator.
-// Ends at the first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, divided by PASSO_ONE_IN. Each job
-// depends only on its number.
+// Ends at the first failure. Without PASSO_RUNS there are `runs_otherwise` numbers. Each job depends
+// only on its number.
 template <class Try>
 void for_each_job(int runs_otherwise, const Try& try_one, Machines machines = Machines::as_drawn) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);
-  const std::uint64_t runs = number_of("PASSO_RUNS", static_cast<std::uint64_t>(fewer(runs_otherwise)));
+  const std::uint64_t runs = number_of("PASSO_RUNS", static_cast<std::uint64_t>(runs_otherwise));
   for (std::uint64_t number = first; number < first + runs && !testing::Test::HasFailure(); ++number) {
     Random random = Random::of(number);
     const RandomJob job = RandomJob::of(machines, number, random);

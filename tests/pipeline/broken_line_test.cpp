@@ -25,7 +25,6 @@ using test::Bytes;
 using test::DrivenProgram;
 using test::expect_same_way;
 using test::expect_within_limits;
-using test::Outcome;
 using test::RandomTrouble;
 using test::run;
 
@@ -51,15 +50,15 @@ const std::vector<std::string>& programs() {
   return all;
 }
 
-const Outcome& reference_of(const std::string& machine, std::size_t program) {
-  static std::map<std::pair<std::string, std::size_t>, Outcome> known;
+const test::Outcome& reference_of(const std::string& machine, std::size_t program) {
+  static std::map<std::pair<std::string, std::size_t>, test::Outcome> known;
   const auto found = known.find({machine, program});
   if (found != known.end()) return found->second;
   return known.emplace(std::pair(machine, program), run(machine_named(machine), programs()[program], false))
       .first->second;
 }
 
-void expect_as_if_nothing_had_been(const std::string& machine, std::size_t program, const Outcome& outcome) {
+void expect_as_if_nothing_had_been(const std::string& machine, std::size_t program, const test::Outcome& outcome) {
   expect_same_way(outcome.steps, reference_of(machine, program).steps);
   expect_within_limits(machine_named(machine), outcome.steps);
 }
@@ -67,14 +66,14 @@ void expect_as_if_nothing_had_been(const std::string& machine, std::size_t progr
 // Cuts at every `stride`-th frame from either side. Returns how many trials that were.
 int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std::uint64_t stride,
                             const std::vector<double>& lasting, int& recoveries) {
-  const Outcome whole = run(machine_named(machine), programs()[program], true);
+  const test::Outcome whole = run(machine_named(machine), programs()[program], true);
   expect_as_if_nothing_had_been(machine, program, whole);
   int trials = 0;
   for (const double seconds : lasting) {
     for (std::uint64_t at = 0; at < whole.frames; at += stride) {
       SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) +
                    " for " + std::to_string(seconds) + " s");
-      const Outcome cut = run(machine_named(machine), programs()[program], true,
+      const test::Outcome cut = run(machine_named(machine), programs()[program], true,
                               [&](DrivenProgram& job, std::uint64_t number, bool, Bytes bytes) {
                                 if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
                                 return bytes;
@@ -99,7 +98,7 @@ void random_faults(const std::string& machine, int trials) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     const std::size_t program = static_cast<std::size_t>(i) % programs().size();
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
-    const Outcome outcome =
+    const test::Outcome outcome =
         run(machine_named(machine), programs()[program], true,
             [&](DrivenProgram&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); });
     expect_as_if_nothing_had_been(machine, program, outcome);
@@ -115,13 +114,13 @@ void random_faults(const std::string& machine, int trials) {
 
 // As if the CRC had been deceived: one of the frames to the board is another, and has a right one.
 void forge_frames(const std::string& machine, std::size_t program, std::uint64_t stride) {
-  const Outcome whole = run(machine_named(machine), programs()[program], true);
+  const test::Outcome whole = run(machine_named(machine), programs()[program], true);
   int trials = 0;
   int recoveries = 0;
   for (std::uint64_t at = 0; at < whole.frames; at += stride) {
     SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", frame " + std::to_string(at) + " forged");
     bool forged = false;
-    const Outcome outcome = run(machine_named(machine), programs()[program], true,
+    const test::Outcome outcome = run(machine_named(machine), programs()[program], true,
                                 [&](DrivenProgram&, std::uint64_t number, bool to_board, Bytes bytes) {
                                   if (forged || number < at || !to_board) return bytes;
                                   const std::optional<Bytes> other =
@@ -142,17 +141,17 @@ class BrokenLineInFull : public test::InFull<testing::TestWithParam<std::string>
 
 TEST_P(BrokenLine, every_frame_boundary_in_part) {
   int recoveries = 0;
-  const int trials = cut_at_frame_boundaries(GetParam(), 1, 11 * test::one_in, {0.5}, recoveries);
+  const int trials = cut_at_frame_boundaries(GetParam(), 1, 11 * test::one_in(8), {0.5}, recoveries);
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
   EXPECT_GT(recoveries, trials / 2);
 }
 
 TEST_P(BrokenLine, random_faults_in_part) {
-  random_faults(GetParam(), test::fewer(40));
+  random_faults(GetParam(), test::fewer(40, 8));
 }
 
 TEST_P(BrokenLine, what_was_never_sent_moves_nothing) {
-  forge_frames(GetParam(), 1, 23 * test::one_in);
+  forge_frames(GetParam(), 1, 23 * test::one_in(8));
 }
 
 TEST_P(BrokenLineInFull, every_frame_boundary) {

@@ -16,7 +16,6 @@
 namespace passo {
 namespace {
 
-constexpr Seconds endless{std::numeric_limits<double>::infinity()};
 
 // The Uno's router; the second motor of Y faces the first. Its switches are near.
 MachineDescription gantry(double skew) {

@@ -29,13 +29,13 @@ using test::HostEnd;
 using test::RandomTrouble;
 using test::StepLog;
 
-const MachineDescription& machine_named(const std::string& name) {
+const MachineDescription& killed_machine(const std::string& name) {
   static std::map<std::string, MachineDescription> known;
   const auto found = known.find(name);
   return found != known.end() ? found->second : known.emplace(name, test::example_machine(name)).first->second;
 }
 
-const std::vector<std::string>& programs() {
+const std::vector<std::string>& killed_programs() {
   static const std::vector<std::string> all = {
       "G21 G90 G1 F4000\nX6\nY4\nX1 Y6 Z-1\nX0 Y0 Z0\nM2\n",
       "G21 G90 G64 P.02 F3000 M3 S1000\nG4 P.1\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X4 Y3\nM8\nG4 P.05\nG0 X0 Y0 Z2\nM5 "
@@ -62,21 +62,21 @@ class OutputLog final : public MachineObserver {
   std::array<std::vector<int>, StepLog::motors> at_steps;
 };
 
-struct Way {
+struct Undisturbed {
   StepLog::Steps steps;
   OutputLog outputs;
   std::array<std::int64_t, StepLog::motors> end{};
 };
 
-const Way& reference_of(const std::string& machine, std::size_t program) {
-  static std::map<std::pair<std::string, std::size_t>, Way> known;
+const Undisturbed& undisturbed(const std::string& machine, std::size_t program) {
+  static std::map<std::pair<std::string, std::size_t>, Undisturbed> known;
   const auto found = known.find({machine, program});
   if (found != known.end()) return found->second;
   Diagnostics diagnostics;
-  test::DrivenProgram job(ProgramReader::from_text("t", programs()[program]), machine_named(machine),
+  test::DrivenProgram job(ProgramReader::from_text("t", killed_programs()[program]), killed_machine(machine),
                           InterpreterOptions(), diagnostics);
   StepLog log;
-  Way way;
+  Undisturbed way;
   job.machine().add_observer(log);
   job.machine().add_observer(way.outputs);
   while (job.advance()) {
@@ -90,13 +90,13 @@ const Way& reference_of(const std::string& machine, std::size_t program) {
 class Bench {
  public:
   Bench(const std::string& machine, std::size_t program)
-      : description_(machine_named(machine)),
+      : description_(killed_machine(machine)),
         name_(machine),
         program_(program),
         machine_(static_cast<std::uint8_t>(description_.axes.size()), description_.board.clock,
                  description_.board.highest_event_rate, static_cast<std::size_t>(description_.board.held_items)),
         line_(machine_, description_.board.clock, {}),
-        host_(description_, programs()[program]) {
+        host_(description_, killed_programs()[program]) {
     machine_.add_observer(log_);
     machine_.add_observer(outputs_);
   }
@@ -123,7 +123,7 @@ class Bench {
     }
   }
   void expect_as_if_nothing_had_been() {
-    const Way& reference = reference_of(name_, program_);
+    const Undisturbed& reference = undisturbed(name_, program_);
     expect_same_way(log_.steps, reference.steps);
     expect_within_limits(description_, log_.steps, 6);
     EXPECT_EQ(log_.place, reference.end);
@@ -209,7 +209,7 @@ void die_at_random(int trials, const std::string& machine, Counted& counted) {
   for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
-    const std::size_t program = random() % programs().size();
+    const std::size_t program = random() % killed_programs().size();
     const std::uint64_t moments = moments_of(machine, program);
     std::vector<std::uint64_t> lives(1 + random() % 6);
     for (std::uint64_t& life : lives) life = random() % moments;
@@ -223,7 +223,7 @@ void die_on_a_bad_line(int trials, const std::string& machine, Counted& counted)
   for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
-    const std::size_t program = random() % programs().size();
+    const std::size_t program = random() % killed_programs().size();
     Bench bench(machine, program);
     bench.go_bad(random());
     ++counted.trials;
@@ -248,7 +248,8 @@ class HostRestartInFull : public test::InFull<testing::TestWithParam<std::string
 
 TEST_P(HostRestart, at_moments_of_all_programs) {
   Counted counted;
-  for (std::size_t program = 0; program < programs().size(); ++program) die_at_every(127, GetParam(), program, counted);
+  for (std::size_t program = 0; program < killed_programs().size(); ++program)
+    die_at_every(127, GetParam(), program, counted);
   print(counted);
   EXPECT_GT(counted.deaths + counted.stops, counted.trials * 9 / 10);
 }
@@ -276,7 +277,7 @@ TEST_P(HostRestart, on_a_bad_line) {
 
 TEST_P(HostRestartInFull, at_every_moment_of_all_programs) {
   Counted counted;
-  for (std::size_t program = 0; program < programs().size(); ++program) {
+  for (std::size_t program = 0; program < killed_programs().size(); ++program) {
     die_at_every(test::in_full(), GetParam(), program, counted);
     die_at_every(test::in_full(), GetParam(), program, counted, 2);
   }
@@ -285,7 +286,7 @@ TEST_P(HostRestartInFull, at_every_moment_of_all_programs) {
 
 TEST_P(HostRestartInFull, at_every_moment_of_many_beginnings) {
   Counted counted;
-  for (std::size_t program = 0; program < programs().size(); ++program) {
+  for (std::size_t program = 0; program < killed_programs().size(); ++program) {
     die_again_at_every(101 * test::in_full(), 60, GetParam(), program, counted);
   }
   print(counted);

@@ -70,7 +70,7 @@ class ManOnTheLine : public testing::TestWithParam<std::string> {};
 class ManOnTheLineInFull : public test::InFull<testing::TestWithParam<std::string>> {};
 
 TEST_P(ManOnTheLine, changes_no_step) {
-  make_faults(GetParam(), test::fewer(1000));
+  make_faults(GetParam(), test::fewer(1000, 5));
 }
 TEST_P(ManOnTheLineInFull, changes_no_step_by_a_thousand_faults_of_each_kind) {
   make_faults(GetParam(), static_cast<int>(1000 / test::in_full()));

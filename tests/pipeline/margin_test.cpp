@@ -1,6 +1,6 @@
 // The verdicts of `passo check` on random machines, beside full physics. bench/margin_table.cpp prints the whole table.
 //
-// PASSO_SEED=S PASSO_RUNS=N margin_tests takes the machines S to S + N - 1.
+// PASSO_SEED=S PASSO_RUNS=N pipeline_tests --gtest_filter=Margin.* takes the machines S to S + N - 1.
 #include <cstdint>
 #include <cstdlib>
 

@@ -6,6 +6,7 @@
 
 #include "canon_end.hpp"
 #include "kit/driven.hpp"
+#include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
 #include "kit/step_oracle.hpp"
 
@@ -15,6 +16,7 @@ namespace passo {
 namespace {
 
 namespace fs = std::filesystem;
+using test::example_machine;
 
 const fs::path source_dir = PASSO_SOURCE_DIR;
 const fs::path peers = source_dir / ".." / "shared" / "peers";
@@ -24,9 +26,6 @@ MachineDescription machine_from(const fs::path& path) {
   auto machine = load_machine_file(path.string(), diagnostics);
   EXPECT_TRUE(machine) << render(diagnostics, false);
   return machine.value_or(MachineDescription());
-}
-MachineDescription example_machine(const std::string& name) {
-  return machine_from(source_dir / "examples" / "machines" / (name + ".toml"));
 }
 
 ProgramReader open(const fs::path& path) {

@@ -73,7 +73,7 @@ std::string words(const Point& place) {
          std::to_string(place[Axis::z]);
 }
 
-constexpr const char* machines[] = {"bench", "router", "pantograph", "forty-eight", "strong-router"};
+constexpr const char* probed_machines[] = {"bench", "router", "pantograph", "forty-eight", "strong-router"};
 
 // Of a probe move: how far it may go on after the contact, as docs/manual/probing.md promises.
 double longest_overrun(const MachineDescription& machine, double speed) {
@@ -89,7 +89,7 @@ void expect_exact_contacts(bool meddled) {
   test::Random random;
   double most = 0;
   int trials = 0;
-  for (const char* name : machines) {
+  for (const char* name : probed_machines) {
     SCOPED_TRACE(name);
     const MachineDescription machine = example_machine(name);
     for (int i = 0; i < (meddled ? 5 : 10) && !testing::Test::HasFailure(); ++i, ++trials) {

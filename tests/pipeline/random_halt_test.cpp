@@ -2,7 +2,8 @@
 // of limits: judged from the steps. No axis exceeds a limit, and the machine comes to rest within its braking time and
 // 0.1 s.
 //
-// PASSO_SEED=S PASSO_RUNS=N random_halt_tests takes the programs S to S + N - 1. Each has some eight such instants.
+// PASSO_SEED=S PASSO_RUNS=N random_motion_tests --gtest_filter=*Halt* takes the programs S to S + N - 1. Each has some
+// eight such instants.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -252,11 +253,11 @@ void for_each_mixture(int runs, const Act& act) {
 }
 
 TEST(RandomHalt, keeps_limits_and_rests_soon_on_machines_of_all_mixtures) {
-  for_each_mixture(60, act_at_random);
+  for_each_mixture(test::fewer(60, 4), act_at_random);
 }
 
 TEST(RandomHalt, of_a_lost_line_keeps_limits_and_rests_soon_on_machines_of_all_mixtures) {
-  for_each_mixture(30, cut_at_random);
+  for_each_mixture(test::fewer(30, 4), cut_at_random);
 }
 
 // Holds at that time, and goes on after a moment.
@@ -326,11 +327,11 @@ class HaltCase : public testing::Test {
 
 TEST_F(HaltCase, hold_jump) {
   hold_at("hold_jump", Seconds(1.9686));
-  hold_everywhere("hold_jump", Seconds(3), test::fewer(200));
+  hold_everywhere("hold_jump", Seconds(3), test::fewer(200, 4));
 }
 TEST_F(HaltCase, mixjump) {
   hold_at("mixjump", Seconds(0.2301));
-  hold_everywhere("mixjump", Seconds(0.5), test::fewer(300));
+  hold_everywhere("mixjump", Seconds(0.5), test::fewer(300, 4));
 }
 TEST_F(HaltCase, slow_hold) {
   for (const Seconds at : {Seconds(200), Seconds(300), Seconds(340), Seconds(355)}) hold_at("slow_hold", at);

@@ -41,7 +41,7 @@ void expect_every_step(std::uint64_t number, const test::RandomJob& job, test::R
 
 TEST(RandomLine, faults_and_cuts_change_no_step) {
   Sums sums;
-  test::for_each_job(30, [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
+  test::for_each_job(test::fewer(30, 4), [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
     expect_every_step(number, job, random, sums);
   });
   std::printf("%llu frames, %d faults, %d recoveries from a tail\n", static_cast<unsigned long long>(sums.frames),
@@ -53,7 +53,7 @@ TEST(RandomLine, faults_and_cuts_change_no_step_with_start_stop_velocities) {
   const auto try_one = [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
     expect_every_step(number, job, random, sums);
   };
-  test::for_each_job(15, try_one, test::Machines::starting);
+  test::for_each_job(test::fewer(15, 4), try_one, test::Machines::starting);
   std::printf("%llu frames, %d faults, %d recoveries from a tail\n", static_cast<unsigned long long>(sums.frames),
               sums.faults, sums.recoveries);
 }
@@ -64,7 +64,7 @@ TEST(RandomLine, faults_and_cuts_change_no_step_on_machines_of_all_mixtures) {
   const auto try_one = [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
     expect_every_step(number, job, random, sums);
   };
-  test::for_each_job(15, try_one, test::Machines::of_all_mixtures);
+  test::for_each_job(test::fewer(15, 4), try_one, test::Machines::of_all_mixtures);
   std::printf("%llu frames, %d faults, %d recoveries from a tail\n", static_cast<unsigned long long>(sums.frames),
               sums.faults, sums.recoveries);
 }

@@ -89,7 +89,7 @@ void expect_nearly_the_fastest(test::Machines machines) {
     moves += proof.moves;
     seconds += proof.time.value();
   };
-  test::for_each_job(100, try_one, machines);
+  test::for_each_job(test::fewer(100, 4), try_one, machines);
   std::printf("%llu moves, %.0f s of motion; of more than a second:\n", static_cast<unsigned long long>(moves),
               seconds);
   along_path[0].print("acceleration limited, T/bound on the path");
@@ -239,7 +239,7 @@ void expect_right_in_spite_of_acts(const test::RandomJob& job, test::Random& ran
 
 TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_and_overrides) {
   test::Acts acts;
-  test::for_each_job(100, [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
+  test::for_each_job(test::fewer(100, 4), [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
     expect_right_in_spite_of_acts(job, random, acts);
   });
   acts.print();
@@ -250,7 +250,7 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_veloc
   const auto try_one = [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
     expect_right_in_spite_of_acts(job, random, acts);
   };
-  test::for_each_job(60, try_one, test::Machines::starting);
+  test::for_each_job(test::fewer(60, 4), try_one, test::Machines::starting);
   acts.print();
 }
 

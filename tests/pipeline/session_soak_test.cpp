@@ -161,7 +161,7 @@ class SessionSoak : public testing::Test {
         tell(fmt::format("answered {}: {}, {}", names[open->second.kind], static_cast<int>(change.outcome),
                          change.fault ? change.fault->code() : ""));
         ++outcomes_[open->second.kind][static_cast<std::size_t>(change.outcome)];
-        if (open->second.kind == index_of<request::Home>() && change.outcome == Outcome::done) mind_homed();
+        if (open->second.kind == index_of<request::Home>() && change.outcome == passo::Outcome::done) mind_homed();
         open_.erase(open);
       } else if (change.kind == MachineChange::Kind::position_lost) {
         tell("position lost");

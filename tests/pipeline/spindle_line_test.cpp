@@ -41,7 +41,7 @@ struct LineCase {
   double apart[2];
   bool may_be_too_slow = false;  // with limits of jerk: then the thread is ended in words
 };
-const std::vector<LineCase>& lines() {
+const std::vector<LineCase>& thread_lines() {
   static const std::vector<LineCase> all = {
       {"115,200, 1 ms", {.baud = 115'200, .latency = Seconds(0.001)}, {0.12, 0.2}, {0.12, 0.4}, true},
       {"500,000, 1 ms", {.baud = 500'000, .latency = Seconds(0.001)}, {0.016, 0.035}, {0.016, 0.035}},
@@ -57,7 +57,7 @@ Played run(const std::string& program, const MachineDescription& machine, const 
 }
 
 TEST(SpindleOverALine, a_thread_has_its_pitch) {
-  for (const LineCase& each : lines()) {
+  for (const LineCase& each : thread_lines()) {
     for (const bool jerk : {false, true}) {
       const Played even = run(thread_program("600"), lathe(ideal, jerk), each.line);
       const Played uneven = run(thread_program("600"), lathe(rippling, jerk), each.line);
@@ -73,7 +73,7 @@ TEST(SpindleOverALine, a_thread_has_its_pitch) {
 
 TEST(SpindleOverALine, all_passes_of_a_threading_cycle_lie_in_one_groove) {
   const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-15 I-1 J0.2 K0.9 R1.5 H2\nM5\nM2\n";
-  for (const LineCase& each : lines()) {
+  for (const LineCase& each : thread_lines()) {
     for (const bool jerk : {false, true}) {
       const Played result = play(program, lathe(rippling, jerk), {.line = each.line});
       if (each.may_be_too_slow && jerk && result.error == LinkError::thread_lost) {
@@ -119,9 +119,9 @@ struct Troubled {
   std::uint64_t frames = 0;
 };
 // Sees each frame with its number, and gives back what passes.
-using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, const Bytes& bytes)>;
+using ThreadTrouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, const Bytes& bytes)>;
 
-Troubled run_with(const Trouble& trouble, const SpindleModel* fitted = nullptr, double fitted_at = 0) {
+Troubled run_with(const ThreadTrouble& trouble, const SpindleModel* fitted = nullptr, double fitted_at = 0) {
   Troubled result;
   Diagnostics diagnostics;
   const MachineDescription machine = lathe(rippling);
