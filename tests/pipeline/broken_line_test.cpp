@@ -74,10 +74,10 @@ int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std
       SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) +
                    " for " + std::to_string(seconds) + " s");
       const test::Outcome cut = run(machine_named(machine), programs()[program], true,
-                              [&](DrivenProgram& job, std::uint64_t number, bool, Bytes bytes) {
-                                if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
-                                return bytes;
-                              });
+                                    [&](DrivenProgram& job, std::uint64_t number, bool, Bytes bytes) {
+                                      if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
+                                      return bytes;
+                                    });
       expect_as_if_nothing_had_been(machine, program, cut);
       recoveries += cut.recoveries;
       ++trials;
@@ -121,13 +121,13 @@ void forge_frames(const std::string& machine, std::size_t program, std::uint64_t
     SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", frame " + std::to_string(at) + " forged");
     bool forged = false;
     const test::Outcome outcome = run(machine_named(machine), programs()[program], true,
-                                [&](DrivenProgram&, std::uint64_t number, bool to_board, Bytes bytes) {
-                                  if (forged || number < at || !to_board) return bytes;
-                                  const std::optional<Bytes> other =
-                                      test::forged(bytes, static_cast<std::uint8_t>(number));
-                                  forged = other.has_value();
-                                  return other.value_or(bytes);
-                                });
+                                      [&](DrivenProgram&, std::uint64_t number, bool to_board, Bytes bytes) {
+                                        if (forged || number < at || !to_board) return bytes;
+                                        const std::optional<Bytes> other =
+                                            test::forged(bytes, static_cast<std::uint8_t>(number));
+                                        forged = other.has_value();
+                                        return other.value_or(bytes);
+                                      });
     expect_as_if_nothing_had_been(machine, program, outcome);
     recoveries += outcome.recoveries;
     ++trials;

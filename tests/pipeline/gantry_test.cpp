@@ -16,7 +16,6 @@
 namespace passo {
 namespace {
 
-
 // The Uno's router; the second motor of Y faces the first. Its switches are near.
 MachineDescription gantry(double skew) {
   MachineDescription machine = test::example_machine("uno");

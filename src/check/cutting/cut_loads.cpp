@@ -55,11 +55,10 @@ class ForceMeter {
   // Call it at the end.
   void finish() {
     constexpr double least_cells = 5;
-    constexpr double seconds_a_minute = 60;
     if (volume_ > 0 && feeds_.back().revolutions > 0) {
       const double way = std::max(way_, least_cells * outcome_.simulation.field.cell());
       const double reach = reach_at(outcome_.simulation.tools[tool_].cutter, depth_);
-      const double cutting_speed = 2 * std::numbers::pi * reach * feeds_.back().revolutions / seconds_a_minute;
+      const double cutting_speed = 2 * std::numbers::pi * reach * feeds_.back().revolutions / seconds_per_minute;
       give(material_.specific_force * volume_ / way / cutting_speed);
     }
     feeds_.clear();

@@ -221,7 +221,6 @@ class ThreadSpeed {
     const auto* const segment = std::get_if<Segment>(&item);
     if (segment == nullptr || segment->lock == SpindleLock::none || !(segment->pitch > Mm(0))) return;
     const double fastest_feed = speed_within(segment->curve.steepest(), fastest, limits_);
-    constexpr double seconds_per_minute = 60;
     highest_ = std::min(highest_, fastest_feed / segment->pitch.value() * seconds_per_minute);
   }
   double revolutions_per_minute() const { return highest_; }

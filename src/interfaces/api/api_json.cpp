@@ -123,7 +123,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
       {"trust", name_of(status.position.trust)},
       {"lost_place", status.lost_place},
       {"place", as_json(machine, status.now_at)},
-      {"speed", rounded(status.speed_now.value() * a_minute)},
+      {"speed", rounded(status.speed_now.value() * seconds_per_minute)},
       {"line", status.executes.line},
       {"progress", status.progress ? Json(rounded(*status.progress)) : Json()},
       {"outputs",
@@ -310,7 +310,7 @@ Json machine_json(const MachineDescription& machine, std::string_view version) {
     axes.push_back({{"axis", axis_key(axis.axis)},
                     {"low", axis.travel_low},
                     {"high", axis.travel_high},
-                    {"speed", axis.velocity.value() * a_minute},
+                    {"speed", axis.velocity.value() * seconds_per_minute},
                     {"acceleration", axis.acceleration.value()},
                     {"steps_per_unit", axis.steps_per_unit},
                     {"homes", axis.home.has_value()}});

@@ -19,8 +19,6 @@
 
 namespace passo {
 
-inline constexpr double a_minute = 60;  // s; speeds in the API are mm/min
-
 // Returns the name from the query, with the user's capitalisation. It may become a file name and be displayed in a
 // terminal or a web page; a name that could be harmful there is refused. `otherwise`: the default.
 Result<std::string, WebAnswer> name_from(std::string_view query, std::string_view otherwise);

@@ -90,7 +90,7 @@ WebAnswer MachineApi::jog(const ApiCall& call) {
   JsonMembers members(call.members());
   request::Jog jog;
   jog.way.direction = members.place("direction", shared_.machine, Point());
-  jog.way.speed = MmPerSecond(members.number("speed").value_or(0) / a_minute);
+  jog.way.speed = MmPerSecond(members.number("speed").value_or(0) / seconds_per_minute);
   jog.way.distance = Mm(members.number("distance").value_or(0));
   jog.lease = Seconds(members.number("lease").value_or(jog.lease.value()));
   if (!members.end()) return bad_body(members.reason());

@@ -37,7 +37,7 @@ Json as_json(const MachineDescription& machine, const std::optional<ProgramPath:
 
 Json as_json(const ProgramPath::Speeds& speeds) {
   if (speeds.empty()) return Json();
-  return {{"low", speeds.low.value() * a_minute}, {"high", speeds.high.value() * a_minute}};
+  return {{"low", speeds.low.value() * seconds_per_minute}, {"high", speeds.high.value() * seconds_per_minute}};
 }
 
 // The diameter is that of the tool table, else that of the machine file's tool; null: unknown.

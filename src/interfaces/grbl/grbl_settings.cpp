@@ -9,7 +9,6 @@ namespace passo {
 namespace {
 
 constexpr std::size_t most_axes = 6;
-constexpr double a_minute = 60;
 
 const AxisDescription* find_axis(const MachineDescription& machine, Axis axis) {
   const auto found = std::ranges::find(machine.axes, axis, &AxisDescription::axis);
@@ -87,8 +86,10 @@ std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const 
       {21, bit(homes)},
       {22, bit(homes)},
       {23, number(mask_of(machine, [](const AxisDescription& axis) { return axis.home && !axis.home->toward_high; }))},
-      {24, decimal(of_homing(machine, [](const HomeDescription& home) { return home.latch.value() * a_minute; }))},
-      {25, decimal(of_homing(machine, [](const HomeDescription& home) { return home.seek.value() * a_minute; }))},
+      {24, decimal(of_homing(machine,
+                             [](const HomeDescription& home) { return home.latch.value() * seconds_per_minute; }))},
+      {25,
+       decimal(of_homing(machine, [](const HomeDescription& home) { return home.seek.value() * seconds_per_minute; }))},
       {26, "25"},
       {27, decimal(of_homing(machine, [](const HomeDescription& home) { return home.pull_off; }))},
       {30, fmt::format("{:.0f}", machine.tool.highest_rpm > 0 ? machine.tool.highest_rpm : 1000)},
@@ -101,7 +102,7 @@ std::vector<GrblSetting> grbl_settings(const MachineDescription& machine, const 
   };
   static constexpr Family families[] = {
       {100, [](const AxisDescription& axis) { return axis.steps_per_unit; }},
-      {110, [](const AxisDescription& axis) { return axis.velocity.value() * a_minute; }},
+      {110, [](const AxisDescription& axis) { return axis.velocity.value() * seconds_per_minute; }},
       {120, [](const AxisDescription& axis) { return axis.acceleration.value(); }},
       {130, [](const AxisDescription& axis) { return axis.travel_high - axis.travel_low; }},
   };

@@ -13,7 +13,6 @@
 namespace passo {
 namespace {
 
-constexpr double seconds_in_minute = 60;
 // In mm: a pitch that makes no step too frequent for a board, whatever the axis is.
 constexpr double long_pitch = 1000;
 
@@ -98,8 +97,8 @@ std::vector<Change> changes_for(const MachineDescription& machine, int number, d
     case 4: return {{"outputs.driver_enable", level(value != 0)}};
     case 6: return {{"inputs.probe", level(value != 0)}};
     case 11: return {{"path_tolerance_mm", tidy(value)}};
-    case 24: return of_homing(machine, "home.latch_mm_s", "home.latch_deg_s", value / seconds_in_minute);
-    case 25: return of_homing(machine, "home.seek_mm_s", "home.seek_deg_s", value / seconds_in_minute);
+    case 24: return of_homing(machine, "home.latch_mm_s", "home.latch_deg_s", value / seconds_per_minute);
+    case 25: return of_homing(machine, "home.seek_mm_s", "home.seek_deg_s", value / seconds_per_minute);
     case 27: return of_homing(machine, "home.pull_off_mm", "home.pull_off_deg", value);
     case 30: return {{"tool.max_rpm", tidy(value)}};
     default: break;
@@ -107,7 +106,7 @@ std::vector<Change> changes_for(const MachineDescription& machine, int number, d
   const AxisDescription* const axis = number >= 100 && number < 140 ? axis_of_setting(machine, number) : nullptr;
   if (axis == nullptr) return {};
   switch (number / 10) {
-    case 11: return {{key(*axis, "max_velocity_mm_s", "max_velocity_deg_s"), tidy(value / seconds_in_minute)}};
+    case 11: return {{key(*axis, "max_velocity_mm_s", "max_velocity_deg_s"), tidy(value / seconds_per_minute)}};
     case 12: return {{key(*axis, "max_acceleration_mm_s2", "max_acceleration_deg_s2"), tidy(value)}};
     case 13: {
       // The end with the switch stays where it is.

@@ -11,8 +11,6 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr double highest_orientation_word = 9;
-
 // Groups whose codes are forbidden during compensation. They would move the frame or the tool while it follows a
 // contour, or they would act in the middle of moves that are held back.
 struct Forbidden {
@@ -110,7 +108,7 @@ bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
   setup.radius = words_['D'] * state_.length_unit() / 2;
   if (!words_.has('L')) return true;
   std::int32_t orientation = 0;
-  if (!whole_word('L', 0, highest_orientation_word, orientation)) return false;
+  if (!whole_word('L', 0, highest_tool_orientation, orientation)) return false;
   setup.orientation = orientation;
   if (setup.plane == Plane::zx) return true;
   return fail("gcode.cutter-compensation", words_.span('L'),
@@ -137,7 +135,7 @@ bool CutterCodes::from_table(CutterSetup& setup) {
     reporter_.warning("gcode.zero-tool-radius", span, "the tool's diameter is 0, so cutter compensation has no effect",
                       "a tool with a diameter in the tool table");
   }
-  if (setup.plane == Plane::zx || setup.orientation == 0 || setup.orientation == 9) return true;
+  if (setup.plane == Plane::zx || setup.orientation == 0 || setup.orientation == highest_tool_orientation) return true;
   return fail("gcode.cutter-compensation", span, fmt::format("tool {} is a lathe tool", tool->number),
               "G18 (plane ZX) first");
 }

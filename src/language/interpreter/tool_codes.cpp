@@ -10,7 +10,6 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr std::int32_t highest_orientation = 9;
 constexpr int rotary_fixture = 9;  // G10 L11 measures in G59.3
 
 }  // namespace
@@ -139,7 +138,7 @@ bool ToolCodes::check_tool_entry_words(Tool*& tool) {
     return fail("gcode.unknown-tool", words_.span('P'),
                 fmt::format("tool {} is unknown, because no tool table was given", number), "--tools FILE");
   }
-  if (words_.has('Q') && !whole_word('Q', 0, highest_orientation, orientation)) return false;
+  if (words_.has('Q') && !whole_word('Q', 0, highest_tool_orientation, orientation)) return false;
   const LetterSet what = words_.present() & (axis_letters | LetterSet("RIJQ"));
   if (!what.any()) {
     return fail("gcode.missing-word", words_.span(non_modal), "G10 without a value for the tool",

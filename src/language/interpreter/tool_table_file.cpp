@@ -14,7 +14,6 @@ namespace {
 
 constexpr double largest_length = 1e6;  // millimetres
 constexpr std::int32_t highest_number = 99999;
-constexpr std::int32_t highest_tool_orientation = 9;
 
 char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;

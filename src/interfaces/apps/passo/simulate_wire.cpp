@@ -117,12 +117,11 @@ StockBlock block_of(const WireJobOfProgram& job, const WireLook& look) {
 // At a speed that nobody knows the wire melts as little as was measured. Slower than the slowest measured speed it
 // melts more, but no more than the heat of the move's time can: an area of width times speed a minute.
 double kerf_of_move(const std::vector<WireKerf>& kerfs, double mm_per_second, double time) {
-  constexpr double seconds_a_minute = 60;
   if (std::isinf(mm_per_second)) return kerfs.back().width;
   const WireKerf& slowest = kerfs.front();
-  const double speed = mm_per_second * seconds_a_minute;
+  const double speed = mm_per_second * seconds_per_minute;
   if (speed >= slowest.speed) return std::max(0.0, kerf_at(kerfs, speed));
-  const double area = slowest.width * slowest.speed * time / seconds_a_minute;
+  const double area = slowest.width * slowest.speed * time / seconds_per_minute;
   const double most = std::sqrt(slowest.width * slowest.width + 4 * area / std::numbers::pi);
   constexpr double least_speed = 1e-3;
   return std::min(most, kerf_at(kerfs, std::max(speed, least_speed)));

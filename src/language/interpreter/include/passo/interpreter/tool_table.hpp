@@ -14,6 +14,8 @@
 
 namespace passo {
 
+inline constexpr std::int32_t highest_tool_orientation = 9;  // the center of the nose
+
 struct Tool {
   std::int32_t number = 0;  // 0: no tool
   std::int32_t pocket = 0;
