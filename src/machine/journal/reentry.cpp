@@ -239,7 +239,7 @@ std::string_view code_of(ReentryRefusal refusal) {
 
 std::string_view message_of(ReentryRefusal refusal) {
   switch (refusal) {
-    case ReentryRefusal::no_motion: return "nothing moves from that line on";
+    case ReentryRefusal::no_motion: return "there is no motion from that line on";
     case ReentryRefusal::done_often: return "that line runs more than once, in a loop or a subprogram";
     case ReentryRefusal::no_pass: return "that line has fewer passes";
     case ReentryRefusal::beyond_end: return "the path ends before that distance after the line";
