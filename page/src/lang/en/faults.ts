@@ -129,7 +129,7 @@ export const faults = {
   'link.manual': 'the board is in manual mode, which was started with its keypad: press * on the keypad to leave it, then start again',
   'link.no-encoder': 'the program synchronises with the spindle, but the board has no encoder: use other firmware, or correct [spindle] in the machine file',
   'link.spindle-stands': 'the spindle does not turn, or its encoder does not count: synchronised motion is impossible',
-  'link.encoder-wrong': 'the spindle encoder does not count encoder_counts_per_turn between index pulses, or has no index',
+  'link.encoder-wrong': 'the spindle encoder has no index, or the counts between index pulses differ from encoder_counts_per_turn',
   'link.thread-lost': 'the serial link was interrupted or too slow during threading: the machine stopped on the toolpath with the spindle off, and the thread cannot continue there',
   'link.thread-outrun': 'the spindle was too fast for the axes during threading: the machine stopped on the toolpath with the spindle off; reduce S, its override or the pitch',
   // Why an interrupted job cannot be resumed
