@@ -59,7 +59,7 @@ std::string_view message_of(LinkError error) {
     case LinkError::spindle_stands:
       return "the spindle does not turn, or its encoder does not count, so no thread can follow it";
     case LinkError::encoder_wrong:
-      return "the spindle's encoder does not count encoder_counts_per_turn from index to index, or there is no index";
+      return "the spindle encoder has no index, or the counts between index pulses differ from encoder_counts_per_turn";
     case LinkError::thread_lost:
       return "the link failed or was too slow during a thread: the machine stopped on the path with the spindle off, "
              "and the thread cannot continue";

@@ -22,7 +22,7 @@ bool GerberOldCodes::read_axes(double& a, double& b) {
     const std::size_t end = std::min(words.find_first_of("AB", at + 1), words.size());
     const std::optional<double> value = read_gerber_decimal(words.substr(at + 1, end - at - 1));
     if ((words[at] != 'A' && words[at] != 'B') || !value || std::abs(*value) > 1e6) {
-      return findings_.refuse(at, end - at, "gerber.bad-number", "this is not a value of an axis", "e.g. A1.5B2");
+      return findings_.refuse(at, end - at, "gerber.bad-number", "this is not a value for an axis", "e.g. A1.5B2");
     }
     (words[at] == 'A' ? a : b) = *value;
     at = end;

@@ -41,7 +41,7 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
       {"route-steps",
        &a.route_steps,
        number,
-       "search steps spent on a short order of each tool's holes",
+       "largest number of search steps for the order of each tool's holes",
        {.range = CamRange{0, 1e10}, .matters_to = CamFor::programs}},
   };
 }

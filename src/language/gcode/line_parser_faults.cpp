@@ -196,7 +196,7 @@ bool LineParser::fail_function(const char* name_start, std::string_view name) {
 bool LineParser::fail_assignment(const char* target) {
   const Span span = span_from(target);
   return fail("gcode.unexpected-text", target, span.length,
-              fmt::format("parameter {} stands alone, without a value", shortened({target, span.length})),
+              fmt::format("parameter {} without '=' and a value", shortened({target, span.length})),
               "'=' and the value, e.g. #1=2.5, or a letter before the '#', e.g. X#1");
 }
 

@@ -239,12 +239,12 @@ std::string_view code_of(ReentryRefusal refusal) {
 
 std::string_view message_of(ReentryRefusal refusal) {
   switch (refusal) {
-    case ReentryRefusal::no_motion: return "nothing moves from that line on";
-    case ReentryRefusal::done_often: return "that line runs more than once, in a loop or a subprogram";
+    case ReentryRefusal::no_motion: return "there is no motion from that line on";
+    case ReentryRefusal::done_often: return "that line runs more than once, in a loop or a subroutine";
     case ReentryRefusal::no_pass: return "that line has fewer passes";
     case ReentryRefusal::beyond_end: return "the path ends before that distance after the line";
     case ReentryRefusal::other_file:
-      return "a subprogram in another file also has a line with that number: choose another line";
+      return "a subroutine in another file also has a line with that number: choose another line";
     case ReentryRefusal::after_probe:
       return "the path to that line depends on the result of a probe move: start before it";
     case ReentryRefusal::path_changed: return "the program has a different meaning now";
@@ -259,7 +259,7 @@ std::string_view message_of(ReentryRefusal refusal) {
 std::string message_of(const LineProblem& problem) {
   switch (problem.refusal) {
     case ReentryRefusal::done_often:
-      return fmt::format("that line runs {} times, in a loop or a subprogram: choose one of these passes",
+      return fmt::format("that line runs {} times, in a loop or a subroutine: choose one of these passes",
                          problem.times);
     case ReentryRefusal::no_pass: return fmt::format("the number of passes of that line is {}", problem.times);
     default: return std::string(message_of(problem.refusal));

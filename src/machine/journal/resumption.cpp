@@ -27,7 +27,7 @@ std::string_view code_of(ResumeRefusal refusal) {
 
 std::string_view message_of(ResumeRefusal refusal) {
   switch (refusal) {
-    case ResumeRefusal::board_reset: return "the board was reset since: the machine position is no longer certain";
+    case ResumeRefusal::board_reset: return "the board has since been reset: the machine position is no longer certain";
     case ResumeRefusal::other_session: return "another program has run on the board since then";
     case ResumeRefusal::not_trusted:
       return "the board stopped its motors instantly; steps may be lost, so the position is unreliable";

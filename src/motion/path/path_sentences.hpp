@@ -20,7 +20,7 @@ inline constexpr SentenceRow these_axes{"expected.these-axes", "moves of {axes} 
 inline constexpr SentenceRow no_feed{"path.no-feed", "a feed move without a feed rate"};
 inline constexpr SentenceRow feed_above_zero{"expected.feed-above-zero", "F above 0 in this block or an earlier one"};
 inline constexpr SentenceRow spindle_too_fast{
-    "path.spindle-too-fast", "the program asks for {asked} rpm, but the spindle's maximum of {most} rpm is used"};
+    "path.spindle-too-fast", "the program commands {asked} rpm, but the spindle's maximum of {most} rpm is used"};
 inline constexpr SentenceRow speed_up_to{"expected.speed-up-to", "S up to {most}"};
 
 }  // namespace passo::path_says

@@ -87,13 +87,13 @@ export const en = {
   'lesson_dda-half':
     'This is the DDA with registers that start half full. The steps come half a step earlier, so the error is centred around zero and about half as large, at no extra cost.',
   'lesson_slope-recalculated':
-    'This method comes from hot-wire cutters. Before each pulse, it compares the slope of the remaining line with the slope of the whole line. If the remaining slope is smaller, only the longer axis steps; otherwise both axes step. The error is small, but mostly on one side of the line.',
+    'This method was used in hot-wire cutters. Before each pulse, it compares the slope of the remaining line with the slope of the whole line. If the remaining slope is smaller, only the longer axis steps; otherwise both axes step. The error is small, but mostly on one side of the line.',
   'lesson_slope-blocks':
-    'One division before the start gives the pattern: a number of single-axis steps, then one diagonal step, repeated. The remainder is used up in the first blocks, so the tool lags in the middle of long lines. Try (22, 15).',
+    'One division before the start gives the pattern: a number of single-axis steps, then one diagonal step, repeated. The remainder makes the first blocks longer, so the tool lags in the middle of long lines. Try (22, 15).',
   'lesson_point-comparison':
     'A variable F shows on which side of the path the tool is. At each pulse, one axis steps towards the path and F is updated. The two axes never step together, so the staircase needs more pulses, and the error is up to one step.',
   lesson_midpoint:
-    'One axis steps at every pulse. The other axis steps too when the midpoint between its two possible positions lies on the correct side of the circle. The error is at most half a step.',
+    'One axis steps at every pulse. The other axis steps too if the midpoint between its two possible positions is outside the circle, because then the inner position is nearer. The error is at most half a step.',
   // Ramps
   rampsLesson:
     'A stepper motor cannot start at full speed. A ramp shortens the time between steps, beginning with the first interval c₀ = f√(2α/a), where f is the timer clock, α the step angle and a the acceleration. The exact method needs a square root per step, the recursive method a division, the table a multiplication.',
@@ -154,7 +154,7 @@ export const en = {
   loadInertia: 'Load inertia',
   // Closed loop
   loopLesson:
-    'With an encoder, the controller always keeps the magnetic field ahead of the rotor. P acts on the present error, I removes the error that remains, D damps fast changes. Because of delays in the loop, too much gain makes it oscillate.',
+    'With an encoder, the controller always keeps the magnetic field ahead of the rotor. P reacts to the present error, I removes the remaining error, and D damps fast changes. Because of delays in the loop, too much gain makes it oscillate.',
   controlled: 'Controlled variable',
   speed: 'Speed',
   byTheRule: 'Ziegler–Nichols tuning',

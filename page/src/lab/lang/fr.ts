@@ -94,7 +94,7 @@ export const fr: LabWords = {
   'lesson_point-comparison':
     'Une variable F indique de quel côté du trajet se trouve l’outil. À chaque impulsion, un axe fait un pas vers le trajet et F est mise à jour. Les deux axes ne bougent jamais ensemble : l’escalier demande plus d’impulsions, et l’erreur va jusqu’à un pas.',
   lesson_midpoint:
-    'Un axe fait un pas à chaque impulsion. L’autre en fait un aussi quand le milieu entre ses deux positions possibles est du bon côté du cercle. L’erreur est d’un demi-pas au plus.',
+    'Un axe fait un pas à chaque impulsion. L’autre en fait un aussi si le milieu entre ses deux positions possibles est hors du cercle, car la position intérieure est alors la plus proche. L’erreur est d’un demi-pas au plus.',
   rampsLesson:
     'Un moteur pas à pas ne peut pas démarrer à pleine vitesse. Une rampe raccourcit le temps entre les pas, à partir du premier intervalle c₀ = f√(2α/a), où f est l’horloge du temporisateur, α l’angle de pas et a l’accélération. La méthode exacte demande une racine carrée par pas, la récursive une division, la table une multiplication.',
   exact: 'Exacte, en tics entiers',

@@ -94,7 +94,7 @@ export const it: LabWords = {
   'lesson_point-comparison':
     'Una variabile F indica da che parte del percorso si trova l’utensile. A ogni impulso un asse fa un passo verso il percorso e F viene aggiornata. I due assi non si muovono mai insieme: la scala richiede più impulsi, e l’errore arriva a un passo.',
   lesson_midpoint:
-    'Un asse fa un passo a ogni impulso. Lo fa anche l’altro quando il punto medio fra le sue due posizioni possibili è dalla parte giusta del cerchio. L’errore è al massimo mezzo passo.',
+    'Un asse fa un passo a ogni impulso. Lo fa anche l’altro se il punto medio fra le sue due posizioni possibili è fuori dal cerchio, perché allora la posizione interna è la più vicina. L’errore è al massimo mezzo passo.',
   rampsLesson:
     'Un motore passo-passo non può partire alla piena velocità. Una rampa accorcia il tempo fra i passi, a partire dal primo intervallo c₀ = f√(2α/a), dove f è il clock del timer, α l’angolo di passo e a l’accelerazione. Il metodo esatto richiede una radice quadrata per passo, quello ricorsivo una divisione, la tabella una moltiplicazione.',
   exact: 'Esatto, in tick interi',

@@ -120,7 +120,7 @@ export const findings = {
   'expected.these-axes': 'moves of {axes} only',
   'path.no-feed': 'a feed move without a feed rate',
   'expected.feed-above-zero': 'F above 0 in this block or an earlier one',
-  'path.spindle-too-fast': 'the program asks for {asked} rpm, but the spindle’s maximum of {most} rpm is used',
+  'path.spindle-too-fast': 'the program commands {asked} rpm, but the spindle’s maximum of {most} rpm is used',
   'expected.speed-up-to': 'S up to {most}',
   // Usual mistakes
   'path.no-units': 'the program moves before it sets its units; millimetres are assumed',

@@ -62,7 +62,7 @@ export const machine = {
   'file.none': 'This is the built-in example machine. To edit your own, start passo serve with --machine FILE.',
   // Limits for the motors
   'tune.title': 'Motor limits',
-  'tune.what': 'Calculates from the motor data which speed, acceleration and jerk the motors can reach, and shows their torque curves. Nothing changes until you accept the limits.',
+  'tune.what': 'Calculates the speed, acceleration and jerk that the motors can reach, from their data, and shows their torque curves. Nothing changes until you accept the limits.',
   'tune.none': 'The machine file describes no motor: add a table [axis.X.torque].',
   'tune.margin': 'Torque reserve for cutting',
   'tune.do': 'Calculate the limits',

@@ -39,7 +39,7 @@ export const pins = {
   // The last seconds
   'strip.title': 'Last 20 seconds',
   'strip.stand': 'Freeze',
-  'strip.what': 'Motors: steps per second; up is the positive direction. The server reports changes 30 times per second; single pulses are shown below.',
+  'strip.what': 'Motors: steps per second, positive direction upwards. The server reports changes 30 times per second; see below for single pulses.',
   // Single pulses
   'pulses.title': 'Single pulses',
   'pulses.follow': 'Live',

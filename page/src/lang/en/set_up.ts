@@ -54,7 +54,7 @@ export const set_up = {
   'probe.boss.steps': 'Probes the top. Then, for each of the four sides: moves up by {clearance}, out beyond the boss ({size_x} × {size_y}), down to {depth} below the top, and probes inwards.',
   'probe.tool.steps': 'Moves up to machine Z {travel_z}, over to machine X {x} Y {y}, probes downwards by at most {reach}, and moves up again.',
   'probe.angle.steps': 'Probes, retracts by {clearance}, moves along the edge by {along}, probes again, and retracts.',
-  'probe.map.steps': 'Probes {columns} × {rows} points in an area of {size_x} × {size_y} that starts at X {x} Y {y}. For each point: moves over it at Z {clearance}, probes down to at most {depth} below Z0, and retracts.',
+  'probe.map.steps': 'Probes {columns} × {rows} points in an area of {size_x} × {size_y} that starts at X {x} Y {y}. At each point: moves above it at Z {clearance}, probes down to at most {depth} below Z0, and retracts.',
   'probe.surface.sets': 'Sets Z0.',
   'probe.edge.sets': 'Sets X0 or Y0.',
   'probe.corner.sets': 'Sets X0, Y0 and Z0.',

@@ -122,7 +122,7 @@ void print(const Ending& ending, const MachineDescription& machine, bool json) {
   for (const AxisDescription& axis : machine.axes)
     fmt::print(" {}{:.3f}", letter_of(axis.axis), ending.place[axis.axis]);
   fmt::print(" ({}): {}\n",
-             ending.is_known ? "machine" : "its position is unknown; coordinates count from its first position",
+             ending.is_known ? "machine" : "its position is unknown; coordinates are relative to its first position",
              in_words(ending.why));
 }
 

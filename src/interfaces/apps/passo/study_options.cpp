@@ -102,7 +102,7 @@ void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments)
       R"(Prints a line for each pulse: its number, the position of each axis after it, and the method's decision variables.
 
 Examples:
-  passo interpolate --method lean --to 10,4                             master and slave axes, as in an interrupt
+  passo interpolate --method lean --to 10,4                             major and minor axis, as in an interrupt
   passo interpolate --method dda --half-loaded --to 10,4,7              three axes, half-full integrators
   passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
   passo interpolate --method master-slave --beats --to 7,3              the fractions and midlines of the cells
