@@ -5,7 +5,7 @@
 ; One loop, no interrupt. Each turn samples the clock lines once, so what counts is the longest turn: it decides how long
 ; a level of a line must last to be seen. So a turn with a step makes the steps and nothing else, and all that can wait is
 ; cut into pieces, one for each turn without a step. Cycles (0.2 us, on the first board 1 us) are in the margin, counted
-; from the sample of the turn. tests/follower measures them: at most 25, 36, 45 where one, two, three motors step, 35 in a
+; from the sample of the turn. tests/follower measures them: at most 25, 38, 47 where one, two, three motors step, 35 in a
 ; turn without a step.
 ;
 ;   RA0 RA1 RA2   clock X, Y, Z           RD4 RD5 RD6 RD7   F1 F2 F3 F4 of X
@@ -506,7 +506,7 @@ show_mode
 ; ---- The relay ---------------------------------------------------------------------------------------------------------
 
 ; Only an edge of its line switches it on: a tool does not start because a reset or manual mode is over. Unless the board
-; was asked to go by the level. 35 cycles, with the 3 from `loop` to the sample.
+; was asked to go by the level. Four more cycles to the next sample: 35.
 relay_changed
         xorwf   relay_line,f            ; 19
         btfss   follow,0                ; 21
@@ -569,7 +569,7 @@ advance macro   place, axis
         endm
 
 ; X has a port with the relay and the LEDs: 11 cycles. Y and Z share one: 11 cycles for one of them, 20 for both.
-; From the sample of this turn to that of the next: 9 + these + 2 + 3.
+; From the sample of this turn to that of the next: 9 + these + 2 + 3, and 2 for the way from Y or Z to X.
 move_x  macro
         advance place_x, 0
         movwf   windings_x
