@@ -1,7 +1,7 @@
 // follower_rates: the longest turn of each board's loop, from one sample of the clock lines to the next, while one, two
-// or three motors step at once and apart, with nobody at the keypad and with a person who plays with it. A level that
-// lasts longer is always seen: that gives the highest rate. A square wave alone may be faster: turns with a step and
-// turns without one take turns. docs/follower.md has what it prints.
+// or three motors step at once and apart, without and with frequent key presses. A level that lasts longer is always
+// seen: that gives the highest rate. An even square wave may be faster, since a turn with a step and one without
+// alternate. docs/follower.md has what it prints.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
