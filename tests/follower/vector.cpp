@@ -53,6 +53,12 @@ bool read_line(const std::string& text, FollowerVector& vector) {
   return true;
 }
 
+// Two windings on, and the pair goes round.
+const char* two_on(int position) {
+  constexpr std::array<const char*, 4> round = {"1100", "0110", "0011", "1001"};
+  return round[static_cast<std::size_t>(position & 3)];
+}
+
 }  // namespace
 
 bool FollowerVector::needs_keypad() const {
@@ -87,13 +93,12 @@ std::vector<FollowerVector> follower_vectors(const fs::path& directory) {
   return vectors;
 }
 
-FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges) {
-  // Two windings on, and the pair goes round.
-  constexpr std::array<const char*, 4> round = {"1100", "0110", "0011", "1001"};
+FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges,
+                            std::string_view axes) {
   std::mt19937_64 turns(seed);
   FollowerVector vector{.name = "random"};
-  for (const char* axis : {"x", "y", "z"}) {
-    const std::string name = axis;
+  for (const char axis : axes) {
+    const std::string name(1, axis);
     std::mt19937_64 times(edges == Edges::together ? seed : turns());
     const auto span = [&] {
       const auto longest = static_cast<std::uint64_t>(7 * shortest);
@@ -105,7 +110,7 @@ FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds s
     for (int step = 0; step < steps_an_axis; ++step) {
       vector.lines.push_back({now, "clock." + name, true});
       position += down ? -1 : 1;
-      vector.expected.push_back({{now, "windings." + name, round[static_cast<std::size_t>(position & 3)]}, 60'000});
+      vector.expected.push_back({{now, "windings." + name, two_on(position)}, 60'000});
       now += span();
       vector.lines.push_back({now, "clock." + name, false});
       if (turns() % 5 == 0) {
@@ -117,6 +122,20 @@ FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds s
     vector.end = std::max(vector.end, now + 100'000);
   }
   std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  return vector;
+}
+
+FollowerVector square_wave(std::string_view axes, int pulses, Nanoseconds period) {
+  FollowerVector vector{.name = "square wave"};
+  vector.end = 1'000'000 + (pulses + 4) * period;
+  for (int pulse = 0; pulse < pulses; ++pulse) {
+    const Nanoseconds now = 1'000'000 + pulse * period;
+    for (const char axis : axes) vector.lines.push_back({now, std::string("clock.") + axis, true});
+    for (const char axis : axes) vector.lines.push_back({now + period / 2, std::string("clock.") + axis, false});
+    for (const char axis : axes) {
+      vector.expected.push_back({{now, std::string("windings.") + axis, two_on(pulse + 1)}, 2 * period});
+    }
+  }
   return vector;
 }
 
@@ -166,6 +185,10 @@ FollowerVector after_automatic_key(const FollowerVector& vector, int factor) {
   later.end = begin + vector.end * factor;
   later.lines.insert(later.lines.begin(), {{10'000'000, "key.*", true}, {60'000'000, "key.*", false}});
   return later;
+}
+
+std::vector<std::string> winding_outputs() {
+  return {"windings.x", "windings.y", "windings.z"};
 }
 
 std::vector<std::string> moved_outputs() {

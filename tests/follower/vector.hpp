@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "passo/emulator/emulated_follower.hpp"
@@ -31,11 +32,15 @@ FollowerVector read_follower_vector(const std::filesystem::path& file);
 // The hand-made ones, by name.
 std::vector<FollowerVector> follower_vectors(const std::filesystem::path& directory);
 
-// Three motors at random: each line is high and low for `shortest` or up to eight times that, and directions turn
+// Motors at random: each line is high and low for `shortest` or up to eight times that, and directions turn
 // between edges; each motor for itself, or all edges at one time. What has to come out is computed from a motor's
 // position.
 enum class Edges { apart, together };
-FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges);
+FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges,
+                            std::string_view axes = "xyz");
+
+// Motors that all step at one time, upwards, by a square wave with this period.
+FollowerVector square_wave(std::string_view axes, int pulses, Nanoseconds period);
 
 // Three square waves, a third of a period apart, without an end: the least time that a loop can have for anything else.
 // In the midst of it somebody wants manual mode; only that is looked at.
@@ -51,6 +56,7 @@ FollowerVector after_automatic_key(const FollowerVector& vector, int factor);
 // All there are; those that a board without a keypad has, and that random steps are about.
 std::vector<std::string> follower_outputs();
 std::vector<std::string> moved_outputs();
+std::vector<std::string> winding_outputs();
 std::vector<std::string> first_board_outputs();
 
 // What differs, in words; empty where nothing does. Only the outputs that the board `has` are asked for.

@@ -143,6 +143,10 @@ Result<FollowerRun, std::string> run_avr_follower(bool is_mega, const std::strin
   return AvrFollower(pins, {std::move(*emulator), is_mega ? "atmega2560" : "atmega328p", image}).run(lines, end);
 }
 
+bool is_first_board(std::string_view follower) {
+  return follower.starts_with("first_board");
+}
+
 // A folder for the emulator's files, removed in the end.
 class WorkFolder {
  public:
@@ -161,7 +165,7 @@ class WorkFolder {
 }  // namespace
 
 std::vector<std::string> emulated_followers() {
-  std::vector<std::string> names = {"first_board"};
+  std::vector<std::string> names = {"first_board", "first_board_copied", "first_board_as_listed"};
   for (const char* board : {"pic", "uno", "mega"}) {
     for (const char* drive : {"two_on", "wave", "half_step"}) names.push_back(fmt::format("{}_{}", board, drive));
   }
@@ -169,7 +173,7 @@ std::vector<std::string> emulated_followers() {
 }
 
 std::filesystem::path follower_image(std::string_view follower) {
-  if (follower == "first_board") return "first_board.cod";
+  if (is_first_board(follower)) return fmt::format("{}.cod", follower);
   return fmt::format("follower_{}.{}", follower, follower.starts_with("pic") ? "cod" : "elf");
 }
 
@@ -181,7 +185,7 @@ std::vector<std::string> outputs_of_follower(std::string_view follower) {
   std::vector<std::string> outputs = {"windings.x", "windings.y", "windings.z", "relay"};
   if (!has_keypad(follower)) return outputs;  // no pins are left for indicators, too
   outputs.emplace_back("indicator.relay");
-  if (follower == "first_board") {
+  if (is_first_board(follower)) {
     for (const char* led : {"led.0", "led.1", "led.2", "led.3"}) outputs.emplace_back(led);
   } else {
     for (const char* mode : {"indicator.automatic", "indicator.manual"}) outputs.emplace_back(mode);
@@ -196,7 +200,7 @@ Result<FollowerRun, std::string> run_follower(std::string_view follower, const s
     return run_avr_follower(follower.starts_with("mega"), image, lines, end);
   }
   const WorkFolder work;
-  const auto board = follower == "first_board" ? PicFollower::first_board : PicFollower::at_20_mhz;
+  const auto board = is_first_board(follower) ? PicFollower::first_board : PicFollower::at_20_mhz;
   return run_pic_follower(board, image, lines, end, work.path());
 }
 

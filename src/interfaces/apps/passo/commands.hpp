@@ -303,13 +303,16 @@ struct FollowerArguments {
   std::string image;     // a file; empty: the image from the build
   double clock = 0;      // pulses/s; 0: none
   std::string axes = "X";
-  std::string down;                 // axes whose direction signal is high
-  double from = 0.2;                // s: time of the first pulse
-  double time = 1;                  // s
-  std::vector<std::string> keys;    // KEY@FROM[:TO]
-  std::vector<std::string> lines;   // LINE@FROM[:TO]
-  std::vector<std::string> traces;  // .vcd or .csv
-  std::string picture;              // .svg or .png
+  std::string down;                  // axes whose direction signal is high
+  std::string input;                 // a recording of the lines, .vcd or .csv; empty: none
+  std::vector<std::string> signals;  // LINE=NAME: names in the recording
+  double pulse = 0;                  // µs: the recording's pulses are at least this long
+  double from = 0.2;                 // s: time of the first pulse, or of the start of the recording
+  std::optional<double> time;        // s; empty: 1, or to the end of the recording
+  std::vector<std::string> keys;     // KEY@FROM[:TO]
+  std::vector<std::string> lines;    // LINE@FROM[:TO]
+  std::vector<std::string> traces;   // .vcd or .csv
+  std::string picture;               // .svg or .png
 };
 int follower_sim(const FollowerArguments& arguments);
 

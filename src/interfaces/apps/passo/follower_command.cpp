@@ -9,6 +9,7 @@
 
 #include "board_opening.hpp"
 #include "commands.hpp"
+#include "follower_recording.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
@@ -84,8 +85,8 @@ void merge(std::vector<LineChange>& lines) {
 
 using Lines = Result<std::vector<LineChange>, std::string>;
 
-// What people and the machine do, and after it the pulses.
-Lines held_lines_of(const FollowerArguments& arguments) {
+// What people and the machine do, and after it the pulses. `has_keys`: a recording presses keys.
+Lines held_lines_of(const FollowerArguments& arguments, bool has_keys) {
   std::vector<LineChange> lines;
   const std::string no_keypad = "an Uno has no pins for a keypad and a tool button (docs/follower.md)";
   if (!arguments.keys.empty() && !has_keypad(arguments.follower)) return Failure{"--key: " + no_keypad};
@@ -97,8 +98,9 @@ Lines held_lines_of(const FollowerArguments& arguments) {
     if (!held->to) held->to = held->from + shortest_press;
     hold(lines, *held, "key." + held->name);
   }
-  const bool waits = arguments.follower == "first_board";
-  if (waits && arguments.keys.empty()) hold(lines, {.name = "*", .from = 0.05, .to = 0.05 + shortest_press}, "key.*");
+  const bool waits = arguments.follower.starts_with("first_board");
+  if (waits && arguments.keys.empty() && !has_keys)
+    hold(lines, {.name = "*", .from = 0.05, .to = 0.05 + shortest_press}, "key.*");
   for (const std::string& text : arguments.lines) {
     auto held = held_of(text);
     if (held && held->name == "reset") held->to.reset();  // over at once
@@ -113,34 +115,60 @@ Lines held_lines_of(const FollowerArguments& arguments) {
   return lines;
 }
 
-Lines lines_of(const FollowerArguments& arguments) {
-  Lines held = held_lines_of(arguments);
-  if (!held) return held;
-  std::vector<LineChange> lines = *std::move(held);
+// The pulses of --clock.
+Status<std::string> add_pulses(const FollowerArguments& arguments, double time, std::vector<LineChange>& lines) {
   const auto axes = axes_of(arguments.axes);
   const auto down = axes_of(arguments.down);
   if (!axes || !down) return Failure{std::string("--axes, --down: expected letters of XYZ")};
   for (const char axis : *down) lines.push_back({0, std::string("direction.") + axis, true});
-  if (arguments.clock > 0) {
-    if (arguments.from >= arguments.time) {
-      return Failure{
-          fmt::format("--clock: the first pulse would come at {} s (--from), after the end of the run at {} s (--time)",
-                      arguments.from, arguments.time)};
-    }
-    const auto pulses = static_cast<std::int64_t>(std::ceil((arguments.time - arguments.from) * arguments.clock));
-    if (pulses * 2 * std::ssize(*axes) > std::int64_t{most_changes}) {
-      return Failure{fmt::format("more than {} edges: choose a lower --clock or a shorter --time", most_changes)};
-    }
-    for (std::int64_t pulse = 0; pulse < pulses; ++pulse) {
-      const double begin = arguments.from + static_cast<double>(pulse) / arguments.clock;
-      for (const char axis : *axes) {
-        hold(lines, {.name = {}, .from = begin, .to = begin + 0.5 / arguments.clock}, std::string("clock.") + axis);
-      }
+  if (arguments.clock <= 0) return Unit{};
+  if (arguments.from >= time) {
+    return Failure{
+        fmt::format("--clock: the first pulse would come at {} s (--from), after the end of the run at {} s (--time)",
+                    arguments.from, time)};
+  }
+  const auto pulses = static_cast<std::int64_t>(std::ceil((time - arguments.from) * arguments.clock));
+  if (pulses * 2 * std::ssize(*axes) > std::int64_t{most_changes}) {
+    return Failure{fmt::format("more than {} edges: choose a lower --clock or a shorter --time", most_changes)};
+  }
+  for (std::int64_t pulse = 0; pulse < pulses; ++pulse) {
+    const double begin = arguments.from + static_cast<double>(pulse) / arguments.clock;
+    for (const char axis : *axes) {
+      hold(lines, {.name = {}, .from = begin, .to = begin + 0.5 / arguments.clock}, std::string("clock.") + axis);
     }
   }
-  std::ranges::stable_sort(lines, {}, &LineChange::at);
-  merge(lines);
-  return lines;
+  return Unit{};
+}
+
+// All that goes in, and the end of the run.
+struct Played {
+  std::vector<LineChange> lines = {};
+  Nanoseconds end = 0;
+};
+Result<Played, std::string> played_by(const FollowerArguments& arguments) {
+  constexpr Nanoseconds after_recording = 100'000'000;
+  constexpr Nanoseconds longest = 600'000'000'000;
+  FollowerRecording recording;
+  if (!arguments.input.empty()) {
+    auto read = read_follower_recording(arguments, most_changes);
+    if (!read) return Failure{read.error()};
+    recording = *std::move(read);
+    if (!arguments.time && recording.end > longest - after_recording) {
+      return Failure{
+          fmt::format("--input: {} lasts {:.1f} s; a run lasts at most 600 s: play its beginning with --time",
+                      arguments.input, static_cast<double>(recording.end) * 1e-9)};
+    }
+  }
+  Lines held = held_lines_of(arguments, recording.has_keys);
+  if (!held) return Failure{held.error()};
+  Played played{.lines = *std::move(held), .end = nanoseconds(arguments.time.value_or(1))};
+  if (!arguments.input.empty() && !arguments.time) played.end = recording.end + after_recording;
+  const Status<std::string> pulses = add_pulses(arguments, static_cast<double>(played.end) * 1e-9, played.lines);
+  if (!pulses) return Failure{pulses.error()};
+  played.lines.insert(played.lines.end(), recording.lines.begin(), recording.lines.end());
+  std::ranges::stable_sort(played.lines, {}, &LineChange::at);
+  merge(played.lines);
+  return played;
 }
 
 std::string heading_of(const std::string& output) {
@@ -278,20 +306,21 @@ int follower_sim(const FollowerArguments& arguments) {
     if (!is_trace_name(path)) return fail(exit_bad_program, path + ": the name of a trace must end with .vcd or .csv");
   }
   if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
-  const Lines lines = lines_of(arguments);
-  if (!lines) return fail(exit_bad_program, lines.error());
+  const auto played = played_by(arguments);
+  if (!played) return fail(exit_bad_program, played.error());
+  const std::vector<LineChange>& lines = played->lines;
   const std::filesystem::path image =
       arguments.image.empty() ? built_follower(arguments.follower) : std::filesystem::path(arguments.image);
   if (!std::filesystem::exists(image)) {
     return fail(exit_failed,
                 arguments.image.empty() ? message_of_missing(image) : arguments.image + ": there is no such file");
   }
-  const Nanoseconds end = nanoseconds(arguments.time);
-  const auto run = run_follower(arguments.follower, image, *lines, end);
+  const auto run = run_follower(arguments.follower, image, lines, played->end);
   if (!run) return fail(exit_failed, run.error());
   const std::vector<std::string> outputs = outputs_of_follower(arguments.follower);
-  if (arguments.traces.empty() && arguments.picture.empty()) print_table(outputs, *lines, *run);
-  const Signals signals = signals_of(outputs, *lines, *run, end);
+  if (arguments.traces.empty() && arguments.picture.empty()) print_table(outputs, lines, *run);
+  if (!arguments.input.empty()) fmt::print("{}", compared_steps(arguments.follower, lines, *run));
+  const Signals signals = signals_of(outputs, lines, *run, played->end);
   for (const std::string& path : arguments.traces) {
     if (const int code = write_trace(signals, path); code != exit_done) return code;
   }

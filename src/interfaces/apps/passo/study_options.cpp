@@ -30,19 +30,31 @@ void add_follower_options(CLI::App& command, FollowerArguments& arguments) {
   const std::vector<std::string> names = emulated_followers();
   command
       .add_option("FOLLOWER", arguments.follower,
-                  "follower: first_board, or board and drive mode: pic_, uno_ or mega_ with two_on, wave or half_step")
+                  "follower: first_board, first_board_copied or first_board_as_listed, or board and drive mode: pic_, "
+                  "uno_ or mega_ with two_on, wave or half_step")
       ->required()
       ->check(CLI::IsMember(names));
-  command.add_option("--clock", arguments.clock, "frequency of the pulses on the clock lines, Hz (default: no pulses)")
-      ->check(number_range(0.0, 1e6));
+  CLI::Option* const clock =
+      command
+          .add_option("--clock", arguments.clock, "frequency of the pulses on the clock lines, Hz (default: no pulses)")
+          ->check(number_range(0.0, 1e6));
   command.add_option("--axes", arguments.axes, "axes whose clock lines get pulses, e.g. XZ")->capture_default_str();
   command.add_option("--down", arguments.down, "axes whose direction line is high from the start");
-  command.add_option("--from", arguments.from, "time of the first pulse, s")
+  command
+      .add_option("-i,--input", arguments.input,
+                  "recorded signals to play: FILE.vcd or FILE.csv, e.g. of passo run --trace, GTKWave or sigrok")
+      ->excludes(clock);
+  command.add_option("--signal", arguments.signals,
+                     "LINE=NAME: the recording's name of a line, e.g. clock.x=D0 (usual names are known)");
+  command.add_option("--pulse", arguments.pulse, "lengthen the recording's pulses to this time, us")
+      ->check(number_range(0.0, 1e6));
+  command.add_option("--from", arguments.from, "time of the first pulse, or of the start of the recording, s")
       ->check(number_range(0.0, 600.0))
       ->capture_default_str();
-  command.add_option("--time", arguments.time, "duration of the run, s")
-      ->check(number_range(0.001, 600.0))
-      ->capture_default_str();
+  command
+      .add_option("--time", arguments.time,
+                  "duration of the run, s (default: 1, with --input to the end of the recording)")
+      ->check(number_range(0.001, 600.0));
   command.add_option("-k,--key", arguments.keys,
                      "KEY@FROM[:TO]: hold a key (default: for 0.1 s), e.g. 6@0.5:0.9 or #@0.1");
   command.add_option("--line", arguments.lines,
@@ -57,12 +69,19 @@ void add_follower_options(CLI::App& command, FollowerArguments& arguments) {
 Times count from the end of the reset. The lines are clock.x and direction.x (also y and z), relay, button and reset,
 the emergency button. The first board waits for a key: without --key, * is pressed at 0.05 s.
 
+--input plays what another program or a logic analyser recorded, and then compares the pulses with the steps. Signals
+such as X_step and X_dir, clock_x and direction_x, relay or spindle are known by their names. A run plays at most
+2,000,000 changes of the lines in 600 s; --time ends it earlier. The pulses of passo run --trace are as long as the
+machine file says: --pulse lengthens them for a slow follower.
+
 Examples:
   passo follower sim first_board --clock 20                         as first built: 20 Hz, with the windings on LEDs
   passo follower sim first_board --clock 20 --line reset@0.5        an emergency stop: the pulses continue, the motor stops
   passo follower sim first_board --key '#@0.1' --key 6@0.3:0.7      manual control by keys
   passo follower sim uno_half_step --clock 200 --axes XY --down Y --time 0.3 --picture xy.svg
-  passo follower sim pic_wave --clock 1000 --trace wave.vcd         for GTKWave)");
+  passo follower sim pic_wave --clock 1000 --trace wave.vcd         for GTKWave
+  passo follower sim first_board --input part.vcd --pulse 50 --trace windings.csv
+  passo follower sim first_board --input captured.vcd --signal clock.x=D0 --signal direction.x=D3)");
 }
 
 }  // namespace
