@@ -143,11 +143,12 @@ std::string driver_answer(const DriverQuestion& question) {
   if (const std::string words = wrong_in(question); !words.empty()) return error_answer(words);
   const std::vector<Stage> stages = stages_of(question);
   std::vector<TorqueCurve> curves;
-  Hertz end(0);
+  Hertz end(HUGE_VAL);
   for (const Stage& stage : stages) {
     auto curve = torque_with(question, stage.circuit);
     if (!curve) return error_answer(curve.error().message);
-    end = std::max(end, natural_end(*curve, {}));
+    // A little beyond the stage that is first without torque.
+    end = std::min(end, Hertz(1.5 * natural_end(*curve, {}).value()));
     curves.push_back(*curve);
   }
   JsonText json;

@@ -55,33 +55,39 @@ export function BoardLab({ core }: { core: LabCore }): JSX.Element {
   return (
     <div class="lab-bench">
       <Panel bench={bench} played={played} />
-      <section class="panel lab-port" aria-label={say('portTitle')}>
-        <h2>{say('portTitle')}</h2>
-        <Lesson>{say('portLesson')}</Lesson>
-        <PortView
-          wiring={wiring} registers={registers}
-          onToggle={(pin) => {
-            bench.registers = withLevel(bench.registers, pin, 1 - levelOf(bench.registers, pin));
-          }}
-        />
-        <Held class="button" label={say('touchProbe')} pressed={probe} onHold={setProbe}>{say('touchProbe')}</Held>
-      </section>
-      <ClockPanel bench={bench} />
-      <section class="panel lab-wide" aria-label={say('boardMotors')}>
-        <h2>{say('boardMotors')}</h2>
-        <Lesson>{say('boardMotorsLesson')}</Lesson>
-        <div class="lab-pair">
-          <Select label={say('rotor')} value={now.rotor} options={rotors.map((value) => ({ value, words: say('fullStepsATurn', { n: value }) }))} onChange={(rotor) => change({ rotor })} />
+      <div class="lab-bench-side">
+        <section class="panel lab-turning" aria-label={say('boardMotors')}>
+          <h2>{say('boardMotors')}</h2>
+          <div class="lab-motors three">
+            {axisNames.map((axis, i) => (
+              <Motor key={axis} axis={i} played={played} />
+            ))}
+          </div>
+        </section>
+        <section class="panel lab-port" aria-label={say('portTitle')}>
+          <h2>{say('portTitle')}</h2>
+          <PortView
+            wiring={wiring} registers={registers}
+            onToggle={(pin) => {
+              bench.registers = withLevel(bench.registers, pin, 1 - levelOf(bench.registers, pin));
+            }}
+          />
+          <Held class="button" label={say('touchProbe')} pressed={probe} onHold={setProbe}>{say('touchProbe')}</Held>
+          <Lesson>{say('portLesson')}</Lesson>
+        </section>
+        <ClockPanel bench={bench} />
+      </div>
+      <div class="lab-halves lab-wide">
+        <PinTable />
+        <div class="lab-charts">
+          <TableSetup />
+          <section class="panel lab-charts">
+            <Select label={say('rotor')} value={now.rotor} options={rotors.map((value) => ({ value, words: say('fullStepsATurn', { n: value }) }))} onChange={(rotor) => change({ rotor })} />
+            <Lesson>{say('boardMotorsLesson')}</Lesson>
+            <Lesson>{say('boardLesson')}</Lesson>
+          </section>
         </div>
-        <div class="lab-motors three">
-          {axisNames.map((axis, i) => (
-            <Motor key={axis} axis={i} played={played} />
-          ))}
-        </div>
-      </section>
-      <PinTable />
-      <TableSetup />
-      <p class="lab-lesson lab-wide">{say('boardLesson')}</p>
+      </div>
     </div>
   );
 }
@@ -126,7 +132,6 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
   return (
     <section class="panel lab-controls lab-clock" aria-label={say('clockTitle')}>
       <h2>{say('clockTitle')}</h2>
-      <Lesson>{say('clockLesson')}</Lesson>
       <NumberField label={say('clockRate')} unit="Hz" value={now.hz} step={5} from={0.5} to={2000} onChange={(hz) => change({ hz })} />
       <div class="lab-axes">
         {axisNames.map((axis, i) => (
@@ -160,6 +165,7 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
         <button type="button" class="button" onClick={() => moveZ(now.zclear)}>{say('zToClear')}</button>
         <button type="button" class="button" onClick={() => moveZ(now.zwork)}>{say('zToWork')}</button>
       </div>
+      <Lesson>{say('clockLesson')}</Lesson>
     </section>
   );
 }

@@ -108,7 +108,7 @@ export class Bench {
 
 // The bench, and what it shows now. `begin` is called once.
 export function useBench(core: LabCore, wiring: Wiring, begin: (bench: Bench) => void): [Bench, Played] {
-  const held = useRef<Bench | undefined>();
+  const held = useRef<Bench | undefined>(undefined);
   held.current ??= new Bench(core, wiring);
   const bench = held.current;
   const [played, setPlayed] = useState(bench.played);

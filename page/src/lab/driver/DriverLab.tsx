@@ -68,7 +68,7 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
               marks={[{ x: ms(2 / now.drate), words: say('switchedOff') }]}
             />
             <div class="lab-table-frame" tabIndex={0} role="region" aria-label={say('stagesTable')}>
-              <table>
+              <table class="lab-comparison">
                 <thead>
                   <tr>
                     <th>{say('stageTitle')}</th>
@@ -112,11 +112,11 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
               {number('base', say('baseResistor'), 'Ω', 10, 1, 1e6)}
             </div>
             <ol class="lab-sums">
-              <li>I<sub>B</sub> ≥ I<sub>C</sub>/h<sub>FE</sub> = {short(now.damps)} A / {short(now.gain)} = <b>{short(ma(answer.base.needed_a))} mA</b></li>
-              <li>{say('withReserve', { percent: short(100 * now.reserve) })}: <b>{short(ma(answer.base.wanted_a))} mA</b></li>
-              <li>R<sub>B</sub> ≤ ({short(now.logic)} V − {short(now.vbe)} V) / {short(ma(answer.base.wanted_a))} mA = <b data-largest>{short(answer.base.largest_ohm, 4)} Ω</b></li>
+              <li>I<sub>B</sub> ≥ I<sub>C</sub>/h<sub>FE</sub> = {now.damps} A / {now.gain} = <b>{short(ma(answer.base.needed_a))} mA</b></li>
+              <li>{say('withReserve', { percent: Number((100 * now.reserve).toPrecision(4)) })}: <b>{short(ma(answer.base.wanted_a))} mA</b></li>
+              <li>R<sub>B</sub> ≤ ({now.logic} V − {now.vbe} V) / {short(ma(answer.base.wanted_a))} mA = <b data-largest>{short(answer.base.largest_ohm, 4)} Ω</b></li>
               <li>
-                {short(now.base)} Ω: I<sub>B</sub> = <b>{short(ma(answer.base.given_a))} mA</b>,{' '}
+                {now.base} Ω: I<sub>B</sub> = <b>{short(ma(answer.base.given_a))} mA</b>,{' '}
                 <span data-overdrive>{say(answer.base.given_a >= answer.base.wanted_a ? 'baseAmple' : 'baseTooLittle', { times: short(answer.base.overdrive) })}</span>
               </li>
             </ol>

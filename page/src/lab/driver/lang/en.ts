@@ -5,7 +5,7 @@ export const en = {
     'A transistor switches each winding. The current does not jump to its value: it rises by i(t) = U/R · (1 − e^(−t·R/L)). At higher step rates there is no time left to reach the rated current, so the torque falls.',
   stagesLesson:
     'A raised supply with a series resistor shortens the time constant L/R, but the resistor heats. A chopper uses the raised supply without a resistor: it switches the winding off at the rated current, and on again when the current has fallen below its band. Assumed: L and the holding torque, because the source does not give them; a drop of 0.7 V at the diodes. Not included: the induced voltage and the coupling of the half windings.',
-  saturation: 'Transistor drop, V_CE(sat)',
+  saturation: 'Transistor drop, VCE(sat)',
   raisedSupply: 'Raised supply voltage',
   seriesResistor: 'Series resistor',
   chopperBand: 'Chopper band, fraction',
@@ -25,7 +25,7 @@ export const en = {
   baseTitle: 'Base resistor of the Darlington',
   baseLesson:
     'The Darlington (BDX53C, gain at least 750) must saturate. Its base needs the collector current divided by the gain, with a reserve of 20 to 30 %. The base-emitter voltage of about 1.4 V remains.',
-  gainTitle: 'Current gain h_FE',
+  gainTitle: 'Current gain hFE',
   logicVolts: 'Logic high level',
   baseEmitter: 'Base-emitter voltage',
   reserveTitle: 'Reserve, fraction',
@@ -33,7 +33,7 @@ export const en = {
   withReserve: 'with {percent} % reserve',
   baseAmple: '{times} times what is needed: ample. It covers a lower gain, a higher base-emitter voltage and a weaker logic level, and costs only milliamperes.',
   baseTooLittle: '{times} times what is needed: not enough for the reserve.',
-  heatWhileOn: 'Heat while on, V_CE(sat) · I',
+  heatWhileOn: 'Heat while on, VCE(sat) · I',
   warmerBy: 'Temperature rise without heat sink, on half of the time',
 };
 

@@ -7,7 +7,7 @@ export const fr: DriverWords = {
     'Un transistor commute chaque enroulement. Le courant ne s’établit pas d’un coup : il suit i(t) = U/R · (1 − e^(−t·R/L)). Aux fréquences de pas élevées, le temps manque pour atteindre le courant nominal, et le couple diminue.',
   stagesLesson:
     'Une tension plus élevée avec une résistance série réduit la constante de temps L/R, mais la résistance chauffe. Un hacheur utilise cette tension sans résistance : il coupe l’enroulement au courant nominal et le réalimente quand le courant est descendu sous sa bande. Supposés : L et le couple de maintien, que la source n’indique pas, et 0,7 V aux diodes de roue libre. Non compris : la tension induite et le couplage des demi-enroulements.',
-  saturation: 'Chute du transistor, V_CE(sat)',
+  saturation: 'Chute du transistor, VCE(sat)',
   raisedSupply: 'Tension d’alimentation élevée',
   seriesResistor: 'Résistance série',
   chopperBand: 'Bande du hacheur, fraction',
@@ -27,7 +27,7 @@ export const fr: DriverWords = {
   baseTitle: 'Résistance de base du Darlington',
   baseLesson:
     'Le Darlington (BDX53C, gain d’au moins 750) doit être saturé. Sa base demande le courant de collecteur divisé par le gain, avec une réserve de 20 à 30 %. La tension base-émetteur reste d’environ 1,4 V.',
-  gainTitle: 'Gain en courant h_FE',
+  gainTitle: 'Gain en courant hFE',
   logicVolts: 'Niveau logique haut',
   baseEmitter: 'Tension base-émetteur',
   reserveTitle: 'Réserve, fraction',
@@ -35,6 +35,6 @@ export const fr: DriverWords = {
   withReserve: 'avec {percent} % de réserve',
   baseAmple: '{times} fois le nécessaire : largement suffisant. Cela couvre un gain plus faible, une tension base-émetteur plus élevée et un niveau logique plus bas, et ne coûte que des milliampères.',
   baseTooLittle: '{times} fois le nécessaire : insuffisant pour la réserve.',
-  heatWhileOn: 'Puissance dissipée en conduction, V_CE(sat) · I',
+  heatWhileOn: 'Puissance dissipée en conduction, VCE(sat) · I',
   warmerBy: 'Échauffement sans dissipateur, en conduction la moitié du temps',
 };

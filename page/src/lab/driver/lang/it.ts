@@ -7,7 +7,7 @@ export const it: DriverWords = {
     'Un transistor commuta ogni avvolgimento. La corrente non sale istantaneamente: segue la legge esponenziale i(t) = U/R · (1 − e^(−t·R/L)). Alle frequenze di passo più alte non c’è tempo di raggiungere la corrente nominale, perciò la coppia cala.',
   stagesLesson:
     'Una tensione maggiore con una resistenza in serie riduce la costante di tempo L/R, ma la resistenza scalda. Un chopper usa la tensione maggiore senza resistenza: diseccita l’avvolgimento alla corrente nominale e lo eccita di nuovo quando la corrente scende sotto la sua banda. Assunti: L e la coppia di tenuta, che la fonte non indica, e 0,7 V sui diodi di ricircolo. Non inclusi: la tensione indotta e l’accoppiamento dei mezzi avvolgimenti.',
-  saturation: 'Caduta del transistor, V_CE(sat)',
+  saturation: 'Caduta del transistor, VCE(sat)',
   raisedSupply: 'Tensione maggiorata',
   seriesResistor: 'Resistenza in serie',
   chopperBand: 'Banda del chopper, frazione',
@@ -27,7 +27,7 @@ export const it: DriverWords = {
   baseTitle: 'Resistenza di base del Darlington',
   baseLesson:
     'Il Darlington (BDX53C, guadagno minimo 750) deve andare in saturazione. La base richiede la corrente di collettore divisa per il guadagno, aumentata del 20–30 %. Rimane la tensione base-emettitore di circa 1,4 V.',
-  gainTitle: 'Guadagno h_FE',
+  gainTitle: 'Guadagno hFE',
   logicVolts: 'Livello logico alto',
   baseEmitter: 'Tensione base-emettitore',
   reserveTitle: 'Margine, frazione',
@@ -35,6 +35,6 @@ export const it: DriverWords = {
   withReserve: 'con un margine del {percent} %',
   baseAmple: '{times} volte il necessario: abbondante. Copre un guadagno minore, una tensione base-emettitore maggiore e un livello logico più basso, e costa solo pochi milliampere.',
   baseTooLittle: '{times} volte il necessario: non basta per il margine.',
-  heatWhileOn: 'Potenza dissipata in conduzione, V_CE(sat) · I',
+  heatWhileOn: 'Potenza dissipata in conduzione, VCE(sat) · I',
   warmerBy: 'Sovratemperatura senza dissipatore, in conduzione per metà del tempo',
 };
