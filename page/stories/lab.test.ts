@@ -114,9 +114,9 @@ describe('the lab', () => {
     // The emergency button: the status bit is 0 while its inverted pin is high.
     const stop = page.getByRole('button', { name: 'Emergency stop' });
     await stop.focus();
-    await page.keyboard.down(' ');
+    await page.keyboard.down('Enter');
     await expect.poll(() => page.locator('[data-register=status]').innerText()).toBe('0x00');
-    await page.keyboard.up(' ');
+    await page.keyboard.up('Enter');
     await expect.poll(() => mode.getAttribute('data-mode')).toBe('waiting');
     expect(await violations(page)).toEqual([]);
     expect(errors).toEqual([]);

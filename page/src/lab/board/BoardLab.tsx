@@ -53,7 +53,7 @@ export function BoardLab({ core }: { core: LabCore }): JSX.Element {
   }, [mode]);
   const registers = withStatus(played.registers, wiring, played, probe);
   return (
-    <div class="lab-bench">
+    <div class="lab-bench" tabIndex={-1}>
       <Panel bench={bench} played={played} />
       <div class="lab-bench-side">
         <section class="panel lab-turning" aria-label={say('boardMotors')}>
@@ -72,7 +72,7 @@ export function BoardLab({ core }: { core: LabCore }): JSX.Element {
               bench.registers = withLevel(bench.registers, pin, 1 - levelOf(bench.registers, pin));
             }}
           />
-          <Held class="button" label={say('touchProbe')} pressed={probe} onHold={setProbe}>{say('touchProbe')}</Held>
+          <Held class="button" pressed={probe} onHold={setProbe}>{say('touchProbe')}</Held>
           <Lesson>{say('portLesson')}</Lesson>
         </section>
         <ClockPanel bench={bench} />
@@ -155,7 +155,7 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
         <span>{say('jogTitle')}</span>
         {axisNames.flatMap((axis, i) =>
           [false, true].map((up) => (
-            <Held key={`${axis}${up}`} class="button" label={`${axis}${up ? '+' : '−'}`} pressed={jogged === `${i}${up ? '+' : '-'}`} onHold={(held) => jog(i, up, held)}>
+            <Held key={`${axis}${up}`} class="button" pressed={jogged === `${i}${up ? '+' : '-'}`} onHold={(held) => jog(i, up, held)}>
               {axis}{up ? '+' : '−'}
             </Held>
           )),

@@ -1,6 +1,7 @@
 // The board's front: keypad, LEDs, the tool's relay and button, the emergency button.
-import type { JSX } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
+import type { ComponentChildren, JSX, RefObject } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { isTyping } from '../../core/typing';
 import { say } from '../words';
 import { type Bench, type KeyName, keyNames, type Played } from './play';
 
@@ -11,17 +12,16 @@ const moves: Partial<Record<KeyName, string>> = {
 
 interface HeldProps {
   class: string;
-  label: string;
   pressed: boolean;
   onHold: (held: boolean) => void;
-  children: preact.ComponentChildren;
+  children: ComponentChildren;
 }
-// A button that acts as long as it is held: by a finger, the mouse, the space bar or Enter.
-export function Held({ class: name, label, pressed, onHold, children }: HeldProps): JSX.Element {
-  const isKey = (event: KeyboardEvent): boolean => event.key === ' ' || event.key === 'Enter';
+// A button that acts as long as it is held: by a finger, the mouse or Enter. The space bar holds the machine, as on every page.
+export function Held({ class: name, pressed, onHold, children }: HeldProps): JSX.Element {
+  const isKey = (event: KeyboardEvent): boolean => event.key === 'Enter';
   return (
     <button
-      type="button" class={name} aria-label={label} aria-pressed={pressed}
+      type="button" class={name} aria-pressed={pressed}
       onPointerDown={(event) => {
         if (event.button !== 0) return;
         event.currentTarget.setPointerCapture(event.pointerId);
@@ -44,8 +44,9 @@ export function Held({ class: name, label, pressed, onHold, children }: HeldProp
   );
 }
 
-// Which keys are down: those on the screen and those of the keyboard.
-function useKeys(bench: Bench): [number, (key: KeyName, down: boolean) => void] {
+// Which keys are down: those on the screen, and those of the keyboard while `area` has the focus. There a digit is a key of
+// the board, not the shortcut of a page.
+function useKeys(bench: Bench, area: RefObject<HTMLElement | null>): [number, (key: KeyName, down: boolean) => void] {
   const [keys, setKeys] = useState(0);
   const hold = (key: KeyName, down: boolean): void => {
     const bit = 1 << keyNames.indexOf(key);
@@ -53,6 +54,9 @@ function useKeys(bench: Bench): [number, (key: KeyName, down: boolean) => void] 
     setKeys(bench.keys);
   };
   useEffect(() => {
+    const here = area.current?.closest<HTMLElement>('.lab-bench');
+    if (!here) return;
+    if (document.activeElement === document.body) here.focus({ preventScroll: true });
     // A key that is released may have another name by then: # is Shift with 3.
     const down = new Map<string, KeyName>();
     const release = (): void => {
@@ -61,8 +65,9 @@ function useKeys(bench: Bench): [number, (key: KeyName, down: boolean) => void] 
     };
     const pressed = (event: KeyboardEvent): void => {
       const key = keyNames.find((name) => name === event.key);
-      const typesInto = event.target instanceof Element && event.target.closest('input, select, textarea') !== null;
-      if (key === undefined || event.repeat || event.metaKey || typesInto) return;
+      if (key === undefined || event.metaKey || isTyping(event.target)) return;
+      event.stopPropagation();
+      if (event.repeat) return;
       down.set(event.code, key);
       hold(key, true);
     };
@@ -72,12 +77,12 @@ function useKeys(bench: Bench): [number, (key: KeyName, down: boolean) => void] 
       down.delete(event.code);
       hold(key, false);
     };
-    addEventListener('keydown', pressed);
+    here.addEventListener('keydown', pressed);
     addEventListener('keyup', released);
     addEventListener('blur', release);
     return () => {
       release();
-      removeEventListener('keydown', pressed);
+      here.removeEventListener('keydown', pressed);
       removeEventListener('keyup', released);
       removeEventListener('blur', release);
     };
@@ -102,18 +107,19 @@ function Led({ name, words, lit }: LedProps): JSX.Element {
 }
 
 export function Panel({ bench, played }: { bench: Bench; played: Played }): JSX.Element {
-  const [keys, hold] = useKeys(bench);
+  const area = useRef<HTMLElement | null>(null);
+  const [keys, hold] = useKeys(bench, area);
   const [button, setButton] = useState(false);
   const { answer } = played;
   const [rb0, rd1, rd2, rd3] = answer.leds;
   return (
-    <section class="panel lab-front" aria-label={say('boardFront')}>
+    <section class="panel lab-front" ref={area} aria-label={say('boardFront')}>
       <h2>{say('boardFront')}</h2>
       <p class="lab-mode" role="status" data-mode={answer.mode}>{say(`mode_${answer.mode}`)}</p>
       <div class="lab-keypad" role="group" aria-label={say('keypad')}>
         {keyNames.map((key, i) => (
           <Held
-            key={key} class="lab-key" label={[key, moves[key] ?? say(key === '#' ? 'keyManual' : 'keyAutomatic')].join(': ')}
+            key={key} class="lab-key"
             pressed={((keys >> i) & 1) === 1} onHold={(down) => hold(key, down)}
           >
             <b>{key}</b>
@@ -121,6 +127,7 @@ export function Panel({ bench, played }: { bench: Bench; played: Played }): JSX.
           </Held>
         ))}
       </div>
+      <p class="lab-hint">{say('keypadHint')}</p>
       <ul class="lab-leds">
         <Led name="RB0" words={say('ledAutomatic')} lit={rb0 === 1} />
         <Led name="RD1" words={say('ledWaitingUp')} lit={rd1 === 1} />
@@ -130,7 +137,7 @@ export function Panel({ bench, played }: { bench: Bench; played: Played }): JSX.
       </ul>
       <div class="lab-board-buttons">
         <Held
-          class="button" label={say('toolButton')} pressed={button}
+          class="button" pressed={button}
           onHold={(down) => {
             bench.button = down;
             setButton(down);
@@ -147,7 +154,7 @@ export function Panel({ bench, played }: { bench: Bench; played: Played }): JSX.
           {say(answer.relay ? 'relayClosed' : 'relayOpen')}
         </span>
         <Held
-          class="button lab-emergency" label={say('emergencyButton')} pressed={bench.isReset}
+          class="button lab-emergency" pressed={bench.isReset}
           onHold={(down) => {
             if (down !== bench.isReset) bench.reset(down);
           }}

@@ -60,7 +60,7 @@ function Bit({ one, wiring, registers, onToggle }: PortProps & { one: PortPin })
   const title = titleOf(one, wiring, registers);
   if (!isOutput(one)) return <div class="lab-bit" title={title}>{inner}</div>;
   return (
-    <button type="button" class="lab-bit" title={title} aria-label={title} aria-pressed={bitOf(registers, one) === 1} data-pin={one.pin} onClick={() => onToggle(one)}>
+    <button type="button" class="lab-bit" title={title} aria-pressed={bitOf(registers, one) === 1} data-pin={one.pin} onClick={() => onToggle(one)}>
       {inner}
     </button>
   );

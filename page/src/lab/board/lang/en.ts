@@ -5,6 +5,7 @@ export const en = {
     'This is the control board of a machine that a school built: a PIC16F877A between the parallel port of a PC and three unipolar motors. Its program here is the C++ source of Passo’s firmware. The wiring of the DB25 to the board is assumed to follow the table of pins; the RE2 LED shows the relay.',
   boardFront: 'Board',
   keypad: 'Keypad',
+  keypadHint: 'The keys of your keyboard work too, after a click into this part.',
   mode_waiting: 'Waiting after the reset: press * or #',
   mode_automatic: 'Automatic mode: the port moves the motors',
   mode_manual: 'Manual mode: the keys move the motors',

@@ -7,6 +7,7 @@ export const fr: BoardWords = {
     'Voici la carte de commande d’une machine construite dans une école : un PIC16F877A entre le port parallèle d’un PC et trois moteurs unipolaires. Son programme est ici le source C++ du firmware de Passo. On suppose que le câblage du DB25 vers la carte suit le tableau des broches ; la LED RE2 montre le relais.',
   boardFront: 'Carte',
   keypad: 'Clavier',
+  keypadHint: 'Les touches du clavier de l’ordinateur agissent aussi, après un clic dans cette partie.',
   mode_waiting: 'En attente après la réinitialisation : appuyez sur * ou #',
   mode_automatic: 'Mode automatique : le port déplace les moteurs',
   mode_manual: 'Mode manuel : les touches déplacent les moteurs',

@@ -7,6 +7,7 @@ export const it: BoardWords = {
     'Questa è la scheda di controllo di una macchina costruita in una scuola: un PIC16F877A fra la porta parallela di un PC e tre motori unipolari. Qui il suo programma è il sorgente C++ del firmware di Passo. Si assume che il cablaggio dal DB25 alla scheda segua la tabella dei pin; il LED RE2 mostra il relè.',
   boardFront: 'Scheda',
   keypad: 'Tastierino',
+  keypadHint: 'Funzionano anche i tasti della tastiera, dopo un clic in questa parte.',
   mode_waiting: 'In attesa dopo il reset: premi * o #',
   mode_automatic: 'Automatico: la porta muove i motori',
   mode_manual: 'Manuale: i tasti muovono i motori',

@@ -7,6 +7,7 @@ export const zh: BoardWords = {
     '这是一所学校自制机床的控制板：PIC16F877A 单片机位于 PC 并口与三台单极性步进电机之间。这里运行的是 Passo 固件的 C++ 源程序。假定 DB25 到控制板的接线与引脚表一致；RE2 指示灯显示继电器状态。',
   boardFront: '控制板',
   keypad: '键盘',
+  keypadHint: '在此页面内单击后，也可使用电脑键盘的按键。',
   mode_waiting: '复位后等待：请按 * 或 #',
   mode_automatic: '自动模式：并口驱动电机',
   mode_manual: '手动模式：按键驱动电机',
