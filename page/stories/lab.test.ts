@@ -138,6 +138,13 @@ describe('the lab', () => {
     await expect.poll(() => page.locator('.lab-mode').getAttribute('data-mode')).toBe('automatic');
     await control.click();
     await expect.poll(() => page.locator('[data-axis=Y] [data-place]').innerText()).toBe('0.0008 in');
+    // The arrow keys move an axis as long as they are held, and the program counts the pulses.
+    await page.getByRole('button', { name: 'X+' }).last().focus();
+    await page.keyboard.down('ArrowRight');
+    await expect.poll(() => page.locator('[data-axis=X] [data-counted]').innerText()).not.toBe('0.0000 in');
+    await page.keyboard.up('ArrowRight');
+    const counted = await page.locator('[data-axis=X] [data-counted]').innerText();
+    expect(await page.locator('[data-axis=X] [data-place]').innerText()).toBe(counted);
     await context.close();
   });
 

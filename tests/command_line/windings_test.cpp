@@ -59,8 +59,8 @@ TEST_F(WindingsCommand, draws_currents_that_rise_where_the_motor_and_its_supply_
   // With twice the voltage and as large a resistor the same in half the time.
   EXPECT_THAT(windings(motor + " --supply 26.6 --series 12.8").out, HasSubstr(",0.117503,1.8\n"));
   EXPECT_THAT(windings(motor + " --supply 36 --chopper").out, HasSubstr("\n0.010355669,1,0,1,0,0,0.614286,1,1.8\n"));
-  const Outcome machine =
-      windings("--drive wave --to 2 --time 0.02 --axis X -m " + checkout + "/examples/machines/strong-router.toml");
+  const Outcome machine = windings("--drive wave --to 2 --time 0.02 --axis X -m " +
+                                   (passo::test::examples / "machines/strong-router.toml").string());
   EXPECT_EQ(machine.code, 0) << machine.err;
   EXPECT_GT(machine.out.size(), windings("--drive wave --to 2 --time 0.02").out.size());
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "canvas.hpp"
 #include "chart.hpp"
@@ -92,23 +93,28 @@ std::vector<PhaseLines> phase_lines(const WindingScene& scene, double unit) {
   std::vector<PhaseLines> lines(scene.motors.count);
   PhaseCurrents currents(scene.motors);
   Place place(scene.motors.count, 0);
-  const auto show = [&] {
+  // Between two pulses, points that would be less than about a pixel from the last one are left out.
+  const auto show = [&](double least) {
     for (std::size_t motor = 0; motor < scene.motors.count; ++motor) {
       const auto [a, b] = currents.of(motor);
-      lines[motor].a.push_back({currents.now().value() * unit, a});
-      lines[motor].b.push_back({currents.now().value() * unit, b});
+      const double now = currents.now().value() * unit;
+      auto& [of_a, of_b] = lines[motor];
+      if (of_a.empty() || std::abs(a - of_a.back().y) >= least) of_a.push_back({now, a});
+      if (of_b.empty() || std::abs(b - of_b.back().y) >= least) of_b.push_back({now, b});
     }
   };
-  show();
+  constexpr double pixel = 0.01;
+  const auto show_between = [&] { show(pixel); };
+  show(0);
   for (const TimedPulse& timed : scene.pulses) {
-    currents.play(timed.time, show);
-    show();
+    currents.play(timed.time, show_between);
+    show(0);
     apply(timed.pulse, place);
     for (std::size_t motor = 0; motor < scene.motors.count; ++motor) currents.move_to(motor, place[motor]);
-    show();
+    show(0);
   }
-  currents.play(Seconds(shown_end(scene)), show);
-  show();
+  currents.play(Seconds(shown_end(scene)), show_between);
+  show(0);
   return lines;
 }
 

@@ -92,6 +92,11 @@ export function BoardLab({ core }: { core: LabCore }): JSX.Element {
   );
 }
 
+// The arrow keys of the computer's keyboard, while a button for jogging has the focus.
+const moveOfKey: Partial<Record<string, readonly [number, boolean]>> = {
+  ArrowLeft: [0, false], ArrowRight: [0, true], ArrowDown: [1, false], ArrowUp: [1, true], PageDown: [2, false], PageUp: [2, true],
+};
+
 // The program's control window: a clock on some axes, jogging, and the two heights of Z.
 function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
   const now = view.value;
@@ -151,7 +156,19 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
       >
         {say(now.run ? 'clockStop' : 'clockStart')}
       </button>
-      <div class="lab-jog" role="group" aria-label={say('jogTitle')}>
+      <div
+        class="lab-jog" role="group" aria-label={say('jogTitle')}
+        onKeyDown={(event) => {
+          const move = moveOfKey[event.key];
+          if (move === undefined) return;
+          event.preventDefault();
+          if (!event.repeat) jog(move[0], move[1], true);
+        }}
+        onKeyUp={(event) => {
+          const move = moveOfKey[event.key];
+          if (move !== undefined) jog(move[0], move[1], false);
+        }}
+      >
         <span>{say('jogTitle')}</span>
         {axisNames.flatMap((axis, i) =>
           [false, true].map((up) => (

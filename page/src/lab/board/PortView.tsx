@@ -53,7 +53,7 @@ function Bit({ one, wiring, registers, onToggle }: PortProps & { one: PortPin })
       <span class={one.inverted ? 'lab-bit-name inverted' : 'lab-bit-name'}>{`${one.register[0]?.toUpperCase()}${one.bit}`}</span>
       <b>{bitOf(registers, one)}</b>
       <span class={levelOf(registers, one) ? 'lab-level high' : 'lab-level'} aria-hidden="true" />
-      <small>{say('pinNumber', { n: one.pin })}</small>
+      <small>{say('pinShort', { n: one.pin })}</small>
       <small class="lab-bit-line">{line === undefined ? '–' : shortWords(line)}</small>
     </>
   );

@@ -20,7 +20,7 @@ export function PinTable(): JSX.Element {
       return false;
     }
     setRefused('');
-    change({ lpt: wanted });
+    change({ lpt: wanted, run: false });
     return true;
   };
   return (
@@ -51,7 +51,7 @@ export function PinTable(): JSX.Element {
                   <option value={0}>–</option>
                   {pinsFor(line).map((one) => (
                     <option key={one.pin} value={one.pin}>
-                      {`${one.pin} · ${one.register[0]?.toUpperCase()}${one.bit}${one.inverted ? ` (${say('bitInverted')})` : ''}`}
+                      {`${one.pin} · ${one.inverted ? '¬' : ''}${one.register[0]?.toUpperCase()}${one.bit}`}
                     </option>
                   ))}
                 </select>

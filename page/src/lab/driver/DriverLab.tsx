@@ -68,7 +68,7 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
               marks={[{ x: ms(2 / now.drate), words: say('switchedOff') }]}
             />
             <div class="lab-table-frame" tabIndex={0} role="region" aria-label={say('stagesTable')}>
-              <table class="lab-comparison">
+              <table class="lab-comparison lab-stages">
                 <thead>
                   <tr>
                     <th>{say('stageTitle')}</th>

@@ -63,8 +63,8 @@ TEST_F(WindingRecords, of_a_short_move_are_what_they_were) {
 TEST_F(WindingRecords, have_currents_that_rise_where_the_motor_is_known) {
   const std::string text = written([&](OutputFile& file) {
     WindingMotors one{.excitation = *Excitation::named("wave"), .full_steps_per_turn = 200};
-    one.stage = WindingStage{
-        .circuit = {.supply = {13.8}, .drop = {1}, .winding = {12.8}, .inductance = {10e-3}}, .rated = {1}};
+    one.stage = WindingStage{.circuit = {.supply = {13.8}, .drop = {1}, .winding = {12.8}, .inductance = {10e-3}},
+                             .rated = {1}};
     WindingCsv record(one, file);
     record.add({Seconds(0.001), {1, 0}});
     record.finish(Seconds(0.001));
