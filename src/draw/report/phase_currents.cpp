@@ -38,12 +38,12 @@ void PhaseCurrents::switch_windings(Motor& motor) const {
 }
 
 PhaseCurrents::Phases PhaseCurrents::of(std::size_t motor) const {
-  const auto& [place, windings] = motors_[motor];
-  if (windings.empty()) {
-    const WindingState state = excitation_.at(place);
+  const Motor& one = motors_[motor];
+  if (one.windings.empty()) {
+    const WindingState state = excitation_.at(one.place);
     return {state.phase_a, state.phase_b};
   }
-  const auto part = [&](std::size_t output) { return windings[output].now().value / rated_; };
+  const auto part = [&](std::size_t output) { return one.windings[output].now().value / rated_; };
   return {part(0) - part(2), part(1) - part(3)};
 }
 
