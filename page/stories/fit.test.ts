@@ -6,7 +6,7 @@ import { beginStage, browser, daemon } from './stage';
 
 beginStage();
 
-const paths = ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'lab'];
+const paths = ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'lab', 'lab?part=board', 'lab?part=driver'];
 const pictures = process.env.PASSO_FIT_PICTURES; // a folder, for whoever wants to look
 const sizes = [{ width: 1366, height: 768 }, { width: 390, height: 844 }] as const;
 
@@ -76,12 +76,12 @@ describe('every page in every language', () => {
       await page.locator('.owner').first().waitFor();
       for (const path of paths) {
         await page.evaluate((to) => void (location.hash = `/${to}`), path);
-        await page.locator(`main.page-${path} :is(section, form, .panel)`).first().waitFor();
+        await page.locator(`main.page-${path.split('?')[0]} :is(section, form, .panel)`).first().waitFor();
         for (const size of sizes) {
           await page.setViewportSize(size);
           await settled(page);
           all.push(...(await misfits(page)).map((one) => `${size.width} ${language} ${path}: ${one}`));
-          if (pictures !== undefined) await page.screenshot({ path: `${pictures}/${size.width}-${language}-${path}.png` });
+          if (pictures !== undefined) await page.screenshot({ path: `${pictures}/${size.width}-${language}-${path.replace('?', '-')}.png` });
         }
       }
     }

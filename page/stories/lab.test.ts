@@ -1,7 +1,7 @@
 // The lab in the real browser: what a teacher and a class do with it.
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import { visit } from './kit';
+import { violations, visit } from './kit';
 import { beginStage, browser, daemon } from './stage';
 
 beginStage();
@@ -79,6 +79,82 @@ describe('the lab', () => {
       await page.getByRole('tab', { name: tab }).click();
       await page.locator('.lab-chart').first().waitFor();
     }
+    await context.close();
+  });
+
+  it('plays the first board by keys and by the bits of its port', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'lab?part=board');
+    const mode = page.locator('.lab-mode');
+    const place = (axis: string) => page.locator(`[data-axis=${axis}] [data-place]`).innerText();
+    const led = (name: string) => page.locator(`[data-led=${name}]`).getAttribute('class');
+    await mode.waitFor();
+    expect(await mode.getAttribute('data-mode')).toBe('waiting');
+    // Before a mode key a clock moves nothing.
+    const clockX = page.locator('[data-pin="2"]');
+    await clockX.click();
+    await page.keyboard.press('*', { delay: 80 });
+    await expect.poll(() => mode.getAttribute('data-mode')).toBe('automatic');
+    expect(await place('X')).toBe('0.00 mm');
+    await clockX.click();
+    await clockX.click();
+    await expect.poll(() => place('X')).toBe('0.02 mm');
+    expect(await page.locator('[data-register=data]').innerText()).toBe('0x01');
+    // Direction 1 turns back, at the next rising edge.
+    await page.locator('[data-pin="5"]').click();
+    await clockX.click();
+    await clockX.click();
+    await expect.poll(() => place('X')).toBe('0.00 mm');
+    // Key 5 raises Z, and RD1 is lit meanwhile.
+    await page.keyboard.press('#', { delay: 80 });
+    await expect.poll(() => led('RD1')).toBe('lab-led');
+    await page.keyboard.down('5');
+    await expect.poll(() => led('RD1')).toBe('lab-led lit');
+    await page.keyboard.up('5');
+    expect(Number.parseFloat(await place('Z'))).toBeGreaterThan(0);
+    // The emergency button: the status bit is 0 while its inverted pin is high.
+    const stop = page.getByRole('button', { name: 'Emergency stop' });
+    await stop.focus();
+    await page.keyboard.down('Enter');
+    await expect.poll(() => page.locator('[data-register=status]').innerText()).toBe('0x00');
+    await page.keyboard.up('Enter');
+    await expect.poll(() => mode.getAttribute('data-mode')).toBe('waiting');
+    expect(await violations(page)).toEqual([]);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+
+  it('refuses two lines on one pin, and reproduces another assignment by a link', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?part=board&mode=automatic&unit=inch&perunit=1270,1270,1270');
+    const clockY = page.getByRole('combobox', { name: 'Clock Y' });
+    await clockY.selectOption('2');
+    await page.getByText('Pin 2 is already assigned to “Clock X”, so “Clock Y” cannot use it.').waitFor();
+    expect(await clockY.inputValue()).toBe('3');
+    await clockY.selectOption('14');
+    await expect.poll(() => query(page).get('lpt')).toBe('2.14.4.5.6.7.8.10.12.13.15.11');
+    const link = page.url();
+    await page.goto('about:blank');
+    await page.goto(link);
+    const control = page.locator('[data-pin="14"]');
+    await expect.poll(() => page.locator('.lab-mode').getAttribute('data-mode')).toBe('automatic');
+    await control.click();
+    await expect.poll(() => page.locator('[data-axis=Y] [data-place]').innerText()).toBe('0.0008 in');
+    // The arrow keys move an axis as long as they are held, and the program counts the pulses.
+    await page.getByRole('button', { name: 'X+' }).last().focus();
+    await page.keyboard.down('ArrowRight');
+    await expect.poll(() => page.locator('[data-axis=X] [data-counted]').innerText()).not.toBe('0.0000 in');
+    await page.keyboard.up('ArrowRight');
+    const counted = await page.locator('[data-axis=X] [data-counted]').innerText();
+    expect(await page.locator('[data-axis=X] [data-place]').innerText()).toBe(counted);
+    await context.close();
+  });
+
+  it('shows why the base resistor is ample', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?part=driver');
+    expect(await page.locator('[data-largest]').innerText()).toBe('2077 Ω');
+    expect(await page.locator('[data-overdrive]').innerText()).toContain('5.74 times');
+    await page.getByRole('spinbutton', { name: 'Base resistor' }).fill('2200');
+    await expect.poll(() => page.locator('[data-overdrive]').innerText()).toContain('not enough');
+    expect(await violations(page)).toEqual([]);
     await context.close();
   });
 });

@@ -1,5 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { nearest, niceStep, ticksOf } from '../src/lab/Chart';
+import { boardLines, conflictIn, restingRegisters, wiringField, withBoardLines, withLine } from '../src/lab/board/port';
+import { atEnd, inUnit, placeOf, stepsTo, type Table } from '../src/lab/board/table';
 import { beatAt, shareOf } from '../src/lab/play';
 import { fields, methodsFor, moveOf, onCircle, readView, writeView } from '../src/lab/view';
 import { labTables } from '../src/lab/words';
@@ -66,6 +68,52 @@ describe('charts', () => {
   });
   it('finds the nearest entry', () => {
     expect([-1, 0.4, 0.6, 9].map((at) => nearest([0, 1, 2], at))).toEqual([0, 0, 1, 2]);
+  });
+});
+
+describe('the first board’s port', () => {
+  const usual = wiringField.usual;
+  it('is as its table has it: the bits that the port inverts are 1 while their pins are low', () => {
+    const resting = restingRegisters(usual);
+    expect([resting.data, resting.control & 0xf]).toEqual([0x00, 0x0b]);
+    const lines = withBoardLines(usual, resting, 0b1_010_001);
+    expect(lines.data).toBe(0x51);
+    expect(boardLines(usual, lines)).toBe(0b1_010_001);
+  });
+  it('carries a line on an inverted bit, inverted by the program too', () => {
+    const wiring = wiringField.read('14i.3.4.5.6.7.8.10.12.13.15.11');
+    expect(wiring).toBeDefined();
+    if (wiring === undefined) return;
+    const on = withLine(wiring, restingRegisters(wiring), 'clockX', true);
+    expect(boardLines(wiring, on) & 1).toBe(0); // inverted: low while it is on
+    expect(on.control & 2).toBe(2); // and the bit is the inverse of the pin
+    expect(wiringField.write(wiring)).toBe('14i.3.4.5.6.7.8.10.12.13.15.11');
+  });
+  it('refuses two lines on one pin, and lines on pins of the other direction', () => {
+    expect(conflictIn({ ...usual, clockY: { pin: 2, inverted: false } })).toEqual(['clockX', 'clockY']);
+    expect(conflictIn(usual)).toBeUndefined();
+    expect(wiringField.read('2.2.4.5.6.7.8.10.12.13.15.11')).toBeUndefined();
+    expect(wiringField.read('10.3.4.5.6.7.8.2.12.13.15.11')).toBeUndefined();
+    expect(wiringField.read('0.3.4.5.6.7.8.0.0.0.0.0')?.clockX.pin).toBe(0);
+  });
+});
+
+describe('the machine’s table', () => {
+  const table: Table = { unit: 'mm', perunit: [50, 50, 50], lengths: [110, 110, 60], origin: [10, 10, 50], flip: 4, zclear: 2, zwork: -3 };
+  it('is the same in inches', () => {
+    const inches = inUnit(table, 'inch');
+    expect(inches.perunit[0]).toBe(1270);
+    expect(placeOf(inches, 0, 1270)).toBeCloseTo(1, 9);
+    expect(inUnit(inches, 'mm').lengths[0]).toBeCloseTo(110, 3);
+  });
+  it('counts a flipped axis the other way, and knows its ends', () => {
+    expect(placeOf(table, 2, -150)).toBe(3);
+    expect(stepsTo(table, 2, -3)).toBe(150);
+    expect([atEnd(table, 2, -500), atEnd(table, 2, -499), atEnd(table, 0, -500), atEnd(table, 0, 0)]).toEqual([true, false, true, false]);
+  });
+  it('is in the address', () => {
+    expect(read('flip=xz&axes=0&unit=inch&perunit=1270,1270,1270')).toMatchObject({ flip: 5, axes: 0, unit: 'inch', perunit: [1270, 1270, 1270] });
+    expect(read('flip=zx&perunit=1,2').flip).toBe(4);
   });
 });
 

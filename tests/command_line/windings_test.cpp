@@ -50,6 +50,21 @@ TEST_F(WindingsCommand, writes_traces_and_a_picture) {
   EXPECT_THAT(read(path("w.png")), StartsWith("\x89PNG"));
 }
 
+TEST_F(WindingsCommand, draws_currents_that_rise_where_the_motor_and_its_supply_are_known) {
+  const std::string motor = "--drive wave --to 2 --time 0.02 --current 1 --resistance 12.8 --inductance 10 --drop 1";
+  // A time constant is 0.78125 ms; a row an eighth of that later, F2 has 1 − e^(−1/8) = 0.1175 of its current.
+  const std::string plain = windings(motor + " --supply 13.8").out;
+  EXPECT_THAT(plain, HasSubstr("\n0.010000000,1,0,1,0,0,1,0,1.8\n0.010097656,1,0,1,0,0,"));
+  EXPECT_THAT(plain, HasSubstr(",0.117503,1.8\n"));
+  // With twice the voltage and as large a resistor the same in half the time.
+  EXPECT_THAT(windings(motor + " --supply 26.6 --series 12.8").out, HasSubstr(",0.117503,1.8\n"));
+  EXPECT_THAT(windings(motor + " --supply 36 --chopper").out, HasSubstr("\n0.010355669,1,0,1,0,0,0.614286,1,1.8\n"));
+  const Outcome machine = windings("--drive wave --to 2 --time 0.02 --axis X -m " +
+                                   (passo::test::examples / "machines/strong-router.toml").string());
+  EXPECT_EQ(machine.code, 0) << machine.err;
+  EXPECT_GT(machine.out.size(), windings("--drive wave --to 2 --time 0.02").out.size());
+}
+
 TEST_F(WindingsCommand, what_is_wrong_is_said_and_exits_with_2) {
   const auto wrong = [&](const std::string& arguments) {
     const Outcome outcome = windings(arguments);
@@ -65,6 +80,11 @@ TEST_F(WindingsCommand, what_is_wrong_is_said_and_exits_with_2) {
   EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --trace " + path("w.txt")), HasSubstr(".vcd or .csv"));
   EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --picture " + path("w.txt")), HasSubstr(".svg or .png"));
   EXPECT_THAT(wrong("--drive wave --to 3000 --time 1 --picture " + path("w.svg")), HasSubstr("too many"));
+  EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --series 5 --supply 24"),
+              HasSubstr("expected also --current, --resistance, --inductance"));
+  EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --current 1 --resistance 0 --inductance 1 --supply 24"),
+              HasSubstr("the resistance must be above 0"));
+  EXPECT_THAT(wrong("--drive wave --to 3 --time 1 --axis X"), HasSubstr("--axis is an axis of a --machine"));
   EXPECT_TRUE(files().empty());
 }
 

@@ -32,9 +32,12 @@ class HostHardware {
     }
   }
   void advance_to(Nanoseconds now) { now_ = now; }
-  // All pins float: a transistor without a drive is off.
+  // All pins float: a transistor without a drive is off. The LEDs that are lit when low are lit again at once.
   void reset() {
-    for (auto& [output, value] : values_) put(output, output.starts_with("windings.") ? "0000" : "0");
+    for (auto& [output, value] : values_) {
+      if (output.starts_with("led.") && output != "led.0") continue;
+      put(output, output.starts_with("windings.") ? "0000" : "0");
+    }
   }
   const std::vector<OutputChange>& seen() const { return seen_; }
 
@@ -56,6 +59,12 @@ class HostHardware {
   void indicators(bool automatic, bool manual) {
     put("indicator.automatic", automatic ? "1" : "0");
     put("indicator.manual", manual ? "1" : "0");
+  }
+  void leds(bool automatic, bool manual, bool raising) {
+    put("led.0", automatic ? "1" : "0");
+    put("led.1", !manual || raising ? "1" : "0");
+    put("led.2", manual ? "0" : "1");
+    put("led.3", manual ? "0" : "1");
   }
   bool millisecond() {
     if (now_ < next_millisecond_) return false;
@@ -89,11 +98,10 @@ class HostHardware {
   std::vector<OutputChange> seen_;
 };
 
-}  // namespace
-
-std::vector<OutputChange> run_on_host(const FollowerVector& vector, Nanoseconds turn) {
+template <class Customs>
+std::vector<OutputChange> run(const FollowerVector& vector, Nanoseconds turn) {
   HostHardware hardware(vector.drive);
-  std::optional<Follower<HostHardware>> follower;
+  std::optional<Follower<HostHardware, Customs>> follower;
   auto next = vector.lines.begin();
   for (Nanoseconds now = 0; now < vector.end; now += turn) {
     hardware.advance_to(now);
@@ -109,6 +117,16 @@ std::vector<OutputChange> run_on_host(const FollowerVector& vector, Nanoseconds 
     follower->poll();
   }
   return hardware.seen();
+}
+
+}  // namespace
+
+std::vector<OutputChange> run_on_host(const FollowerVector& vector, Nanoseconds turn) {
+  return run<UsualCustoms>(vector, turn);
+}
+
+std::vector<OutputChange> run_first_board_on_host(const FollowerVector& vector, Nanoseconds turn) {
+  return run<FirstBoardCustoms>(vector, turn);
 }
 
 }  // namespace passo

@@ -9,5 +9,7 @@ namespace passo {
 
 // A turn of the loop every `turn`.
 std::vector<OutputChange> run_on_host(const FollowerVector& vector, Nanoseconds turn = 10'000);
+// The same with the customs and the LEDs of the first board.
+std::vector<OutputChange> run_first_board_on_host(const FollowerVector& vector, Nanoseconds turn = 10'000);
 
 }  // namespace passo

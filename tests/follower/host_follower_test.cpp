@@ -28,6 +28,15 @@ TEST(FollowerOnHost, does_it_however_fast_its_loop_turns) {
   }
 }
 
+TEST(FollowerOnHost, has_the_customs_of_the_first_board) {
+  const auto all = follower_vectors(vectors / "first_board");
+  EXPECT_GE(all.size(), 4U);
+  for (const FollowerVector& vector : all) {
+    const std::vector<OutputChange> seen = run_first_board_on_host(vector);
+    EXPECT_EQ(difference(vector, seen, first_board_outputs()), "") << vector.name;
+  }
+}
+
 TEST(FollowerOnHost, loses_no_step_of_random_motion_while_no_level_is_shorter_than_a_turn) {
   const std::uint64_t seed = test::seed();
   const FollowerVector vector = random_steps(seed, 5'000, 10'000, Edges::apart);

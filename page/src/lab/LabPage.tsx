@@ -2,6 +2,8 @@
 import './lab.css';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
+import { BoardLab } from './board/BoardLab';
+import { DriverLab } from './driver/DriverLab';
 import { LoopLab } from './LoopLab';
 import { RampsLab } from './RampsLab';
 import { change, core, coreFailed, followAddress, loadCore, view } from './state';
@@ -51,6 +53,8 @@ export function LabPage(): JSX.Element {
         {loaded && part === 'ramps' && <RampsLab core={loaded} />}
         {loaded && part === 'torque' && <TorqueLab core={loaded} />}
         {loaded && part === 'loop' && <LoopLab core={loaded} />}
+        {loaded && part === 'board' && <BoardLab core={loaded} />}
+        {loaded && part === 'driver' && <DriverLab core={loaded} />}
       </div>
     </div>
   );

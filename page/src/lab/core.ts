@@ -167,6 +167,60 @@ export interface Ultimate {
   pid: Gains;
 }
 
+// --- the stage that switches a winding ---
+
+export interface DriverRequest {
+  drop: number; // V, at the transistor
+  raised: number; // V
+  series: number; // Ω
+  ripple: number; // of the chopper, as a fraction of its current
+  rate: number; // full steps a second
+  gain: number;
+  baseEmitter: number; // V
+  logic: number; // V
+  reserve: number; // of the base current, as a fraction
+  base: number; // Ω
+}
+export interface Stage {
+  final_a: number;
+  tau_s: number;
+  rise_s: number | null; // to 90 % of the rated current
+  time_s: number[];
+  current_a: number[];
+  most_a: number;
+  winding_w: number;
+  series_w: number;
+  transistor_w: number;
+  rate_hz: number[];
+  pull_out_nm: number[];
+}
+export const stageNames = ['plain', 'series', 'chopper'] as const;
+export type StageName = (typeof stageNames)[number];
+export interface Driver extends Record<StageName, Stage> {
+  base: {
+    needed_a: number;
+    wanted_a: number;
+    largest_ohm: number;
+    given_a: number;
+    overdrive: number;
+    heat_w: number;
+    warmer_k: number;
+  };
+}
+
+// --- the first board ---
+
+export interface BoardAnswer {
+  lines: number; // clock X, Y, Z, direction X, Y, Z, tool
+  clock_runs: boolean;
+  pulses: number; // that the clock has made
+  patterns: number[]; // of each motor, bit 0: F1
+  rotors: number[]; // steps
+  relay: boolean;
+  mode: 'reset' | 'waiting' | 'automatic' | 'manual';
+  leds: number[]; // RB0, RD1, RD2, RD3
+}
+
 // --- the module ---
 
 type Question = (...values: number[]) => number;
@@ -223,6 +277,26 @@ export class LabCore {
     return this.#ask(
       'lab_ultimate', ask.of === 'position' ? 1 : 0, ask.to, ask.period, ask.inner.kp, ask.inner.ki,
     );
+  }
+
+  driver(motor: Motor, ask: DriverRequest): Answer<Driver> {
+    this.#setMotor(motor);
+    return this.#ask(
+      'lab_driver', ask.drop, ask.raised, ask.series, ask.ripple, ask.rate, ask.gain, ask.baseEmitter, ask.logic, ask.reserve,
+      ask.base,
+    );
+  }
+  board(lines: number, keys: number, button: boolean, microseconds: number): Answer<BoardAnswer> {
+    return this.#ask('lab_board', lines, keys, button ? 1 : 0, microseconds);
+  }
+  boardReset(pressed: boolean): void {
+    (this.#exports.lab_board_reset as Question)(pressed ? 1 : 0);
+  }
+  boardRestart(): void {
+    (this.#exports.lab_board_restart as Question)();
+  }
+  boardClock(axes: number, halfMicroseconds: number, pulses: number, idle: number): void {
+    (this.#exports.lab_board_clock as Question)(axes, halfMicroseconds, pulses, idle);
   }
 
   #setMotor(motor: Motor): void {

@@ -1,5 +1,7 @@
 // What the lab shows, as it stands in the address behind "?": a link reproduces the view. Values that are as usual are left
 // out, so a link is short; values that make no sense are taken as usual.
+import { wiringField } from './board/port';
+import { axesField, tripleField } from './board/table';
 import { driveNames, type DriveName, methodNames, ruleNames, type Method, type Move, type Rule } from './core';
 
 interface Field<T> {
@@ -40,7 +42,7 @@ function flag(usual: boolean): Field<boolean> {
   return { usual, read: (text) => (text === '1' ? true : text === '0' ? false : undefined), write: (v) => (v ? '1' : '0') };
 }
 
-export const parts = ['steps', 'ramps', 'torque', 'loop'] as const;
+export const parts = ['steps', 'ramps', 'torque', 'loop', 'board', 'driver'] as const;
 export type Part = (typeof parts)[number];
 
 // A method with its variant, as one word.
@@ -109,6 +111,36 @@ export const fields = {
   load: real(0, 100, 0.1),
   loadat: real(0, 1, 0.05),
   time: real(0.01, 0.5, 0.1),
+  // the first board
+  lpt: wiringField,
+  mode: choice(['waiting', 'automatic', 'manual'], 'waiting'),
+  hz: real(0.5, 2000, 20),
+  axes: axesField(1),
+  down: axesField(0),
+  run: flag(false),
+  unit: choice(['mm', 'inch'], 'mm'),
+  perunit: tripleField(0.01, 1e6, [50, 50, 50]),
+  lengths: tripleField(0.01, 1e5, [110, 110, 60]),
+  origin: tripleField(-1e5, 1e5, [10, 10, 50]),
+  flip: axesField(4),
+  zclear: real(-1e5, 1e5, 2),
+  zwork: real(-1e5, 1e5, -3),
+  // the stage that switches its windings
+  dvolts: real(1, 400, 13.8),
+  raised: real(1, 400, 36),
+  series: real(0, 1e4, 22.2),
+  ripple: real(0.01, 0.5, 0.1),
+  drate: real(1, 20_000, 600),
+  damps: real(0.01, 50, 1),
+  dohms: real(0.01, 500, 12.8),
+  dmh: real(0.01, 500, 10),
+  dhold: real(0.001, 100, 0.5),
+  dsat: real(0, 10, 1),
+  gain: real(1, 1e5, 750),
+  logic: real(1, 50, 5),
+  vbe: real(0, 5, 1.4),
+  reserve: real(0, 5, 0.3),
+  base: real(1, 1e6, 470),
 } as const;
 
 type Values<T> = { [K in keyof T]: T[K] extends Field<infer V> ? V : never };

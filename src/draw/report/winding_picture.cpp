@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "canvas.hpp"
 #include "chart.hpp"
+#include "phase_currents.hpp"
 #include "sheet.hpp"
 #include "step_view.hpp"
 #include <fmt/format.h>
@@ -27,9 +29,12 @@ struct Stand {
   std::int64_t place = 0;
 };
 
-// A little beyond the end, so that the last step is seen.
+// A little beyond the end, so that the last step is seen, and its currents.
 double shown_end(const WindingScene& scene) {
-  return std::max(scene.end.value() * 1.03, 1e-9);
+  constexpr double constants_of_rise = 4;
+  const auto& stage = scene.motors.stage;
+  const double rise = stage ? constants_of_rise * stage->circuit.time_constant().value() : 0;
+  return std::max({scene.end.value() * 1.03, scene.end.value() + rise, 1e-9});
 }
 
 std::vector<Stand> stands_of(const WindingScene& scene, std::size_t motor, double unit) {
@@ -78,14 +83,47 @@ std::vector<Spot> stair(const std::vector<Stand>& stands, const Value& value) {
   return spots;
 }
 
-void draw_phases(Canvas& canvas, const Area& area, const WindingScene& scene, const std::vector<Stand>& stands,
-                 double time_end) {
+// The currents of one motor's phases over time.
+struct PhaseLines {
+  std::vector<Spot> a = {};
+  std::vector<Spot> b = {};
+};
+
+std::vector<PhaseLines> phase_lines(const WindingScene& scene, double unit) {
+  std::vector<PhaseLines> lines(scene.motors.count);
+  PhaseCurrents currents(scene.motors);
+  Place place(scene.motors.count, 0);
+  // Between two pulses, points that would be less than about a pixel from the last one are left out.
+  const auto show = [&](double least) {
+    for (std::size_t motor = 0; motor < scene.motors.count; ++motor) {
+      const auto [a, b] = currents.of(motor);
+      const double now = currents.now().value() * unit;
+      auto& [of_a, of_b] = lines[motor];
+      if (of_a.empty() || std::abs(a - of_a.back().y) >= least) of_a.push_back({now, a});
+      if (of_b.empty() || std::abs(b - of_b.back().y) >= least) of_b.push_back({now, b});
+    }
+  };
+  constexpr double pixel = 0.01;
+  const auto show_between = [&] { show(pixel); };
+  show(0);
+  for (const TimedPulse& timed : scene.pulses) {
+    currents.play(timed.time, show_between);
+    show(0);
+    apply(timed.pulse, place);
+    for (std::size_t motor = 0; motor < scene.motors.count; ++motor) currents.move_to(motor, place[motor]);
+    show(0);
+  }
+  currents.play(Seconds(shown_end(scene)), show_between);
+  show(0);
+  return lines;
+}
+
+void draw_phases(Canvas& canvas, const Area& area, const PhaseLines& lines, double time_end) {
   Chart chart(canvas, area, {.title = "", .end = time_end},
               {.title = "Current, fraction of rated", .end = 1.2, .begin = -1.2});
   chart.draw_grid(false);
-  const Excitation& excitation = scene.motors.excitation;
-  chart.polyline(stair(stands, [&](std::int64_t place) { return excitation.at(place).phase_a; }), phase_a);
-  chart.polyline(stair(stands, [&](std::int64_t place) { return excitation.at(place).phase_b; }), phase_b);
+  chart.polyline(lines.a, phase_a);
+  chart.polyline(lines.b, phase_b);
   chart.draw_frame();
   const double y = area.y - 12;
   canvas.line({area.right() - 290, y}, {area.right() - 266, y}, phase_a);
@@ -127,13 +165,14 @@ Status<OutputError> draw_windings(const WindingScene& scene, const PictureOption
   const double time_end = shown_end(scene) * unit;
   const double column = (width - margin) / static_cast<double>(scene.motors.count);
   const double space = height - 128 - 60;
+  const std::vector<PhaseLines> lines = phase_lines(scene, unit);
   for (std::size_t motor = 0; motor < scene.motors.count; ++motor) {
     const double left = margin + static_cast<double>(motor) * column + 44;
     const double wide = column - 44 - margin;
     canvas.text({left, 106}, "Motor " + axis_name(motor), step_look::heading_font);
     const std::vector<Stand> stands = stands_of(scene, motor, unit);
     draw_outputs(canvas, {left, 124, wide, space * 0.26}, scene, stands, time_end);
-    draw_phases(canvas, {left, 124 + space * 0.33, wide, space * 0.27}, scene, stands, time_end);
+    draw_phases(canvas, {left, 124 + space * 0.33, wide, space * 0.27}, lines[motor], time_end);
     draw_rotor(canvas, {left, 124 + space * 0.66, wide, space * 0.34}, scene, stands, time_end,
                in_ms ? "Time, ms" : "Time, s");
   }

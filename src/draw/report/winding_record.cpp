@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "phase_currents.hpp"
 #include <fmt/format.h>
 
 #include "passo/study/measure.hpp"
@@ -21,7 +22,7 @@ std::string code(std::size_t motor, unsigned value) {
 }  // namespace
 
 WindingCsv::WindingCsv(const WindingMotors& motors, OutputFile& file)
-    : motors_(motors), file_(file), place_(motors.count, 0) {
+    : motors_(motors), file_(file), place_(motors.count, 0), currents_(std::make_unique<PhaseCurrents>(motors)) {
   std::string header = "t";
   for (std::size_t motor = 0; motor < motors.count; ++motor) {
     const std::string name = axis_name(motor);
@@ -31,13 +32,16 @@ WindingCsv::WindingCsv(const WindingMotors& motors, OutputFile& file)
   put_row(Seconds(0));
 }
 
+WindingCsv::~WindingCsv() = default;
+
 void WindingCsv::put_row(Seconds time) {
   std::string row = fmt::format("{:.9f}", time.value());
   for (std::size_t motor = 0; motor < motors_.count; ++motor) {
     const std::int64_t place = place_[motor];
     const WindingState state = motors_.excitation.at(place);
+    const auto [a, b] = currents_->of(motor);
     fmt::format_to(std::back_inserter(row), ",{},{:d},{:d},{:d},{:d},{:.6g},{:.6g},{:.10g}", place, state.on(0),
-                   state.on(1), state.on(2), state.on(3), state.phase_a, state.phase_b,
+                   state.on(1), state.on(2), state.on(3), a, b,
                    motors_.excitation.rotor_degrees(place, motors_.full_steps_per_turn));
   }
   file_.write(row + "\n");
@@ -45,14 +49,18 @@ void WindingCsv::put_row(Seconds time) {
 
 void WindingCsv::add(const TimedPulse& pulse) {
   if (pulse.pulse.steps == 0) return;
+  currents_->play(pulse.time, [&] { put_row(currents_->now()); });
   apply(pulse.pulse, place_);
+  for (std::size_t motor = 0; motor < motors_.count; ++motor) currents_->move_to(motor, place_[motor]);
   put_row(pulse.time);
 }
 
-void WindingCsv::finish(Seconds /*end*/) {}
+void WindingCsv::finish(Seconds /*end*/) {
+  currents_->play_out([&] { put_row(currents_->now()); });
+}
 
 WindingVcd::WindingVcd(const WindingMotors& motors, OutputFile& file)
-    : motors_(motors), file_(file), place_(motors.count, 0) {
+    : motors_(motors), file_(file), place_(motors.count, 0), currents_(std::make_unique<PhaseCurrents>(motors)) {
   std::string text = "$version Passo $end\n$timescale 1 ns $end\n$scope module windings $end\n";
   const auto out = std::back_inserter(text);
   for (std::size_t motor = 0; motor < motors.count; ++motor) {
@@ -70,16 +78,32 @@ WindingVcd::WindingVcd(const WindingMotors& motors, OutputFile& file)
   file_.write(text + "$end\n");
 }
 
+WindingVcd::~WindingVcd() = default;
+
 void WindingVcd::put_motor(std::string& text, std::size_t motor) const {
   const std::int64_t place = place_[motor];
   const WindingState state = motors_.excitation.at(place);
   const auto out = std::back_inserter(text);
   for (unsigned f = 0; f < winding_outputs; ++f) fmt::format_to(out, "{:d}{}\n", state.on(f), code(motor, f));
   fmt::format_to(out, "b{:032b} {}\n", static_cast<std::uint32_t>(place), code(motor, winding_outputs));
-  fmt::format_to(out, "r{:.10g} {}\n", state.phase_a, code(motor, winding_outputs + 1));
-  fmt::format_to(out, "r{:.10g} {}\n", state.phase_b, code(motor, winding_outputs + 2));
+  put_currents(text, motor);
   fmt::format_to(out, "r{:.10g} {}\n", motors_.excitation.rotor_degrees(place, motors_.full_steps_per_turn),
                  code(motor, winding_outputs + 3));
+}
+
+void WindingVcd::put_currents(std::string& text, std::size_t motor) const {
+  const auto [a, b] = currents_->of(motor);
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "r{:.10g} {}\n", a, code(motor, winding_outputs + 1));
+  fmt::format_to(out, "r{:.10g} {}\n", b, code(motor, winding_outputs + 2));
+}
+
+// Between two pulses: currents alone.
+void WindingVcd::put_moment() {
+  std::string text;
+  put_time(text, currents_->now());
+  for (std::size_t motor = 0; motor < motors_.count; ++motor) put_currents(text, motor);
+  file_.write(text);
 }
 
 void WindingVcd::put_time(std::string& text, Seconds time) {
@@ -91,7 +115,9 @@ void WindingVcd::put_time(std::string& text, Seconds time) {
 
 void WindingVcd::add(const TimedPulse& pulse) {
   if (pulse.pulse.steps == 0) return;
+  currents_->play(pulse.time, [&] { put_moment(); });
   apply(pulse.pulse, place_);
+  for (std::size_t motor = 0; motor < motors_.count; ++motor) currents_->move_to(motor, place_[motor]);
   std::string text;
   put_time(text, pulse.time);
   for (std::size_t motor = 0; motor < motors_.count; ++motor) {
@@ -101,6 +127,7 @@ void WindingVcd::add(const TimedPulse& pulse) {
 }
 
 void WindingVcd::finish(Seconds end) {
+  currents_->play_out([&] { put_moment(); });
   std::string text;
   put_time(text, end);
   file_.write(text);

@@ -289,10 +289,19 @@ struct RampArguments {
 int ramp(const RampArguments& arguments);
 
 struct WindingsArguments {
-  std::string drive;                // a name of Excitation::named()
-  int full_steps = 200;             // full steps per revolution of the motors
-  InterpolateArguments line;        // a line or an arc at constant speed; empty `to`: a ramp
-  RampArguments ramp;               // arguments of a move of one motor
+  std::string drive;                 // a name of Excitation::named()
+  int full_steps = 200;              // full steps per revolution of the motors
+  InterpolateArguments line;         // a line or an arc at constant speed; empty `to`: a ramp
+  RampArguments ramp;                // arguments of a move of one motor
+  std::string machine;               // a machine file with the motor; empty: the values below, or none
+  std::string axis;                  // an axis of the machine
+  std::optional<double> current;     // A
+  std::optional<double> resistance;  // ohm
+  std::optional<double> inductance;  // mH
+  std::optional<double> supply;      // V
+  std::optional<double> series;      // ohm
+  std::optional<double> drop;        // V
+  bool chopper = false;
   std::vector<std::string> traces;  // .vcd or .csv
   std::string picture;              // .svg or .png
 };

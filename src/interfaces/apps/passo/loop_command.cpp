@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "commands.hpp"
+#include "machine_motor.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "passo/activity/machine_plant.hpp"
 #include "passo/feedback/loop_trial.hpp"
 #include "passo/motor/example_motor.hpp"
 #include "passo/report/line_chart.hpp"
@@ -28,20 +28,11 @@ Result<MotorSetup, std::string> motor_of(const LoopArguments& arguments) {
     if (!arguments.axis.empty()) return Failure{std::string("--axis is an axis of a --machine")};
     return small_motor_setup("microsteps:64", {0.01});
   }
-  Diagnostics diagnostics;
-  const auto machine = load_machine_file(arguments.machine, diagnostics);
-  show(diagnostics);
-  if (!machine) return Failure{arguments.machine + " is wrong"};
-  if (arguments.axis.empty()) return Failure{"--axis is missing: expected one of " + arguments.machine};
-  for (const AxisDescription& axis : machine->axes) {
-    if (arguments.axis != std::string(1, letter_of(axis.axis))) continue;
-    auto setup = motor_setup(axis);
-    if (!setup) return Failure{fmt::format("{} does not describe the motor of {}", arguments.machine, arguments.axis)};
-    setup->excitation = *Excitation::named("microsteps:64");
-    setup->weight = {};
-    return *setup;
-  }
-  return Failure{fmt::format("--axis: '{}' is not an axis of {}", arguments.axis, arguments.machine)};
+  auto setup = machine_motor(arguments.machine, arguments.axis);
+  if (!setup) return setup;
+  setup->excitation = *Excitation::named("microsteps:64");
+  setup->weight = {};
+  return setup;
 }
 
 PidGains gains_of(const std::vector<double>& values) {

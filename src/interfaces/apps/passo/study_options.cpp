@@ -402,19 +402,34 @@ void add_windings_options(CLI::App& command, WindingsArguments& arguments) {
   command.add_option("--max-rate", ramp.max_rate, "target step rate, steps/s")->group("One motor");
   command.add_option("--start-rate", ramp.start_rate, "start-stop rate, steps/s")->group("One motor");
   command.add_option("--reverse-after", ramp.reverse_after, "reverse after N steps")->group("One motor");
+  constexpr const char* stage = "Currents that rise";
+  command.add_option("--current", arguments.current, "rated current of a winding, A")->group(stage);
+  command.add_option("--resistance", arguments.resistance, "resistance of a winding, ohm")->group(stage);
+  command.add_option("--inductance", arguments.inductance, "inductance of a winding, mH")->group(stage);
+  command.add_option("--supply", arguments.supply, "supply voltage, V")->group(stage);
+  command.add_option("--series", arguments.series, "resistor in series with the winding, ohm (default: none)")
+      ->group(stage);
+  command.add_option("--drop", arguments.drop, "voltage drop at the transistor, V (default: 0)")->group(stage);
+  command.add_flag("--chopper", arguments.chopper, "hold the rated current by a chopper")->group(stage);
+  command.add_option("-m,--machine", arguments.machine, "machine file with the motor, together with --axis")
+      ->group(stage);
+  command.add_option("--axis", arguments.axis, "letter of the motor's axis")->group(stage);
   command.add_option("-t,--trace", arguments.traces,
                      "file for windings, currents and rotor angles (FILE.vcd or FILE.csv)");
   command.add_option("-p,--picture", arguments.picture,
                      "picture of windings, currents and rotor angles (FILE.svg or FILE.png)");
   command.footer(
       R"(Prints a line for each pulse as CSV: the time, then for each motor its position, F1 to F4, the currents of phases A and B
-as fractions of the rated current, and the angle of an unloaded rotor in degrees. Line 1 is the start.
+as fractions of the rated current, and the angle of an unloaded rotor in degrees. Line 1 is the start. With a motor and its
+supply the currents rise by U/R (1 - exp(-t R/L)), and there are further lines between the pulses while they do.
 
 Examples:
   passo windings --drive two-on --to 10,4 --time 0.1
   passo windings --drive half-step --to 10,4,7 --time 0.1 --trace windings.vcd     for GTKWave
   passo windings --drive microsteps:16 --from 40,0 --to 0,40 --center 0,0 --time 0.5 --picture windings.svg
-  passo windings --drive wave --move 40 --clock 250000 --accel 50 --reverse-after 12 --picture turn.svg)");
+  passo windings --drive wave --move 40 --clock 250000 --accel 50 --reverse-after 12 --picture turn.svg
+  passo windings --drive two-on --to 10,4 --time 0.02 --current 1 --resistance 12.8 --inductance 10 --supply 13.8 --drop 1
+  passo windings --drive two-on --to 10,4 --time 0.02 --current 1 --resistance 12.8 --inductance 10 --supply 36 --chopper)");
 }
 
 std::span<const Command> follower_commands() {

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "commands.hpp"
+#include "machine_motor.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
@@ -76,6 +80,78 @@ Timed ramp_move(const RampArguments& arguments) {
   return timed;
 }
 
+constexpr double henries_per_millihenry = 1e-3;
+constexpr Volts diode_drop{0.7};
+
+// The motor and the stage that switches it; empty: they are not known, and the currents do not rise.
+using Stage = Result<std::optional<WindingStage>, std::string>;
+
+Stage stage_of_machine(const WindingsArguments& arguments) {
+  const auto setup = machine_motor(arguments.machine, arguments.axis);
+  if (!setup) return Failure{setup.error()};
+  if (setup->measured) {
+    return Failure{fmt::format("{} has a measured curve for the motor of {}, not its resistance and inductance",
+                               arguments.machine, arguments.axis)};
+  }
+  const MotorData motor = as_wound(setup->motor, setup->drive.winding);
+  WindingStage stage{.circuit = {.supply = setup->drive.supply,
+                                 .drop = setup->drive.drop,
+                                 .diode = diode_drop,
+                                 .winding = motor.resistance,
+                                 .series = {},
+                                 .inductance = motor.inductance},
+                     .rated = motor.rated_current};
+  if (setup->drive.regulation == Regulation::chopper) {
+    stage.circuit.limit = motor.rated_current;
+  } else {
+    const double whole = stage.circuit.final().value * motor.resistance.value / motor.rated_current.value;
+    stage.circuit.series.value = std::max(whole - motor.resistance.value, 0.0);
+  }
+  return std::optional(stage);
+}
+
+Stage stage_of(const WindingsArguments& arguments) {
+  const std::initializer_list<std::pair<const char*, std::optional<double>>> needed = {
+      {"--current", arguments.current},
+      {"--resistance", arguments.resistance},
+      {"--inductance", arguments.inductance},
+      {"--supply", arguments.supply}};
+  bool any = arguments.series || arguments.drop || arguments.chopper;
+  std::string missing;
+  for (const auto& [name, value] : needed) {
+    any = any || value;
+    if (!value) missing += missing.empty() ? name : std::string(", ") + name;
+  }
+  if (!arguments.machine.empty()) {
+    if (any) return Failure{std::string("--machine has the motor and its supply; give only one of them")};
+    return stage_of_machine(arguments);
+  }
+  if (!arguments.axis.empty()) return Failure{std::string("--axis is an axis of a --machine")};
+  if (!any) return std::optional<WindingStage>();
+  if (!missing.empty()) return Failure{"for currents that rise, expected also " + missing};
+  WindingStage stage{.circuit = {.supply = {*arguments.supply},
+                                 .drop = {arguments.drop.value_or(0)},
+                                 .diode = diode_drop,
+                                 .winding = {*arguments.resistance},
+                                 .series = {arguments.series.value_or(0)},
+                                 .inductance = {*arguments.inductance * henries_per_millihenry}},
+                     .rated = {*arguments.current}};
+  if (!(*arguments.current > 0)) return Failure{std::string("--current must be above 0 A")};
+  if (arguments.chopper) stage.circuit.limit = stage.rated;
+  if (const auto good = check(stage.circuit); !good) return Failure{good.error().message};
+  return std::optional(stage);
+}
+
+// One line about the stage, for a picture; empty if it is not known.
+std::string describe(const std::optional<WindingStage>& stage) {
+  if (!stage) return {};
+  const WindingCircuit& circuit = stage->circuit;
+  const std::string series = circuit.series.value > 0 ? fmt::format(" + {:.4g} \u2126", circuit.series.value) : "";
+  return fmt::format("   \u00B7   {:g} V, {:g} \u2126{}, {:g} mH{}", circuit.supply.value, circuit.winding.value,
+                     series, circuit.inductance.value / henries_per_millihenry,
+                     circuit.limit ? fmt::format(", chopper at {:g} A", circuit.limit->value) : "");
+}
+
 int record(const TimedMove& move, const WindingMotors& motors, const std::string& path, bool vcd) {
   auto file = OutputFile::open(path.empty() ? "-" : path);
   if (!file) return fail(exit_failed, file.error().message);
@@ -95,10 +171,10 @@ int draw(const TimedMove& move, const WindingMotors& motors, const std::string& 
   }
   auto file = OutputFile::open(path);
   if (!file) return fail(exit_failed, file.error().message);
-  const PictureOptions options{
-      .format = *picture_format_of(path),
-      .program = "Windings, " + motors.excitation.name(),
-      .machine = fmt::format("{}   \u00B7   motors with {} full steps/rev", move.title, motors.full_steps_per_turn)};
+  const PictureOptions options{.format = *picture_format_of(path),
+                               .program = "Windings, " + motors.excitation.name(),
+                               .machine = fmt::format("{}   \u00B7   motors with {} full steps/rev{}", move.title,
+                                                      motors.full_steps_per_turn, describe(motors.stage))};
   Status<OutputError> done = draw_windings({.motors = motors, .pulses = move.pulses, .end = move.end}, options, *file);
   if (done) done = file->commit();
   return done ? exit_done : fail(exit_failed, done.error().message);
@@ -123,7 +199,10 @@ int windings(const WindingsArguments& arguments) {
   ramp.steps_per_turn = full_steps * excitation->steps_per_full_step();
   const Timed move = ramped ? ramp_move(ramp) : line_or_arc(arguments.line);
   if (!move) return fail(exit_bad_program, move.error());
-  const WindingMotors motors{.excitation = *excitation, .full_steps_per_turn = full_steps, .count = move->motors};
+  const Stage stage = stage_of(arguments);
+  if (!stage) return fail(exit_bad_program, stage.error());
+  const WindingMotors motors{
+      .excitation = *excitation, .full_steps_per_turn = full_steps, .count = move->motors, .stage = *stage};
   for (const std::string& path : arguments.traces) {
     const int code = record(*move, motors, path, path.ends_with(".vcd"));
     if (code != exit_done) return code;

@@ -89,6 +89,33 @@ TEST(TorqueAnswer, HasPullOutAboveTheFrictionUpToTheFastestRate) {
   EXPECT_THAT(torque_answer(question), HasSubstr("resistance"));
 }
 
+// The first board: 13.8 V less a volt, 12.8 Ω and 10 mH; 1 A.
+TEST(DriverAnswer, ComparesThreeStages) {
+  MotorData motor = small_motor();
+  motor.rated_current = {1};
+  motor.resistance = {12.8};
+  motor.inductance = {10e-3};
+  DriverQuestion question{.motor = motor,
+                          .supply = {13.8},
+                          .raised = {36},
+                          .series = {22.2},
+                          .ripple = 0.1,
+                          .rate = Hertz(1000),
+                          .logic = {5},
+                          .reserve = 0.3,
+                          .base = {470}};
+  const std::string answer = driver_answer(question);
+  EXPECT_THAT(answer, StartsWith(R"({"plain":{"final_a":1,"tau_s":0.00078)"));
+  EXPECT_THAT(answer, HasSubstr(R"("series":{"final_a":1,"tau_s":0.000285714)"));
+  EXPECT_THAT(answer, HasSubstr(R"("chopper":{"final_a":2.734375,"tau_s":0.00078)"));
+  EXPECT_THAT(answer, HasSubstr(R"("base":{"needed_a":0.0013333)"));
+  EXPECT_THAT(answer, HasSubstr(R"("largest_ohm":2076.9)"));
+  question.raised = {0.5};
+  EXPECT_THAT(driver_answer(question), HasSubstr("the supply must be above the transistor's drop"));
+  question.base = {0};
+  EXPECT_THAT(driver_answer(question), HasSubstr("base resistor"));
+}
+
 TEST(LoopAnswer, HasTheResponseAndItsFigures) {
   LoopSetup setup{.motor = small_motor_setup("microsteps:64", {0.01})};
   setup.to = 30;

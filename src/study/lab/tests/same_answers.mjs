@@ -155,6 +155,19 @@ for (const drive of drives) {
   ++compared;
 }
 
+// The current of a winding that is switched on: F2 after the first step of a wave drive. A row of the program is an
+// eighth of the time constant; the rate of the question makes the lab's points as far apart.
+const winding = ['--current', 1, '--resistance', 12.8, '--inductance', 10, '--drop', 1];
+for (const [stage, supply, series] of [['plain', 13.8, 0], ['series', 36, 22.2]]) {
+  const words = ['windings', '--drive', 'wave', '--to', 1, '--time', 0.02, ...winding, '--supply', supply, '--series', series];
+  const printed = columnsOf(passo(...words)).x_b.slice(1, 42);
+  lab.lab_motor(200, 68e-7, 0.45, 1, 12.8, 10e-3, 13.8, 1, 0, 0);
+  const apart = 10e-3 / (12.8 + series) / 8;
+  const mine = ask('lab_driver', 1, 36, 22.2, 0.1, 4 / (600 * apart), 750, 1.4, 5, 0.3, 470);
+  assertSame(mine[stage].current_a.slice(0, 41), printed, 5, `the current of the stage ${stage}`);
+  ++compared;
+}
+
 // Torque.
 const motor = ['--holding-torque', 0.45, '--current', 1.7, '--resistance', 1.5, '--inductance', 2.8];
 motor.push('--rotor-inertia', 68, '--supply', 24, '--load-inertia', 68, '--friction', 0.01);

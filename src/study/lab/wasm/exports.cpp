@@ -4,9 +4,11 @@
 //
 // Methods, drives and kinds are numbers: the order of their lists in the enums beside the functions.
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "passo/lab/answers.hpp"
+#include "passo/lab/board_play.hpp"
 #include "passo/motor/running_motor.hpp"
 
 #define PASSO_EXPORT(name) __attribute__((export_name(#name))) name
@@ -48,6 +50,12 @@ struct AskedMotor {
 AskedMotor& asked_motor() {
   static AskedMotor motor;
   return motor;
+}
+
+BoardPlay& board(bool anew = false) {
+  static std::optional<BoardPlay> board;
+  if (anew || !board) board.emplace();
+  return *board;
 }
 
 LoopSetup loop_of(int controlled, double to, double period) {
@@ -130,6 +138,44 @@ std::size_t PASSO_EXPORT(lab_torque)(double margin, double acceleration, int row
                                  .margin = margin,
                                  .acceleration = {acceleration},
                                  .rows = rows}));
+}
+
+// The motor of lab_motor(), whose supply is the unraised one.
+std::size_t PASSO_EXPORT(lab_driver)(double drop, double raised, double series, double ripple, double rate, double gain,
+                                     double base_emitter, double logic, double reserve, double base) {
+  const AskedMotor& motor = asked_motor();
+  return answered(driver_answer({.motor = motor.data,
+                                 .supply = motor.drive.supply,
+                                 .raised = {raised},
+                                 .series = {series},
+                                 .ripple = ripple,
+                                 .rate = Hertz(rate),
+                                 .transistor = {.gain = gain, .base_emitter = {base_emitter}, .saturation = {drop}},
+                                 .logic = {logic},
+                                 .reserve = reserve,
+                                 .base = {base}}));
+}
+
+// The first board. All that is pressed and driven is given each time.
+std::size_t PASSO_EXPORT(lab_board)(int lines, int keys, int button, double microseconds) {
+  board().set_lines(static_cast<std::uint8_t>(lines));
+  board().set_keys(static_cast<std::uint16_t>(keys));
+  board().set_button(button != 0);
+  board().run(static_cast<std::int64_t>(microseconds));
+  return answered(board().answer());
+}
+// Another board: rotors at 0, and nothing driven.
+void PASSO_EXPORT(lab_board_restart)() {
+  board(true);
+}
+// `pressed` 1: the emergency button is pressed; 0: it is released, and the board starts.
+void PASSO_EXPORT(lab_board_reset)(int pressed) {
+  board().reset(pressed != 0);
+}
+// `pulses` -1: without an end. `axes` 0: the clock stops.
+void PASSO_EXPORT(lab_board_clock)(int axes, double half_us, double pulses, int idle) {
+  board().set_clock(static_cast<std::uint8_t>(axes), static_cast<std::int64_t>(half_us),
+                    static_cast<std::int64_t>(pulses), static_cast<std::uint8_t>(idle));
 }
 
 // `controlled`: Controlled. The inner gains are those of the speed loop inside a position loop.

@@ -17,6 +17,9 @@
 //   uint8_t rows();                                of the column driven low: a bit for each row with a pressed key
 //   void draw_column(uint8_t column);              drives this column low and lets the others float
 //   bool tool_button();
+// With the customs of the first board, instead of indicators():
+//   void leds(bool automatic, bool manual, bool raising);   neither mode is on before a mode key; `raising`: key 5 is
+//   held
 //
 // Invariant: a motor's windings carry no current before its first step. Only an edge of the relay's line or the button
 // closes the relay, never a reset or a change of mode. Portable.
@@ -36,7 +39,20 @@ inline constexpr uint8_t looks_to_settle = 4;   // 20 ms
 inline constexpr uint8_t looks_to_repeat = 80;  // 400 ms from a key's first step to its second
 inline constexpr uint8_t looks_a_step = 2;      // 100 steps/s: motors start at that rate without a ramp
 
-template <class Hardware>
+// What differs between boards. The first board waits for a mode key after its reset, repeats a held key every 20 ms,
+// and raises Z by stepping backwards.
+struct UsualCustoms {
+  static constexpr bool is_first_board = false;
+  static constexpr uint8_t looks_to_repeat = passo::looks_to_repeat;
+  static constexpr uint8_t looks_a_step = passo::looks_a_step;
+};
+struct FirstBoardCustoms {
+  static constexpr bool is_first_board = true;
+  static constexpr uint8_t looks_to_repeat = 4;
+  static constexpr uint8_t looks_a_step = 4;
+};
+
+template <class Hardware, class Customs = UsualCustoms>
 class Follower {
  public:
   constexpr explicit Follower(Hardware& hardware) : hardware_(hardware) {}
@@ -45,7 +61,11 @@ class Follower {
   void begin() {
     lines_ = hardware_.lines();
     relay_line_ = hardware_.relay_line();
-    hardware_.indicators(true, false);
+    if constexpr (Customs::is_first_board) {
+      hardware_.leds(false, false, false);
+    } else {
+      hardware_.indicators(true, false);
+    }
     if constexpr (Hardware::has_keypad) hardware_.draw_column(0);
   }
 
@@ -53,7 +73,7 @@ class Follower {
     const uint8_t before = lines_;
     lines_ = hardware_.lines();
     const uint8_t risen = static_cast<uint8_t>(lines_ & ~before & 7);
-    if (risen != 0 && !manual_) return step(risen, static_cast<uint8_t>(before >> 3));
+    if (risen != 0 && follows()) return step(risen, static_cast<uint8_t>(before >> 3));
     follow_relay();
     if constexpr (Hardware::has_keypad) {
       if (hardware_.millisecond()) tick();
@@ -61,6 +81,12 @@ class Follower {
   }
 
  private:
+  // The computer's lines have an effect.
+  bool follows() const {
+    if constexpr (Customs::is_first_board) return trusted_ && !manual_;
+    return !manual_;
+  }
+
   void step(uint8_t axes, uint8_t down) {
     for (uint8_t axis = 0, bit = 1; axis < follower_axes; ++axis, bit = static_cast<uint8_t>(bit << 1)) {
       if ((axes & bit) == 0) continue;
@@ -79,7 +105,7 @@ class Follower {
     const bool line = hardware_.relay_line();
     if (line == relay_line_) return;
     relay_line_ = line;
-    if (!manual_) set_relay(line);
+    if (follows()) set_relay(line);
   }
   void set_relay(bool on) {
     relay_ = on;
@@ -107,7 +133,7 @@ class Follower {
     if (key_.value() != held) {
       press(key_.value());
     } else if (manual_ && key_.steady() && --wait_ == 0) {
-      jog(held, looks_a_step);
+      jog(held, Customs::looks_a_step);
     }
   }
 
@@ -120,11 +146,15 @@ class Follower {
   void press(Key key) {
     if (key == key_named('#')) set_manual(true);
     if (key == key_named('*')) set_manual(false);
-    if (manual_) jog(key, looks_to_repeat);
+    if (manual_) jog(key, Customs::looks_to_repeat);
   }
   void jog(Key key, uint8_t looks_until_next) {
     wait_ = looks_until_next;
-    const KeyMove move = jog_of_key.of[key];
+    KeyMove move = jog_of_key.of[key];
+    constexpr uint8_t z = 4;
+    if constexpr (Customs::is_first_board) {
+      if (move.steps == z) move.down = static_cast<uint8_t>(move.down ^ z);
+    }
     step(move.steps, move.down);
   }
   // A mode key also confirms that the operator knows the machine position.
@@ -136,8 +166,12 @@ class Follower {
 
   // After a reset the position is unknown, so the indicator blinks: 0.32 s on, 0.32 s off.
   void show_mode() {
-    const bool lit = trusted_ || (++looks_ & 0x40) == 0;
-    hardware_.indicators(lit && !manual_, lit && manual_);
+    if constexpr (Customs::is_first_board) {
+      hardware_.leds(follows(), manual_, manual_ && key_.value() == key_named('5'));
+    } else {
+      const bool lit = trusted_ || (++looks_ & 0x40) == 0;
+      hardware_.indicators(lit && !manual_, lit && manual_);
+    }
   }
 
   Hardware& hardware_;

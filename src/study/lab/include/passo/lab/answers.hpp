@@ -11,8 +11,10 @@
 #include <string>
 
 #include "passo/feedback/loop_trial.hpp"
+#include "passo/motor/darlington.hpp"
 #include "passo/motor/excitation.hpp"
 #include "passo/motor/torque_curve.hpp"
+#include "passo/motor/winding_current.hpp"
 #include "passo/ramp/ramp_sequence.hpp"
 #include "passo/study/method.hpp"
 
@@ -48,6 +50,23 @@ struct TorqueQuestion {
   std::int32_t rows = 100;
 };
 std::string torque_answer(const TorqueQuestion& question);
+
+// A question about the stage that switches the windings of a unipolar motor: the current of one winding, on for two
+// steps and off for two, with three stages: the supply alone, a raised supply with a series resistor, and the raised
+// supply with a chopper that holds the rated current. Then what its base resistor and its heat are.
+struct DriverQuestion {
+  MotorData motor;  // of a half coil
+  Volts supply = {};
+  Volts raised = {};
+  Ohms series = {};
+  double ripple = 0;  // of the chopper, as WindingCircuit::ripple
+  Hertz rate{0};      // full steps a second
+  Darlington transistor = {};
+  Volts logic = {};
+  double reserve = 0;  // of the base current: 0.3 for 30 %
+  Ohms base = {};
+};
+std::string driver_answer(const DriverQuestion& question);
 
 // Returns the step response, and its figures.
 std::string loop_answer(const LoopSetup& setup, Seconds whole);

@@ -1,0 +1,135 @@
+// The stage that switches a winding: how its current rises, and what the Darlington's base resistor and heat are.
+import type { JSX } from 'preact';
+import { useMemo } from 'preact/hooks';
+import { Chart } from '../Chart';
+import { type DriverRequest, isFailed, type LabCore, type Motor, stageNames } from '../core';
+import { Figure, Lesson, NumberField, Refused, short } from '../shared';
+import { change, view } from '../state';
+import type { LabView } from '../view';
+import { say } from '../words';
+
+type NumberName = { [K in keyof LabView]: LabView[K] extends number ? K : never }[keyof LabView];
+
+const marks = { plain: 'mark-a', series: 'mark-b', chopper: 'mark-c' } as const;
+// Neither has a part in a current or in pull-out torque.
+const anyInertia = 1e-5; // kg·m²
+
+function motorOf(now: LabView): Motor {
+  return {
+    stepsPerTurn: 200, rotorInertia: anyInertia, holdingTorque: now.dhold, current: now.damps, resistance: now.dohms,
+    inductance: now.dmh / 1000, supply: now.dvolts, resistive: true, loadInertia: 0, friction: 0,
+  };
+}
+
+export function DriverLab({ core }: { core: LabCore }): JSX.Element {
+  const now = view.value;
+  const motor = motorOf(now);
+  const request: DriverRequest = {
+    drop: now.dsat, raised: now.raised, series: now.series, ripple: now.ripple, rate: now.drate, gain: now.gain,
+    baseEmitter: now.vbe, logic: now.logic, reserve: now.reserve, base: now.base,
+  };
+  const answer = useMemo(() => core.driver(motor, request), [core, JSON.stringify([motor, request])]);
+  const number = (name: NumberName, label: string, unit: string, step: number, from: number, to: number): JSX.Element => (
+    <NumberField label={label} unit={unit} value={now[name]} step={step} from={from} to={to} onChange={(value) => change({ [name]: value })} />
+  );
+  const fitting = (now.raised - now.dsat) / now.damps - now.dohms;
+  return (
+    <div class="lab-study">
+      <div class="panel lab-controls">
+        <Lesson>{say('driverLesson')}</Lesson>
+        <div class="lab-pair">
+          {number('damps', say('current'), 'A', 0.1, 0.01, 50)}
+          {number('dohms', say('resistance'), 'Ω', 0.1, 0.01, 500)}
+          {number('dmh', say('inductance'), 'mH', 1, 0.01, 500)}
+          {number('dhold', say('holdingTorque'), 'N·m', 0.05, 0.001, 100)}
+          {number('dvolts', say('supply'), 'V', 0.1, 1, 400)}
+          {number('dsat', say('saturation'), 'V', 0.1, 0, 10)}
+          {number('raised', say('raisedSupply'), 'V', 1, 1, 400)}
+          {number('series', say('seriesResistor'), 'Ω', 1, 0, 1e4)}
+          {number('ripple', say('chopperBand'), '', 0.01, 0.01, 0.5)}
+          {number('drate', say('rate'), say('perSecond'), 50, 1, 20_000)}
+        </div>
+        <button type="button" class="button" disabled={!(fitting >= 0)} onClick={() => change({ series: Number(fitting.toPrecision(4)) })}>
+          {say('fitSeries')}
+        </button>
+        <Lesson>{say('stagesLesson')}</Lesson>
+      </div>
+      <div class="panel lab-charts">
+        {isFailed(answer) ? (
+          <Refused words={answer.error} />
+        ) : (
+          <>
+            <Chart
+              title={say('currentOverTime')} xTitle={`${say('time')}, ms`} yTitle="A" height={320} from={0}
+              lines={[
+                ...stageNames.map((name) => ({ name: say(`stage_${name}`), mark: marks[name], x: answer[name].time_s.map(ms), y: answer[name].current_a })),
+                { name: say('current'), mark: 'mark-ideal', x: [0, ms(answer.plain.time_s.at(-1) ?? 0)], y: [now.damps, now.damps] },
+              ]}
+              marks={[{ x: ms(2 / now.drate), words: say('switchedOff') }]}
+            />
+            <div class="lab-table-frame" tabIndex={0} role="region" aria-label={say('stagesTable')}>
+              <table class="lab-comparison lab-stages">
+                <thead>
+                  <tr>
+                    <th>{say('stageTitle')}</th>
+                    <th>τ, ms</th>
+                    <th>{say('riseTo90')}, ms</th>
+                    <th>{say('mostCurrent')}, A</th>
+                    <th>{say('windingHeat')}, W</th>
+                    <th>{say('resistorHeat')}, W</th>
+                    <th>{say('transistorHeat')}, W</th>
+                  </tr>
+                </thead>
+                <tbody>
+                  {stageNames.map((name) => {
+                    const stage = answer[name];
+                    return (
+                      <tr key={name} data-stage={name}>
+                        <th scope="row"><i class={`lab-mark ${marks[name]}`} aria-hidden="true" /> {say(`stage_${name}`)}</th>
+                        <td>{short(ms(stage.tau_s))}</td>
+                        <td>{stage.rise_s === null ? '–' : short(ms(stage.rise_s))}</td>
+                        <td>{short(stage.most_a)}</td>
+                        <td>{short(stage.winding_w)}</td>
+                        <td>{short(stage.series_w)}</td>
+                        <td>{short(stage.transistor_w)}</td>
+                      </tr>
+                    );
+                  })}
+                </tbody>
+              </table>
+            </div>
+            <Chart
+              title={say('torqueOverRate')} xTitle={`${say('rate')}, ${say('fullStepsPerSecond')}`} yTitle="N·m" from={0} height={280}
+              lines={stageNames.map((name) => ({ name: say(`stage_${name}`), mark: marks[name], x: answer[name].rate_hz, y: answer[name].pull_out_nm }))}
+            />
+            <h2>{say('baseTitle')}</h2>
+            <Lesson>{say('baseLesson')}</Lesson>
+            <div class="lab-pair lab-base">
+              {number('gain', say('gainTitle'), '', 50, 1, 1e5)}
+              {number('logic', say('logicVolts'), 'V', 0.1, 1, 50)}
+              {number('vbe', say('baseEmitter'), 'V', 0.1, 0, 5)}
+              {number('reserve', say('reserveTitle'), '', 0.05, 0, 5)}
+              {number('base', say('baseResistor'), 'Ω', 10, 1, 1e6)}
+            </div>
+            <ol class="lab-sums">
+              <li>I<sub>B</sub> ≥ I<sub>C</sub>/h<sub>FE</sub> = {now.damps} A / {now.gain} = <b>{short(ma(answer.base.needed_a))} mA</b></li>
+              <li>{say('withReserve', { percent: Number((100 * now.reserve).toPrecision(4)) })}: <b>{short(ma(answer.base.wanted_a))} mA</b></li>
+              <li>R<sub>B</sub> ≤ ({now.logic} V − {now.vbe} V) / {short(ma(answer.base.wanted_a))} mA = <b data-largest>{short(answer.base.largest_ohm, 4)} Ω</b></li>
+              <li>
+                {now.base} Ω: I<sub>B</sub> = <b>{short(ma(answer.base.given_a))} mA</b>,{' '}
+                <span data-overdrive>{say(answer.base.given_a >= answer.base.wanted_a ? 'baseAmple' : 'baseTooLittle', { times: short(answer.base.overdrive) })}</span>
+              </li>
+            </ol>
+            <dl class="lab-figures">
+              <Figure name={say('heatWhileOn')} value={short(answer.base.heat_w)} unit="W" />
+              <Figure name={say('warmerBy')} value={short(answer.base.warmer_k)} unit="K" />
+            </dl>
+          </>
+        )}
+      </div>
+    </div>
+  );
+}
+
+const ms = (seconds: number): number => seconds * 1000;
+const ma = (amperes: number): number => amperes * 1000;
