@@ -60,6 +60,7 @@ class HostHardware {
     put("indicator.automatic", automatic ? "1" : "0");
     put("indicator.manual", manual ? "1" : "0");
   }
+  void light_relay_indicator() { put("indicator.relay", "1"); }
   void leds(bool automatic, bool manual, bool raising) {
     put("led.0", automatic ? "1" : "0");
     put("led.1", !manual || raising ? "1" : "0");

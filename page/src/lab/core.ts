@@ -217,6 +217,7 @@ export interface BoardAnswer {
   patterns: number[]; // of each motor, bit 0: F1
   rotors: number[]; // steps
   relay: boolean;
+  relay_led: boolean;
   mode: 'reset' | 'waiting' | 'automatic' | 'manual';
   leds: number[]; // RB0, RD1, RD2, RD3
 }

@@ -37,7 +37,7 @@ void BoardPins::leds(bool automatic, bool manual, bool raising) {
 
 void BoardPins::float_outputs() {
   for (std::uint8_t& pattern : patterns) pattern = 0;
-  relay_closed = is_automatic = is_manual = is_raising = false;
+  relay_closed = is_relay_lit = is_automatic = is_manual = is_raising = false;
   next_us_ = now_us + 1000;
 }
 
@@ -94,6 +94,7 @@ std::string BoardPlay::answer() const {
   json.list("patterns", std::vector<int>(std::begin(pins_.patterns), std::end(pins_.patterns)));
   json.list("rotors", std::vector<std::int64_t>(std::begin(pins_.rotors), std::end(pins_.rotors)));
   json.flag("relay", pins_.relay_closed);
+  json.flag("relay_led", pins_.is_relay_lit);
   json.words("mode", !follower_ ? "reset" : pins_.is_automatic ? "automatic" : pins_.is_manual ? "manual" : "waiting");
   // RB0, RD1, RD2, RD3. RD1 to RD3 are lit when low, which a pin that floats is not.
   const bool waits_or_runs = follower_ && !pins_.is_manual;

@@ -133,7 +133,7 @@ export function Panel({ bench, played }: { bench: Bench; played: Played }): JSX.
         <Led name="RD1" words={say('ledWaitingUp')} lit={rd1 === 1} />
         <Led name="RD2" words={say('ledWaiting')} lit={rd2 === 1} />
         <Led name="RD3" words={say('ledWaiting')} lit={rd3 === 1} />
-        <Led name="RE2" words={say('ledRelay')} lit={answer.relay} />
+        <Led name="RE2" words={say('ledRelay')} lit={answer.relay_led} />
       </ul>
       <div class="lab-board-buttons">
         <Held

@@ -81,6 +81,18 @@ TEST_F(BoardPlayed, raises_z_backwards_with_key_5_every_20_ms) {
   EXPECT_THAT(board.answer(), HasSubstr(R"("patterns":[0,0,6],"rotors":[0,0,-3])"));
 }
 
+TEST_F(BoardPlayed, lights_the_relay_s_led_as_manual_mode_begins) {
+  press('#');
+  EXPECT_THAT(board.answer(), HasSubstr(R"("relay":false,"relay_led":true)"));
+  board.set_button(true);
+  board.run(40'000);
+  board.set_button(false);
+  board.run(40'000);
+  board.set_button(true);
+  board.run(40'000);
+  EXPECT_THAT(board.answer(), HasSubstr(R"("relay":false,"relay_led":false)"));
+}
+
 TEST_F(BoardPlayed, has_a_relay_that_the_line_and_the_button_close) {
   press('*');
   board.set_lines(BoardPins::tool_line);

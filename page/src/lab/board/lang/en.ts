@@ -17,7 +17,7 @@ export const en = {
   ledAutomatic: 'automatic mode',
   ledWaitingUp: 'dark in manual mode, but lit while 5 raises Z',
   ledWaiting: 'dark in manual mode',
-  ledRelay: 'relay closed',
+  ledRelay: 'relay closed; also lit as manual mode begins',
   toolButton: 'Tool button (RE1)',
   relayOpen: 'Relay open',
   relayClosed: 'Relay closed',

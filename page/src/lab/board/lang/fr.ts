@@ -19,7 +19,7 @@ export const fr: BoardWords = {
   ledAutomatic: 'mode automatique',
   ledWaitingUp: 'éteinte en manuel, mais allumée quand 5 monte Z',
   ledWaiting: 'éteinte en manuel',
-  ledRelay: 'relais fermé',
+  ledRelay: 'relais fermé ; allumée aussi au début du mode manuel',
   toolButton: 'Bouton outil (RE1)',
   relayOpen: 'Relais ouvert',
   relayClosed: 'Relais fermé',

@@ -19,7 +19,7 @@ export const it: BoardWords = {
   ledAutomatic: 'automatico',
   ledWaitingUp: 'spento in manuale, ma acceso mentre 5 alza Z',
   ledWaiting: 'spento in manuale',
-  ledRelay: 'relè chiuso',
+  ledRelay: 'relè chiuso; acceso anche all’inizio del modo manuale',
   toolButton: 'Pulsante utensile (RE1)',
   relayOpen: 'Relè aperto',
   relayClosed: 'Relè chiuso',

@@ -19,7 +19,7 @@ export const zh: BoardWords = {
   ledAutomatic: '自动模式',
   ledWaitingUp: '手动模式下灭，按 5 抬升 Z 时亮',
   ledWaiting: '手动模式下灭',
-  ledRelay: '继电器吸合',
+  ledRelay: '继电器吸合；刚进入手动模式时也亮',
   toolButton: '刀具按钮（RE1）',
   relayOpen: '继电器断开',
   relayClosed: '继电器吸合',

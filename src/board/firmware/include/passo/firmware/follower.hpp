@@ -20,6 +20,7 @@
 // With the customs of the first board, instead of indicators():
 //   void leds(bool automatic, bool manual, bool raising);   neither mode is on before a mode key; `raising`: key 5 is
 //   held
+//   void light_relay_indicator();                 as manual mode begins; relay() switches it from then on
 //
 // Invariant: a motor's windings carry no current before its first step. Only an edge of the relay's line or the button
 // closes the relay, never a reset or a change of mode. Portable.
@@ -159,6 +160,9 @@ class Follower {
   }
   // A mode key also confirms that the operator knows the machine position.
   void set_manual(bool manual) {
+    if constexpr (Customs::is_first_board) {
+      if (manual && !manual_) hardware_.light_relay_indicator();
+    }
     manual_ = manual;
     trusted_ = true;
     if (!manual_ && !relay_line_) set_relay(false);

@@ -34,6 +34,7 @@ struct BoardPins {
   std::uint8_t patterns[follower_axes] = {};
   std::int64_t rotors[follower_axes] = {};  // full steps
   bool relay_closed = false;
+  bool is_relay_lit = false;  // RE2
   bool is_automatic = false;
   bool is_manual = false;
   bool is_raising = false;
@@ -45,7 +46,8 @@ struct BoardPins {
   void draw_column(std::uint8_t column) { column_ = column; }
   bool millisecond();
   void windings(std::uint8_t axis, std::uint8_t place);
-  void relay(bool on) { relay_closed = on; }
+  void relay(bool on) { relay_closed = is_relay_lit = on; }
+  void light_relay_indicator() { is_relay_lit = true; }
   void leds(bool automatic, bool manual, bool raising);
   // All outputs float; the clock of the milliseconds begins anew.
   void float_outputs();
