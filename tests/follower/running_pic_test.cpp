@@ -1,0 +1,58 @@
+// The PIC in gpsim, cut into pieces of time: it must do the same as in one run.
+#include "passo/emulator/running_pic.hpp"
+
+#include <algorithm>
+
+#include "follower/pic_run.hpp"
+#include "kit/seed.hpp"
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+std::filesystem::path folder_of(const std::string& test) {
+  return std::filesystem::path(PASSO_IMAGES) / ("gpsim_" + test);
+}
+
+// Adds the vector's lines as they come, and runs the chip after each `piece`.
+FollowerRun in_pieces(const FollowerVector& vector, Nanoseconds piece, int& pieces) {
+  const std::vector<std::string> keys{"key.*"};
+  auto pic = RunningPic::start(PicFollower::first_board, std::filesystem::path(PASSO_IMAGES) / "first_board.cod",
+                               folder_of("pieces"), keys);
+  if (!pic) throw std::runtime_error(pic.error());
+  FollowerRun whole;
+  auto next = vector.lines.begin();
+  for (Nanoseconds end = piece; end < vector.end + piece; end += piece) {
+    const Nanoseconds until = std::min(end, vector.end);
+    const auto later = std::find_if(next, vector.lines.end(), [&](const LineChange& one) { return one.at >= until; });
+    (*pic)->add({next, later});
+    next = later;
+    const auto run = until < vector.end ? (*pic)->run_before(until) : (*pic)->run_to(until);
+    if (!run) throw std::runtime_error(run.error());
+    EXPECT_LE((*pic)->now(), until);
+    whole.changes.insert(whole.changes.end(), run->changes.begin(), run->changes.end());
+    ++pieces;
+  }
+  return whole;
+}
+
+// Random steps of three motors, also at the same time, so densely that an edge lies near many a cut.
+TEST(RunningPic, does_the_same_however_its_time_is_cut) {
+  if (!gpsim_is_here()) GTEST_SKIP() << "gpsim is not installed (scripts/install.sh installs it)";
+  const std::uint64_t seed = test::seed();
+  const FollowerVector vector = after_automatic_key(random_steps(seed, 400, 15'000, Edges::apart), 5);
+  const FollowerRun whole = run_on_pic(PicFollower::first_board, PASSO_IMAGES, vector, folder_of("whole"));
+  EXPECT_GT(whole.changes.size(), 400U);
+  for (const Nanoseconds piece : {3'000'000, 7'654'321, 50'000'000}) {
+    int pieces = 0;
+    const FollowerRun cut = in_pieces(vector, piece, pieces);
+    const auto same = [](const OutputChange& one, const OutputChange& other) {
+      return one.at == other.at && one.output == other.output && one.value == other.value;
+    };
+    EXPECT_TRUE(std::ranges::equal(whole.changes, cut.changes, same))
+        << pieces << " pieces of " << piece << " ns, PASSO_SEED=" << seed;
+  }
+}
+
+}  // namespace
+}  // namespace passo
