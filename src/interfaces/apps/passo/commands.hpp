@@ -59,7 +59,8 @@ struct RunArguments {
   std::string cable_cut;                  // SECONDS:SECONDS; empty: none
   std::vector<std::string> disturbances;  // AXIS:NM@FROM:SECONDS; only with physics
   bool physics = false;                   // simulates the physics of the motors of a virtual or emulated machine
-  std::string board = "virtual";          // an address for parse_board_address()
+  std::string board = "virtual";          // an address for parse_board_address(), or sim:first_board
+  bool anyway = false;                    // sim:first_board: runs even if its loop is too slow for the pulses
   std::string journal;                    // empty: usual_journal()
   bool resume = false;                    // resumes an interrupted run
   std::uint32_t from_line = 0;            // the line at which the program is to start; 0: its first line
