@@ -134,7 +134,9 @@ bool FollowerOnPort::turn(std::size_t motor, Nanoseconds at, const std::string& 
   find_pulse_of(motor, at, down);
   MotorSteps turned{};
   turned[motor] = down ? -1 : 1;
-  plant_.pulse(Seconds(static_cast<double>(at) * 1e-9), turned);
+  const Seconds now(static_cast<double>(at) * 1e-9);
+  if (watch_) watch_(now);
+  plant_.pulse(now, turned);
   return true;
 }
 

@@ -60,6 +60,7 @@ struct RunArguments {
   std::vector<std::string> disturbances;  // AXIS:NM@FROM:SECONDS; only with physics
   bool physics = false;                   // simulates the physics of the motors of a virtual or emulated machine
   std::string board = "virtual";          // an address for parse_board_address(), or sim:first_board
+  std::string true_path;                  // sim:first_board: output file of the rotors' way; empty: none
   bool anyway = false;                    // sim:first_board: runs even if its loop is too slow for the pulses
   std::string journal;                    // empty: usual_journal()
   bool resume = false;                    // resumes an interrupted run

@@ -1,5 +1,6 @@
 #include "port_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -45,6 +46,29 @@ PortRun::PortRun(const MachineDescription& machine, MachineConnection& opened, s
       folder_(std::move(folder)),
       board_(std::move(board)),
       lines_(opened.session().now()) {}
+
+void PortRun::record_path(OutputFile& file) {
+  path_ = &file;
+  file.write("(the way of the rotors, by passo run: machine coordinates)\nG21 G90 G94 F1000\n");
+  board_->set_watch([this](Seconds time) { write_place(time); });
+}
+
+// A place for each step of any motor, just before the next step.
+void PortRun::write_place(Seconds time) {
+  constexpr double far_enough = 0.5;  // steps
+  const MotorPositions places = opened_.plant().truth_at(time).positions;
+  double farthest = 0;
+  for (std::size_t m = 0; m < port_axes; ++m) farthest = std::max(farthest, std::abs(places[m] - written_[m]));
+  if (farthest < far_enough) return;
+  written_ = places;
+  std::string words = "G1";
+  for (std::size_t m = 0; m < description_.axes.size(); ++m) {
+    const AxisDescription& axis = description_.axes[m];
+    const double place = places[m] / axis.steps_per_unit;
+    words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.inverted ? -place : place);
+  }
+  path_->write(words + "\n");
+}
 
 PortRun::~PortRun() {
   board_.reset();
@@ -116,6 +140,10 @@ PortSummary PortRun::summary() {
   summary.register_writes = board_->register_writes();
   summary.relay_closings = board_->relay_closings();
   summary.relay_is_closed = board_->relay_is_closed();
+  if (path_ != nullptr) {
+    write_place(played());
+    path_->write("M2\n");
+  }
   const Truth truth = opened_.plant().truth_at(played());
   for (std::size_t m = 0; m < description_.axes.size(); ++m) {
     const AxisDescription& axis = description_.axes[m];

@@ -14,6 +14,7 @@
 #include "passo/job/motion_lines.hpp"
 #include "passo/machine/machine_observer.hpp"
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/report/output_file.hpp"
 #include "passo/report/summary.hpp"
 
 namespace passo {
@@ -36,6 +37,8 @@ class PortRun final : public MachineObserver {
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override;
   void on_outputs(Ticks time, const BoardOutputs& outputs) override;
 
+  // Writes the rotors' way to a file, as a program of lines in machine coordinates. The file must outlive the run.
+  void record_path(OutputFile& file);
   // Adds planned motion, in order. `plan` and `poll` may be called when the program has begun.
   void plan(const MotionItem& item) { lines_.watch(item); }
   // Must be called after each turn of the session. Returns false if the emulator has failed: see error().
@@ -54,6 +57,7 @@ class PortRun final : public MachineObserver {
           std::unique_ptr<FollowerOnPort> board);
   Nanoseconds time_of(Ticks time) const;
   void find_lines();
+  void write_place(Seconds time);
 
   const MachineDescription& description_;
   MachineConnection& opened_;
@@ -62,6 +66,8 @@ class PortRun final : public MachineObserver {
   PlannedLines lines_;
   std::vector<std::uint32_t> lines_of_lost_;
   bool tool_is_on_ = false;
+  OutputFile* path_ = nullptr;
+  MotorPositions written_{};  // the last place in the path
 };
 
 }  // namespace passo

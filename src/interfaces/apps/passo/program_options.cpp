@@ -112,6 +112,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option(
       "--disturb", arguments.disturbances,
       "AXIS:NM@FROM:SECONDS: torque that disturbs an axis for a time, e.g. X:0.8@1.5:0.2; needs --physics");
+  command.add_option("--true-path", arguments.true_path,
+                     "sim:first_board: file for the way that the motors really took, as a program for passo simulate");
   command.add_flag("--anyway", arguments.anyway,
                    "sim:first_board: run even if the pulses are too short for its loop, and show which are lost");
   command.add_flag("-y,--yes", arguments.yes, "skip the operator prompts at M0, M1 and M6");

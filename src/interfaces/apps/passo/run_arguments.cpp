@@ -36,8 +36,8 @@ bool suits_the_board(const RunArguments& arguments) {
   const bool on_port = is_on_port(arguments.board);
   if (on_port && (arguments.home || !arguments.touches.empty())) {
     words = "--home and --touch need inputs, and the port of sim:first_board has none";
-  } else if (arguments.anyway && !on_port) {
-    words = "--anyway is only for --board sim:first_board";
+  } else if ((arguments.anyway || !arguments.true_path.empty()) && !on_port) {
+    words = "--anyway and --true-path are only for --board sim:first_board";
   } else if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
     words = "--resume and --journal are only for boards that keep running: serial: or tcp:";
   } else if (!arguments.cable_cut.empty() && arguments.board != "virtual") {

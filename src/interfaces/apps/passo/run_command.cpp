@@ -145,6 +145,7 @@ bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& op
   for (const std::string& path : arguments.traces) files.writes("--trace", path);
   files.writes("--log", arguments.log);
   files.writes("--report", arguments.report);
+  files.writes("--true-path", arguments.true_path);
   if (keeps_journal(arguments)) files.writes("--journal", ResumableRun::journal_of(arguments));
   return files.are_apart();
 }
@@ -392,6 +393,7 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Mac
   std::unique_ptr<PortRun> port;
   if (is_on_port(arguments.board)) port = PortRun::start(subject.machine, opened, code);
   if (code != exit_done) return code;
+  if (port && outputs->true_path() != nullptr) port->record_path(*outputs->true_path());
 
   Diagnostics late;
   const std::optional<Seconds> without_line = time_without_line(subject, program, opened, changes);

@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "passo/base/result.hpp"
@@ -51,6 +53,8 @@ class FollowerOnPort {
                                                                     const std::filesystem::path& work,
                                                                     Nanoseconds pulse, Plant& plant);
 
+  // `watch` is called before each turn of a motor, when the plant's time has come to it.
+  void set_watch(std::function<void(Seconds)> watch) { watch_ = std::move(watch); }
   // Adds a step, or a change of the tool's line, in order of time. See PortDriver.
   void step(Nanoseconds at, unsigned stepped, unsigned down);
   void switch_tool(Nanoseconds at, bool on);
@@ -97,6 +101,7 @@ class FollowerOnPort {
   std::int64_t steps_in_piece_ = 0;
   int relay_closings_ = 0;
   bool relay_is_closed_ = false;
+  std::function<void(Seconds)> watch_;
   std::string error_;
 };
 
