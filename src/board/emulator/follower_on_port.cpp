@@ -6,8 +6,8 @@
 namespace passo {
 namespace {
 
-constexpr Nanoseconds longest_piece = 1'000'000'000;
-constexpr std::int64_t most_steps_in_piece = 10'000;
+constexpr Nanoseconds longest_piece = 4'000'000'000;
+constexpr std::int64_t most_steps_in_piece = 20'000;
 constexpr Nanoseconds after_the_end = 2'000'000;
 
 // The key that the board waits for.

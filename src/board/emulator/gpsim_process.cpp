@@ -14,7 +14,7 @@
 namespace passo {
 namespace {
 
-constexpr int longest_wait_ms = 600'000;
+constexpr int longest_wait_ms = 120'000;
 constexpr std::size_t kept_output = 4096;
 
 // A .cod file names its processor, a .hex does not.

@@ -77,6 +77,8 @@ std::string RunningPic::State::set_up(std::span<const std::string> keys) {
     fed.push_back({.line = line, .straight = where.straight});
   }
   write_keypad(out, pins, keys);
+  // Each of these takes a break point for good, of 1024.
+  out << "log w portb\nlog w portc\nlog w portd\nlog w porte\n" << (turns == Turns::watched ? "log r porta\n" : "");
   return out.str();
 }
 
@@ -122,8 +124,7 @@ Result<FollowerRun, std::string> RunningPic::State::run(Nanoseconds end) {
   const auto count = static_cast<std::size_t>(later - ahead.begin());
   std::ostringstream commands;
   for (std::size_t number = 0; number < fed.size(); ++number) feed(number, count, commands);
-  commands << "log on pins.log\nlog w portb\nlog w portc\nlog w portd\nlog w porte\n"
-           << (turns == Turns::watched ? "log r porta\n" : "");
+  commands << "log on pins.log\n";
   for (std::size_t i = 0; i < count; ++i) {
     const LineChange& change = ahead[i];
     const bool reset = change.line == "reset";

@@ -1,5 +1,6 @@
 // RunningPic: a PIC16F877A with the follower's program in gpsim, run piece by piece: the chip keeps its state from one
-// piece to the next, and memory stays bounded. However the time is cut, the outputs change at the same cycles.
+// piece to the next, and memory stays bounded. Where gpsim stops within an instruction of two cycles, the chip may be a
+// cycle early from there on. With a piece a second this is at most 1 ppm, far less than the tolerance of a crystal.
 #pragma once
 
 #include <filesystem>
