@@ -189,7 +189,7 @@ std::string to_json(const RunSummary& summary) {
   if (summary.probes) add_probes(summary, *summary.probes, json);
   add_tails(summary, json);
   if (summary.physics) add_physics(*summary.physics, json);
-  if (summary.port) add_port(*summary.port, json);
+  if (summary.board && summary.board->port) add_port(*summary.board->port, json);
   // The name of a program may not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -328,7 +328,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   if (summary.probes) text.probes(summary, *summary.probes);
   if (!summary.tails.empty()) text.tails(summary);
   if (summary.physics) text.physics(*summary.physics);
-  if (summary.port) text.port(*summary.port);
+  if (summary.board && summary.board->port) text.port(*summary.board->port);
   return text.take();
 }
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "passo/activity/stage_options.hpp"
+
 namespace passo {
 namespace {
 
@@ -43,6 +45,7 @@ PortRun::PortRun(const MachineDescription& machine, MachineConnection& opened, s
                  std::unique_ptr<FollowerOnPort> board)
     : description_(machine),
       opened_(opened),
+      kinematics_(kinematics_of(machine)),
       folder_(std::move(folder)),
       board_(std::move(board)),
       lines_(opened.session().now()) {}
@@ -61,11 +64,10 @@ void PortRun::write_place(Seconds time) {
   for (std::size_t m = 0; m < port_axes; ++m) farthest = std::max(farthest, std::abs(places[m] - written_[m]));
   if (farthest < far_enough) return;
   written_ = places;
+  const Point place = kinematics_.axes(MotorPosition{places});
   std::string words = "G1";
-  for (std::size_t m = 0; m < description_.axes.size(); ++m) {
-    const AxisDescription& axis = description_.axes[m];
-    const double place = places[m] / axis.steps_per_unit;
-    words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.inverted ? -place : place);
+  for (const AxisDescription& axis : description_.axes) {
+    words += fmt::format(" {}{:.3f}", letter_of(axis.axis), place[axis.axis]);
   }
   path_->write(words + "\n");
 }
@@ -145,6 +147,7 @@ PortSummary PortRun::summary() {
     path_->write("M2\n");
   }
   const Truth truth = opened_.plant().truth_at(played());
+  const Point place = kinematics_.axes(MotorPosition{truth.positions});
   for (std::size_t m = 0; m < description_.axes.size(); ++m) {
     const AxisDescription& axis = description_.axes[m];
     const FollowerOnPort::Counts& counts = board_->counts(m);
@@ -155,7 +158,7 @@ PortSummary PortRun::summary() {
                               .commanded_net = way * counts.commanded_net,
                               .sampled_net = way * counts.sampled_net,
                               .true_net = way * truth.positions[m],
-                              .true_end = way * truth.positions[m] / axis.steps_per_unit});
+                              .true_end = place[axis.axis]});
   }
   const auto& lost = board_->lost_pulses();
   for (std::size_t i = 0; i < lost.size(); ++i) {

@@ -12,6 +12,7 @@
 
 #include "passo/emulator/follower_on_port.hpp"
 #include "passo/job/motion_lines.hpp"
+#include "passo/kinematics/kinematics.hpp"
 #include "passo/machine/machine_observer.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/output_file.hpp"
@@ -61,6 +62,7 @@ class PortRun final : public MachineObserver {
 
   const MachineDescription& description_;
   MachineConnection& opened_;
+  Kinematics kinematics_;
   std::filesystem::path folder_;
   std::unique_ptr<FollowerOnPort> board_;
   PlannedLines lines_;

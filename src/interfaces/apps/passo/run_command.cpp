@@ -145,7 +145,7 @@ bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& op
   for (const std::string& path : arguments.traces) files.writes("--trace", path);
   files.writes("--log", arguments.log);
   files.writes("--report", arguments.report);
-  files.writes("--true-path", arguments.true_path);
+  files.writes("--true-path", arguments.motors.true_path);
   if (keeps_journal(arguments)) files.writes("--journal", ResumableRun::journal_of(arguments));
   return files.are_apart();
 }
@@ -197,11 +197,6 @@ std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, c
   return planned_time(program.again(), subject.machine, subject.options, subject.check);
 }
 
-// The PIC plays what the port has collected. True: it cannot.
-bool is_broken(const Run& run) {
-  return run.port != nullptr && !run.port->poll();
-}
-
 // The time up to which the motors have turned.
 Seconds turned_until(const Run& run) {
   return run.port != nullptr ? run.port->played() : run.opened.session().now();
@@ -251,7 +246,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   } else {
     bool brakes = false;
     for (unsigned turns = 0; session.busy(); ++turns) {
-      const bool must_stop = interrupted_by() != 0 || run.outputs.failed() || is_broken(run);
+      const bool is_broken = run.port != nullptr && !run.port->poll();
+      const bool must_stop = interrupted_by() != 0 || run.outputs.failed() || is_broken;
       if (must_stop && !std::exchange(brakes, true)) stop(session);
       const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
       session.poll(std::min({most, longest_turn, prompt.poll(session)}));
@@ -277,7 +273,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   summary.tails = tails.tails();
   if (run.port != nullptr) run.port->finish();
   if (motors) summary.physics = motors->finish(turned_until(run));
-  if (run.port != nullptr) summary.port = run.port->summary();
+  if (run.port != nullptr) summary.board->port = run.port->summary();
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   return summary;
 }
@@ -372,7 +368,7 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
       run.outputs.commit(summary, session.program()->saved_parameters(), session.program()->tools(), machine_units);
   if (!written) return fail(exit_failed, written.error().message);
   print(summary, run.arguments);
-  if (summary.port && summary.port->lost_pulses() != 0) {
+  if (summary.board->port && summary.board->port->lost_pulses() != 0) {
     return fail(exit_failed, "the PIC did not sample every pulse, and the part would be scrap [run.pulses-lost]");
   }
   if (!summary.physics || !summary.physics->lost()) return exit_done;
@@ -465,7 +461,7 @@ int run(const RunArguments& arguments) {
   if (!machine) return exit_bad_machine;
 
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
-  const auto disturbances = read_disturbances(arguments.disturbances, *machine);
+  const auto disturbances = read_disturbances(arguments.motors.disturbances, *machine);
   if (!things || !disturbances) return exit_bad_program;
   std::optional<ProgramReader> program = streamed_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
@@ -481,23 +477,24 @@ int run(const RunArguments& arguments) {
   if (!suits_the_board(arguments) || !files_are_apart(arguments, *options)) return exit_bad_program;
 
   const auto has_physics = [](const AxisDescription& axis) { return motor_setup(axis).has_value(); };
-  if (arguments.physics && std::ranges::none_of(machine->axes, has_physics)) {
+  if (arguments.motors.physics && std::ranges::none_of(machine->axes, has_physics)) {
     return fail(exit_bad_machine,
                 arguments.machine + ": --physics needs motor data: a table [axis.X.torque] for at least one axis");
   }
   const bool on_port = is_on_port(arguments.board);
-  if (on_port && !suits_the_port(*machine, arguments.machine, arguments.anyway)) return exit_bad_machine;
+  if (on_port && !suits_the_port(*machine, arguments.machine, arguments.motors.anyway)) return exit_bad_machine;
   end_on_signals();
-  return run_program(arguments, *machine,
-                     {.board = on_port ? "virtual" : arguments.board,
-                      .over_a_line = cut.has_value(),
-                      .cut = cut,
-                      .touchables = *things,
-                      .physics = arguments.physics || (on_port && std::ranges::any_of(machine->axes, has_physics)),
-                      .disturbances = *disturbances,
-                      .plant_apart = on_port,
-                      .may_move = arguments.resume},
-                     std::move(*program), std::move(*options), *changes);
+  return run_program(
+      arguments, *machine,
+      {.board = on_port ? "virtual" : arguments.board,
+       .over_a_line = cut.has_value(),
+       .cut = cut,
+       .touchables = *things,
+       .physics = arguments.motors.physics || (on_port && std::ranges::any_of(machine->axes, has_physics)),
+       .disturbances = *disturbances,
+       .plant_apart = on_port,
+       .may_move = arguments.resume},
+      std::move(*program), std::move(*options), *changes);
 }
 
 }  // namespace passo

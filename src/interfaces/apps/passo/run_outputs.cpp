@@ -136,8 +136,8 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
     state->report.emplace(std::move(*file));
     state->report_is_json = ends_with(arguments.report, ".json");
   }
-  if (!arguments.true_path.empty()) {
-    Result<OutputFile, OutputError> file = OutputFile::open(arguments.true_path);
+  if (!arguments.motors.true_path.empty()) {
+    Result<OutputFile, OutputError> file = OutputFile::open(arguments.motors.true_path);
     if (!file) return Failure{file.error()};
     state->true_path.emplace(std::move(*file));
   }
