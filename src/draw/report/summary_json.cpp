@@ -154,6 +154,28 @@ void add_physics(const PhysicsSummary& physics, Json& json) {
   }
 }
 
+void add_port(const PortSummary& port, Json& json) {
+  const auto letter = [](Axis axis) { return std::string(1, letter_of(axis)); };
+  Json& out = json["port"];
+  for (const PortSummary::Motor& motor : port.motors) {
+    out["motors"].push_back({{"axis", letter(motor.axis)},
+                             {"commanded_steps", motor.commanded},
+                             {"sampled_steps", motor.sampled},
+                             {"commanded_net", motor.commanded_net},
+                             {"sampled_net", motor.sampled_net},
+                             {"true_net", motor.true_net},
+                             {"true_position_mm", motor.true_end}});
+  }
+  out["register_writes"] = port.register_writes;
+  out["relay_closings"] = port.relay_closings;
+  out["relay_is_closed"] = port.relay_is_closed;
+  out["lost_pulses"] = port.lost_pulses();
+  out["lost"] = Json::array();
+  for (const PortSummary::LostPulse& lost : port.lost) {
+    out["lost"].push_back({{"time_s", lost.time.value()}, {"axis", letter(lost.axis)}, {"line", lost.line}});
+  }
+}
+
 }  // namespace
 
 std::string to_json(const RunSummary& summary) {
@@ -167,6 +189,7 @@ std::string to_json(const RunSummary& summary) {
   if (summary.probes) add_probes(summary, *summary.probes, json);
   add_tails(summary, json);
   if (summary.physics) add_physics(*summary.physics, json);
+  if (summary.board && summary.board->port) add_port(*summary.board->port, json);
   // The name of a program may not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

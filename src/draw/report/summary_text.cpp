@@ -196,6 +196,28 @@ class Text {
     if (physics.losses.size() > shown) out_ += "  and " + counted(physics.losses.size() - shown, "more time") + "\n";
   }
 
+  void port(const PortSummary& port) {
+    heading("Parallel port and PIC", fmt::format("in steps; really at in {}", unit()));
+    out_ += fmt::format("  {:4}{:>12}{:>12}{:>14}{:>14}{:>12}{:>12}\n", "", "commanded", "sampled", "commanded net",
+                        "sampled net", "true net", "really at");
+    for (const PortSummary::Motor& motor : port.motors) {
+      out_ += fmt::format("  {:4}{:>12}{:>12}{:>14}{:>14}{:>12.2f}{:>12}\n", letter_of(motor.axis),
+                          grouped(motor.commanded), grouped(motor.sampled), grouped(motor.commanded_net),
+                          grouped(motor.sampled_net), motor.true_net, place(motor.true_end, motor.axis));
+    }
+    line("writes", grouped(port.register_writes), "  of the port's registers");
+    line("relay", port.relay_is_closed ? "closed" : "open",
+         fmt::format("  at the end; it closed {}", so_often(port.relay_closings)));
+    if (port.lost_pulses() == 0) return;
+    line("lost", counted(port.lost_pulses(), "pulse"), "  that the PIC did not sample");
+    constexpr std::size_t shown = 10;
+    for (std::size_t i = 0; i < std::min(shown, port.lost.size()); ++i) {
+      const PortSummary::LostPulse& lost = port.lost[i];
+      out_ +=
+          fmt::format("  at {:.6f} s, line {}: {} lost a pulse\n", lost.time.value(), lost.line, letter_of(lost.axis));
+    }
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -274,6 +296,20 @@ std::string percent_of(Seconds part, Seconds whole) {
   return percent < 0.1 ? "under 0.1 %" : fmt::format("{:.1f} %", percent);
 }
 
+std::int64_t PortSummary::lost_pulses() const {
+  std::int64_t lost_ones = 0;
+  for (const Motor& motor : motors) lost_ones += motor.commanded - motor.sampled;
+  return lost_ones;
+}
+
+bool PortSummary::is_true() const {
+  constexpr double half_a_step = 0.5;
+  return std::ranges::all_of(motors, [](const Motor& motor) {
+    return motor.commanded == motor.sampled && motor.commanded_net == motor.sampled_net &&
+           std::abs(motor.true_net - static_cast<double>(motor.commanded_net)) < half_a_step;
+  });
+}
+
 bool PhysicsSummary::lost() const {
   return !losses.empty();
 }
@@ -292,6 +328,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   if (summary.probes) text.probes(summary, *summary.probes);
   if (!summary.tails.empty()) text.tails(summary);
   if (summary.physics) text.physics(*summary.physics);
+  if (summary.board && summary.board->port) text.port(*summary.board->port);
   return text.take();
 }
 

@@ -76,7 +76,7 @@ std::unique_ptr<MachineConnection> MachineConnection::open(const MachineDescript
                                                            int& code) {
   std::unique_ptr<MachineConnection> opened(new MachineConnection(machine, wish));
   if (wish.board == "virtual") {
-    opened->machine_.connect(*opened->plant_);
+    if (!wish.plant_apart) opened->machine_.connect(*opened->plant_);
     opened->machine_.wire(pin_setup(machine));
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.over_a_line) {

@@ -30,6 +30,7 @@ struct MachineWish {
   std::vector<Touchable> touchables = {};      // objects that the probe of a virtual or emulated board can touch
   bool physics = false;                        // simulates the physics of the motors of a virtual or emulated machine
   std::vector<Disturbance> disturbances = {};  // disturbances of motors; only with physics
+  bool plant_apart = false;                    // something else than the virtual machine drives the plant: PortRun
   bool tells_place = false;                    // see SessionOptions
   bool needs_place = false;                    // see SessionOptions
   bool may_move = false;                       // another host may have left the board in motion
@@ -52,6 +53,8 @@ class MachineConnection {
   VirtualMachine& machine() { return machine_; }
   // Returns the motors with physics, or null without physics: then they follow their steps exactly.
   RotorPlant* rotors() { return rotors_; }
+  // Returns the plant behind a virtual or emulated board.
+  FittedPlant& plant() { return *plant_; }
   // Returns true if the board is in another process or is emulated.
   bool has_board() const { return port_ != nullptr; }
   // Returns the board's status before the handshake.

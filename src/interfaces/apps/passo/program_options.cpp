@@ -107,11 +107,15 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--cut-cable-at", arguments.cable_cut,
                      "SECONDS:MISSING: test of a serial link: disconnect it at that time, for MISSING seconds");
   command.add_flag(
-      "--physics", arguments.physics,
+      "--physics", arguments.motors.physics,
       "simulate the physics of the motors ([axis.X.torque] in the machine file), so that steps can be lost");
   command.add_option(
-      "--disturb", arguments.disturbances,
+      "--disturb", arguments.motors.disturbances,
       "AXIS:NM@FROM:SECONDS: torque that disturbs an axis for a time, e.g. X:0.8@1.5:0.2; needs --physics");
+  command.add_option("--true-path", arguments.motors.true_path,
+                     "sim:first_board: file for the way that the motors really took, as a program for passo simulate");
+  command.add_flag("--anyway", arguments.motors.anyway,
+                   "sim:first_board: run even if the pulses are too short for its loop, and show which are lost");
   command.add_flag("-y,--yes", arguments.yes, "skip the operator prompts at M0, M1 and M6");
   command.add_flag("--json", arguments.json, "print the summary as JSON");
   command.add_flag("-q,--quiet", arguments.quiet, "print neither progress nor summary");

@@ -1,6 +1,7 @@
 #include "run_arguments.hpp"
 
 #include "picture_names.hpp"
+#include "port_run.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 
@@ -32,15 +33,20 @@ bool names_are_good(const RunArguments& arguments) {
 
 bool suits_the_board(const RunArguments& arguments) {
   const char* words = nullptr;
-  if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
+  const bool on_port = is_on_port(arguments.board);
+  if (on_port && (arguments.home || !arguments.touches.empty())) {
+    words = "--home and --touch need inputs, and the port of sim:first_board has none";
+  } else if ((arguments.motors.anyway || !arguments.motors.true_path.empty()) && !on_port) {
+    words = "--anyway and --true-path are only for --board sim:first_board";
+  } else if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
     words = "--resume and --journal are only for boards that keep running: serial: or tcp:";
   } else if (!arguments.cable_cut.empty() && arguments.board != "virtual") {
     words = "--cut-cable-at is only for the simulated machine; unplug the cable of a real board";
   } else if (!arguments.touches.empty() && keeps_journal(arguments)) {
     words = "--touch is only for the simulated machine and emulated boards";
-  } else if (arguments.physics && keeps_journal(arguments)) {
+  } else if (arguments.motors.physics && keeps_journal(arguments)) {
     words = "--physics is only for the simulated machine and emulated boards";
-  } else if (!arguments.disturbances.empty() && !arguments.physics) {
+  } else if (!arguments.motors.disturbances.empty() && !arguments.motors.physics && !on_port) {
     words = "--disturb needs --physics: without it, simulated motors follow every command";
   } else if (arguments.from_line > 0 && arguments.resume) {
     words = "--resume continues at the line where the job stopped, so it cannot be combined with --from-line";

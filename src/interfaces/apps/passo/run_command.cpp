@@ -17,6 +17,7 @@
 #include "machine_connection.hpp"
 #include "motor_watch.hpp"
 #include "operator_prompt.hpp"
+#include "port_run.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
 #include "progress_display.hpp"
@@ -144,6 +145,7 @@ bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& op
   for (const std::string& path : arguments.traces) files.writes("--trace", path);
   files.writes("--log", arguments.log);
   files.writes("--report", arguments.report);
+  files.writes("--true-path", arguments.motors.true_path);
   if (keeps_journal(arguments)) files.writes("--journal", ResumableRun::journal_of(arguments));
   return files.are_apart();
 }
@@ -183,6 +185,7 @@ struct Run {
   ScheduledChanges& changes;
   RunOutputs& outputs;
   LatestMotion& motion;
+  PortRun* port = nullptr;                   // null: the run does not go through a parallel port
   std::optional<Seconds> without_line = {};  // the planned time
 };
 
@@ -192,6 +195,11 @@ std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, c
   const bool has_line = opened.has_board() || !subject.arguments.cable_cut.empty();
   if (!has_line || subject.way || subject.check.probes || subject.arguments.resume || changes.any()) return {};
   return planned_time(program.again(), subject.machine, subject.options, subject.check);
+}
+
+// The time up to which the motors have turned.
+Seconds turned_until(const Run& run) {
+  return run.port != nullptr ? run.port->played() : run.opened.session().now();
 }
 
 // Runs the program to its end and returns the summary. `answered` is set to the outcome.
@@ -216,6 +224,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   start.watchers.planned = [&](const MotionItem& item) {
     run.motion.watch(item);
     if (motors) motors->plan(item);
+    if (run.port != nullptr) run.port->plan(item);
   };
   start.watchers.probe = [&, keep = start.watchers.probe](const ProbeOutcome& outcome) {
     if (keep) keep(outcome);
@@ -237,13 +246,15 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   } else {
     bool brakes = false;
     for (unsigned turns = 0; session.busy(); ++turns) {
-      if ((interrupted_by() != 0 || run.outputs.failed()) && !std::exchange(brakes, true)) stop(session);
+      const bool is_broken = run.port != nullptr && !run.port->poll();
+      const bool must_stop = interrupted_by() != 0 || run.outputs.failed() || is_broken;
+      if (must_stop && !std::exchange(brakes, true)) stop(session);
       const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
       session.poll(std::min({most, longest_turn, prompt.poll(session)}));
       if (run.opened.is_on_a_line()) line.update(session.board());
       if (!run.opened.has_board()) tails.update(session, run.opened.machine(), machine);
       load.update(session.now(), run.opened.bytes_sent());
-      if (motors) motors->poll(session.now());
+      if (motors) motors->poll(turned_until(run));
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
     answered = answer_of(session.take_changes(), *ticket);
@@ -260,7 +271,9 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
-  if (motors) summary.physics = motors->finish(session.now());
+  if (run.port != nullptr) run.port->finish();
+  if (motors) summary.physics = motors->finish(turned_until(run));
+  if (run.port != nullptr) summary.board->port = run.port->summary();
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   return summary;
 }
@@ -342,6 +355,7 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
   if (answered.fault && is_of_board(answered.fault->fault)) {
     return fail(exit_failed, "the board: " + answered.message());
   }
+  if (run.port != nullptr && !run.port->error().empty()) return fail(exit_failed, "the board: " + run.port->error());
   if (const auto words = run.opened.compare()) return fail(exit_failed, "the board: " + *words);
   if (run.opened.has_board()) tell_tails(session);
   if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
@@ -354,6 +368,9 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
       run.outputs.commit(summary, session.program()->saved_parameters(), session.program()->tools(), machine_units);
   if (!written) return fail(exit_failed, written.error().message);
   print(summary, run.arguments);
+  if (summary.board->port && summary.board->port->lost_pulses() != 0) {
+    return fail(exit_failed, "the PIC did not sample every pulse, and the part would be scrap [run.pulses-lost]");
+  }
   if (!summary.physics || !summary.physics->lost()) return exit_done;
   return fail(exit_failed, "the motors lost steps, and the part would be scrap [run.steps-lost]");
 }
@@ -367,8 +384,12 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Mac
   Result<RunOutputs, OutputError> outputs =
       RunOutputs::open(arguments, subject.machine, parameter_file(arguments.program, subject.options), tools);
   if (!outputs) return fail(exit_failed, outputs.error().message);
-  const int code = make_ready(subject, program, opened, resumable);
+  int code = make_ready(subject, program, opened, resumable);
   if (code != exit_done) return code;
+  std::unique_ptr<PortRun> port;
+  if (is_on_port(arguments.board)) port = PortRun::start(subject.machine, opened, code);
+  if (code != exit_done) return code;
+  if (port && outputs->true_path() != nullptr) port->record_path(*outputs->true_path());
 
   Diagnostics late;
   const std::optional<Seconds> without_line = time_without_line(subject, program, opened, changes);
@@ -386,7 +407,7 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Mac
   if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
   Answered answered;
   LatestMotion motion;
-  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion, without_line};
+  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion, port.get(), without_line};
   const RunSummary summary = play(run, std::move(start), answered);
   if (resumable != nullptr) resumable->end(opened.session(), answered);
   return end_run(run, answered, summary, late, subject.options.machine_units);
@@ -416,6 +437,9 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   const ProgramCheck check = check_program(program.again(), machine, options, findings, watch_path, watch_operations);
   show(findings);
   if (!check.good) return exit_bad_program;
+  if (check.probes && is_on_port(arguments.board)) {
+    return fail(exit_bad_program, "the program probes, and the port of sim:first_board has no inputs [port.no-inputs]");
+  }
   std::optional<Reentry> way;
   if (arguments.from_line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
   const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};
@@ -437,7 +461,7 @@ int run(const RunArguments& arguments) {
   if (!machine) return exit_bad_machine;
 
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
-  const auto disturbances = read_disturbances(arguments.disturbances, *machine);
+  const auto disturbances = read_disturbances(arguments.motors.disturbances, *machine);
   if (!things || !disturbances) return exit_bad_program;
   std::optional<ProgramReader> program = streamed_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
@@ -453,20 +477,24 @@ int run(const RunArguments& arguments) {
   if (!suits_the_board(arguments) || !files_are_apart(arguments, *options)) return exit_bad_program;
 
   const auto has_physics = [](const AxisDescription& axis) { return motor_setup(axis).has_value(); };
-  if (arguments.physics && std::ranges::none_of(machine->axes, has_physics)) {
+  if (arguments.motors.physics && std::ranges::none_of(machine->axes, has_physics)) {
     return fail(exit_bad_machine,
                 arguments.machine + ": --physics needs motor data: a table [axis.X.torque] for at least one axis");
   }
+  const bool on_port = is_on_port(arguments.board);
+  if (on_port && !suits_the_port(*machine, arguments.machine, arguments.motors.anyway)) return exit_bad_machine;
   end_on_signals();
-  return run_program(arguments, *machine,
-                     {.board = arguments.board,
-                      .over_a_line = cut.has_value(),
-                      .cut = cut,
-                      .touchables = *things,
-                      .physics = arguments.physics,
-                      .disturbances = *disturbances,
-                      .may_move = arguments.resume},
-                     std::move(*program), std::move(*options), *changes);
+  return run_program(
+      arguments, *machine,
+      {.board = on_port ? "virtual" : arguments.board,
+       .over_a_line = cut.has_value(),
+       .cut = cut,
+       .touchables = *things,
+       .physics = arguments.motors.physics || (on_port && std::ranges::any_of(machine->axes, has_physics)),
+       .disturbances = *disturbances,
+       .plant_apart = on_port,
+       .may_move = arguments.resume},
+      std::move(*program), std::move(*options), *changes);
 }
 
 }  // namespace passo

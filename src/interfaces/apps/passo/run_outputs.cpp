@@ -69,6 +69,7 @@ struct RunOutputs::State {
   std::vector<TraceFile> traces;
   std::optional<OutputFile> log;
   std::optional<OutputFile> report;
+  std::optional<OutputFile> true_path;
   std::optional<OutputFile> parameters;
   std::optional<OutputFile> tools;
   std::string tool_lines;  // the text of the tool table before the run
@@ -135,6 +136,11 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
     state->report.emplace(std::move(*file));
     state->report_is_json = ends_with(arguments.report, ".json");
   }
+  if (!arguments.motors.true_path.empty()) {
+    Result<OutputFile, OutputError> file = OutputFile::open(arguments.motors.true_path);
+    if (!file) return Failure{file.error()};
+    state->true_path.emplace(std::move(*file));
+  }
   if (!parameters.empty()) {
     Result<OutputFile, OutputError> file = OutputFile::open(parameters);
     if (!file) return Failure{file.error()};
@@ -170,7 +176,12 @@ void RunOutputs::watch(VirtualMachine& machine, Watchers& watchers) {
   };
 }
 
+OutputFile* RunOutputs::true_path() {
+  return state_->true_path ? &*state_->true_path : nullptr;
+}
+
 bool RunOutputs::failed() const {
+  if (state_->true_path && state_->true_path->failed()) return true;
   for (const State::TraceFile& trace : state_->traces) {
     if (trace.file->failed()) return true;
   }
@@ -199,6 +210,7 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedPar
   for (State::PictureFile& picture : state_->pictures) files.push_back(&picture.file);
   if (state_->log) files.push_back(&*state_->log);
   if (state_->report) files.push_back(&*state_->report);
+  if (state_->true_path) files.push_back(&*state_->true_path);
   if (state_->parameters) files.push_back(&*state_->parameters);
   if (state_->tools) files.push_back(&*state_->tools);
   for (OutputFile* file : files) {

@@ -35,6 +35,8 @@ class RunOutputs {
 
   // Must be called before the first step of the program. `machine` is a virtual machine that mirrors the board.
   void watch(VirtualMachine& machine, Watchers& watchers);
+  // Returns the file for the way of the motors; null: none was asked for.
+  OutputFile* true_path();
   // Returns whether writing a file has failed, so that continuing is pointless.
   bool failed() const;
   // Must be called after the program has reached its end.

@@ -63,6 +63,33 @@ struct ProgramMessage {
   std::string text;
 };
 
+// The steps of a machine behind a parallel port and the PIC of the first control board. Net steps are steps up minus
+// steps down of the axis.
+struct PortSummary {
+  struct Motor {
+    Axis axis = Axis::x;
+    std::int64_t commanded = 0;  // steps up and down
+    std::int64_t sampled = 0;    // by the PIC
+    std::int64_t commanded_net = 0;
+    std::int64_t sampled_net = 0;
+    double true_net = 0;  // of the rotor
+    double true_end = 0;  // machine coordinates
+  };
+  struct LostPulse {
+    Seconds time{0};
+    Axis axis = Axis::x;
+    std::uint32_t line = 0;  // program line; 0: unknown
+  };
+  std::vector<Motor> motors;
+  std::vector<LostPulse> lost;  // the first ones, in order of time
+  std::int64_t register_writes = 0;
+  int relay_closings = 0;
+  bool relay_is_closed = false;  // at the end
+  std::int64_t lost_pulses() const;
+  // Whether the rotors ended within half a step of the commanded positions.
+  bool is_true() const;
+};
+
 struct BoardSummary {
   Seconds end{0};            // time of the last event
   std::uint64_t pulses = 0;  // number of steps of all motors
@@ -77,6 +104,7 @@ struct BoardSummary {
                                              // failed
   std::uint32_t stood_still_line = 0;        // program line; 0: unknown
   std::optional<Seconds> without_line = {};  // planned duration; empty: unknown, or the run was changed while running
+  std::optional<PortSummary> port = {};      // empty: the run did not go through a parallel port
   Seconds cost_of_line() const { return end > *without_line ? end - *without_line : Seconds(0); }
 };
 
