@@ -13,13 +13,14 @@
 #include <sstream>
 #include <utility>
 
-#include "passo/confinement/confinement.hpp"
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "passo/confinement/confinement.hpp"
 
 namespace passo {
 namespace {
@@ -252,7 +253,8 @@ class Supervisor {
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (stopped_) {
       run_.end = *stopped_;
-    } else if (signal == SIGXCPU || (signal == SIGKILL && run_.processor_seconds >= program_.limits.processor_seconds)) {
+    } else if (signal == SIGXCPU ||
+               (signal == SIGKILL && run_.processor_seconds >= program_.limits.processor_seconds)) {
       run_.end = ConfinedRun::End::processor_time;
     } else if (signal == SIGXFSZ) {
       run_.end = ConfinedRun::End::too_much_output;
@@ -312,8 +314,7 @@ Result<ConfinedRun, std::string> run_confined(const ConfinedProgram& program) {
 std::string describe_end(const ConfinedRun& run, const ProgramLimits& limits) {
   const auto mib = [](std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; };
   switch (run.end) {
-    case ConfinedRun::End::exited:
-      return run.code == 0 ? "" : "ended with exit code " + std::to_string(run.code);
+    case ConfinedRun::End::exited: return run.code == 0 ? "" : "ended with exit code " + std::to_string(run.code);
     case ConfinedRun::End::crashed: {
       std::string words = std::string("crashed: ") + strsignal(run.code);
       if (run.peak_memory > limits.memory / 4 * 3) {
@@ -323,12 +324,9 @@ std::string describe_end(const ConfinedRun& run, const ProgramLimits& limits) {
     }
     case ConfinedRun::End::processor_time:
       return "used more than " + std::to_string(limits.processor_seconds) + " s of processor time";
-    case ConfinedRun::End::waits:
-      return "waited without an end";
-    case ConfinedRun::End::too_much_output:
-      return "wrote more than " + mib(limits.output);
-    case ConfinedRun::End::not_started:
-      return std::string("cannot be started: ") + std::strerror(run.code);
+    case ConfinedRun::End::waits: return "waited without an end";
+    case ConfinedRun::End::too_much_output: return "wrote more than " + mib(limits.output);
+    case ConfinedRun::End::not_started: return std::string("cannot be started: ") + std::strerror(run.code);
   }
   return "";
 }

@@ -47,11 +47,11 @@ int landlock_version() {
 
 Ruleset ruleset_of(int version) {
   Ruleset ruleset{.files = all_of_version_1};
-  if (version >= 2) ruleset.files |= 1U << 13;      // linking and renaming between folders
+  if (version >= 2) ruleset.files |= 1U << 13;  // linking and renaming between folders
   if (version >= 3) ruleset.files |= truncate_file;
-  if (version >= 4) ruleset.network = 3;            // bind and connect by TCP
-  if (version >= 5) ruleset.files |= 1U << 15;      // ioctl of devices
-  if (version >= 6) ruleset.scopes = 3;             // abstract sockets, signals
+  if (version >= 4) ruleset.network = 3;        // bind and connect by TCP
+  if (version >= 5) ruleset.files |= 1U << 15;  // ioctl of devices
+  if (version >= 6) ruleset.scopes = 3;         // abstract sockets, signals
   return ruleset;
 }
 
@@ -110,9 +110,10 @@ void limit_resources(const ResourceLimits& limits) {
 }
 
 const std::vector<std::string>& system_folders() {
-  static const std::vector<std::string> folders = {
-      "/usr",   "/bin",         "/sbin",        "/lib",        "/lib32",   "/lib64",
-      "/libx32", "/nix/store", "/etc/ld.so.cache", "/dev/zero", "/dev/random", "/dev/urandom"};
+  static const std::vector<std::string> folders = {"/usr",      "/bin",        "/sbin",
+                                                   "/lib",      "/lib32",      "/lib64",
+                                                   "/libx32",   "/nix/store",  "/etc/ld.so.cache",
+                                                   "/dev/zero", "/dev/random", "/dev/urandom"};
   return folders;
 }
 

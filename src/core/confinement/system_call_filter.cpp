@@ -27,9 +27,9 @@ constexpr std::uint32_t architecture = 0;  // filter_system_calls() fails
 #endif
 static_assert(std::endian::native == std::endian::little, "the filter reads the low halves of arguments");
 
-constexpr std::uint32_t newest_call = 450;       // set_mempolicy_home_node, Linux 5.17
-constexpr int set_own_signal = 10;               // F_SETSIG
-constexpr int set_owner_ex = 15;                 // F_SETOWN_EX
+constexpr std::uint32_t newest_call = 450;  // set_mempolicy_home_node, Linux 5.17
+constexpr int set_own_signal = 10;          // F_SETSIG
+constexpr int set_owner_ex = 15;            // F_SETOWN_EX
 
 // Refused with EPERM whatever the arguments are.
 constexpr int refused[] = {

@@ -89,15 +89,17 @@ OutputFault fault_of(const std::string& output, const std::vector<DueChange>& du
       continue;
     }
     OutputFault fault{.output = output, .number = i + 1, .at = 0, .expected = {}, .found = {}, .words = {}};
-    fault.at = wanted == nullptr ? came->at : came == nullptr ? wanted->change.at : std::min(came->at, wanted->change.at);
+    fault.at = wanted == nullptr ? came->at
+               : came == nullptr ? wanted->change.at
+                                 : std::min(came->at, wanted->change.at);
     if (wanted != nullptr) fault.expected = wanted->change.value;
     if (came != nullptr) fault.found = came->value;
-    fault.words = fmt::format(
-        "{}, change {}: expected {}, found {}", output, i + 1,
-        wanted == nullptr ? "no change"
-                          : fmt::format("{}, at most {:g} ms later", value_words(wanted->change.value, wanted->change.at),
-                                        static_cast<double>(wanted->within) * 1e-6),
-        came == nullptr ? "no change" : value_words(came->value, came->at));
+    fault.words = fmt::format("{}, change {}: expected {}, found {}", output, i + 1,
+                              wanted == nullptr ? "no change"
+                                                : fmt::format("{}, at most {:g} ms later",
+                                                              value_words(wanted->change.value, wanted->change.at),
+                                                              static_cast<double>(wanted->within) * 1e-6),
+                              came == nullptr ? "no change" : value_words(came->value, came->at));
     return fault;
   }
   return {};
@@ -118,9 +120,10 @@ Result<BoardCase, std::string> read_board_case(const std::string& name, std::str
     for (std::string word; in >> word;) words.push_back(word);
     if (words.empty() || words[0].starts_with('#')) continue;
     if (!read_words(words, read)) {
-      return Failure{fmt::format("{}, line {}: expected TIME in LINE LEVEL, TIME out OUTPUT VALUE within SPAN, TIME end "
-                                 "or drive NAME, found '{}'",
-                                 name, number, line)};
+      return Failure{
+          fmt::format("{}, line {}: expected TIME in LINE LEVEL, TIME out OUTPUT VALUE within SPAN, TIME end "
+                      "or drive NAME, found '{}'",
+                      name, number, line)};
     }
   }
   if (read.end == 0) return Failure{name + ": has no end"};

@@ -25,11 +25,10 @@ constexpr Nanoseconds longest_case = 5'000'000'000;  // of the chip's time
 constexpr ResourceLimits emulator_limits{
     .processor_seconds = 60, .memory = std::uint64_t{1} << 30, .file_size = std::uint64_t{512} << 20};
 
-// What is said of "/tmp/…/program.hex" is said of the program.
-std::string without_folder(std::string words, const fs::path& folder) {
-  const std::string name = folder.string() + "/";
-  for (std::size_t at = 0; (at = words.find(name)) != std::string::npos;) words.erase(at, name.size());
-  return words;
+// The student does not know the name of the copy.
+std::string about_program(std::string words, const fs::path& image) {
+  const std::size_t at = words.find(image.string());
+  return at == std::string::npos ? words : words.replace(at, image.string().size(), "it");
 }
 
 // In the child process: plays the case and leaves a line for each change, or "! " and the reason why there are none.
@@ -44,7 +43,7 @@ std::string without_folder(std::string words, const fs::path& folder) {
   if (!confined) {
     told = "! " + confined.error();
   } else if (const auto run = run_pic_follower(chip, image, one.lines, one.end, work); !run) {
-    told = "! " + without_folder(run.error(), work);
+    told = "! " + about_program(run.error(), image);
   } else {
     for (const OutputChange& change : run->changes) {
       told += fmt::format("{} {} {}\n", change.at, change.output, change.value);
@@ -122,8 +121,8 @@ std::string refuse_hex(const fs::path& hex) {
   std::string line;
   while (std::getline(in, line) && (line.empty() || line == "\r")) {
   }
-  const bool is_hex = line.size() >= 11 && line[0] == ':' &&
-                      line.find_first_not_of("0123456789abcdefABCDEF\r", 1) == std::string::npos;
+  const bool is_hex =
+      line.size() >= 11 && line[0] == ':' && line.find_first_not_of("0123456789abcdefABCDEF\r", 1) == std::string::npos;
   return is_hex ? "" : hex.filename().string() + " is not an Intel HEX file";
 }
 
@@ -139,9 +138,10 @@ Result<Grade, std::string> grade_board(const Submission& submission, const std::
   TemporaryFolder copy;
   if (!copy.make()) return Failure{std::string("cannot create a temporary folder")};
   const Status<std::string> copied = copy_submission(submission, copy.name());
-  const auto hex = copied ? only_file_with(copy.name(), ".hex") : Result<fs::path, std::string>(Failure{copied.error()});
+  const auto hex =
+      copied ? only_file_with(copy.name(), ".hex") : Result<fs::path, std::string>(Failure{copied.error()});
   grade.trouble = hex ? refuse_hex(*hex) : hex.error();
-  if (hex) grade.program = hex->filename().string();
+  if (grade.trouble.empty()) grade.program = hex->filename().string();
   for (const BoardCase& one : cases) {
     if (!grade.trouble.empty()) break;
     if (watch) watch(static_cast<double>(grade.played.size()) / static_cast<double>(cases.size()));

@@ -46,8 +46,8 @@ std::vector<double> last_numbers(std::string_view line) {
       continue;
     }
     const bool after_number = at > 0 && is_digit(line[at - 1]);
-    const bool signs = (line[at] == '-' || line[at] == '+') && !after_number && at + 1 < line.size() &&
-                       is_digit(line[at + 1]);
+    const bool signs =
+        (line[at] == '-' || line[at] == '+') && !after_number && at + 1 < line.size() && is_digit(line[at + 1]);
     if (is_digit(line[at]) || signs) {
       const std::size_t begin = line[at] == '+' ? at + 1 : at;
       double number = 0;

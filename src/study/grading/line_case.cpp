@@ -42,16 +42,15 @@ std::vector<LineCase> line_cases(std::size_t motors, bool signs) {
       {{9, 7, 4, 2}, "four motors"},
       {{1, 2, 3, 4, 5}, "five motors, the last is the master"},
       {{16, 1, 2, 4, 8, 15, 3, 0}, "eight motors"}};
-  static const std::vector<LineCase> signed_cases = {
-      {{-10, 4}, "the first motor counts down"},
-      {{10, -4}, "the second motor counts down"},
-      {{-10, -4}, "both count down"},
-      {{-4, 10}, "the slave counts down"},
-      {{4, -10}, "the master counts down"},
-      {{-4, -10}, "both count down, the second is the master"},
-      {{2, -1}, "a tie below zero: -0.5 is rounded to -1"},
-      {{-22, -15}, "a tie below zero that floating point misses"},
-      {{-7, 5, -3}, "three motors in both directions"}};
+  static const std::vector<LineCase> signed_cases = {{{-10, 4}, "the first motor counts down"},
+                                                     {{10, -4}, "the second motor counts down"},
+                                                     {{-10, -4}, "both count down"},
+                                                     {{-4, 10}, "the slave counts down"},
+                                                     {{4, -10}, "the master counts down"},
+                                                     {{-4, -10}, "both count down, the second is the master"},
+                                                     {{2, -1}, "a tie below zero: -0.5 is rounded to -1"},
+                                                     {{-22, -15}, "a tie below zero that floating point misses"},
+                                                     {{-7, 5, -3}, "three motors in both directions"}};
   std::vector<LineCase> cases = unsigned_cases;
   if (signs) cases.insert(cases.end(), signed_cases.begin(), signed_cases.end());
   if (motors == 0) return cases;

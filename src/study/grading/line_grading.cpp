@@ -16,7 +16,7 @@ namespace {
 using End = ConfinedRun::End;
 
 // Each takes seconds: two are enough to know.
-constexpr int most_endless_runs = 2;
+constexpr int most_stopped_runs = 2;
 
 class LineGrader {
  public:
@@ -66,9 +66,8 @@ class LineGrader {
     result.expected = fault.expected;
     result.found = fault.found;
     result.fault = fault.words.empty() ? fmt::format("move {}: its positions are right, but it {}", result.name, end)
-                   : ended && (!fault.found.empty() || end.empty())
-                       ? fault.words
-                       : fmt::format("{}; it {}", fault.words, end);
+                   : ended && (!fault.found.empty() || end.empty()) ? fault.words
+                                                                    : fmt::format("{}; it {}", fault.words, end);
     if (fault.found.empty() && !run.messages.empty()) result.fault += last_message(run.messages);
     return result;
   }
@@ -92,18 +91,32 @@ class LineGrader {
   const LineGrading& grading_;
 };
 
-// The number of motors that the program asks for, 0 for any; empty if it does not run.
-std::optional<std::size_t> motors_of(LineGrader& grader) {
+bool was_stopped(const ConfinedRun& run) {
+  return run.end != End::exited && run.end != End::crashed;
+}
+
+// What a trial with eight motors shows.
+struct Trial {
+  std::size_t motors = 2;
+  bool prints_positions = false;
+  bool was_stopped = false;
+};
+Trial trial_of(LineGrader& grader) {
   const StepCounts eight = {16, 1, 2, 4, 8, 15, 3, 0};
   const std::optional<ConfinedRun> run = grader.play(eight);
   if (!run) return {};
-  return count_motors(run->output, eight);
+  return {.motors = count_motors(run->output, eight),
+          .prints_positions = !printed_positions(run->output, 2).empty(),
+          .was_stopped = was_stopped(*run)};
 }
 
 // A program that prints nothing has done nothing for a move without a pulse.
 void discount_nothing(Grade& grade) {
-  const auto is_of_pulses = [](const CaseGrade& one) { return one.name.find_first_of("123456789") != std::string::npos; };
-  if (std::ranges::any_of(grade.played, [&](const CaseGrade& one) { return one.is_right && is_of_pulses(one); })) return;
+  const auto is_of_pulses = [](const CaseGrade& one) {
+    return one.name.find_first_of("123456789") != std::string::npos;
+  };
+  if (std::ranges::any_of(grade.played, [&](const CaseGrade& one) { return one.is_right && is_of_pulses(one); }))
+    return;
   for (CaseGrade& one : grade.played) {
     if (!one.is_right) continue;
     one.is_right = false;
@@ -127,28 +140,28 @@ Result<Grade, std::string> grade_lines(const Submission& submission, const LineG
   LineGrader grader(submission, grading);
   grader.grade.student = submission.student;
   std::size_t motors = grading.motors;
+  int stopped = 0;
   if (motors == LineGrading::as_the_program) {
     // A program that reads the number of motors asks for any.
-    const std::optional<std::size_t> found = grading.asks_count ? std::optional<std::size_t>(0) : motors_of(grader);
-    motors = found.value_or(2);
-    if (found) grader.grade.remark = remark_of(motors);
+    const Trial trial = grading.asks_count ? Trial{.motors = 0} : trial_of(grader);
+    motors = trial.motors;
+    if (trial.prints_positions) grader.grade.remark = remark_of(motors);
+    if (trial.was_stopped) ++stopped;
   }
   const std::vector<LineCase> cases = line_cases(motors, grading.signs);
+  std::vector<CaseGrade>& played = grader.grade.played;
   grader.grade.cases = cases.size();
-  int endless = 0;
   for (const LineCase& one : cases) {
     if (!grader.error.empty()) return Failure{grader.error};
     if (!grader.grade.trouble.empty()) break;
-    if (watch) watch(static_cast<double>(grader.grade.played.size()) / static_cast<double>(cases.size()));
+    if (watch) watch(static_cast<double>(played.size()) / static_cast<double>(cases.size()));
     const std::optional<ConfinedRun> run = grader.play(one.steps);
     if (!run) continue;
-    grader.grade.played.push_back(grader.judge(one, *run));
-    const bool ended = run->end == End::exited || run->end == End::crashed;
-    if (!ended && ++endless == most_endless_runs && grader.grade.played.size() < cases.size()) {
-      grader.grade.remark = fmt::format("it did not end by itself {} times; {} played", endless,
-                                        counted(cases.size() - grader.grade.played.size(), "case was not", "cases were not"));
-      break;
-    }
+    played.push_back(grader.judge(one, *run));
+    if (!was_stopped(*run) || ++stopped < most_stopped_runs || played.size() == cases.size()) continue;
+    grader.grade.remark = fmt::format("it was stopped {} times; {} played", stopped,
+                                      counted(cases.size() - played.size(), "case was not", "cases were not"));
+    break;
   }
   if (!grader.error.empty()) return Failure{grader.error};
   discount_nothing(grader.grade);

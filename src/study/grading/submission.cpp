@@ -26,7 +26,10 @@ bool is_runnable(const fs::path& file) {
   std::array<char, 4> begin{};
   in.read(begin.data(), begin.size());
   const std::string_view text(begin.data(), static_cast<std::size_t>(in.gcount()));
-  return text == "\x7f" "ELF" || text.starts_with("#!");
+  return text ==
+             "\x7f"
+             "ELF" ||
+         text.starts_with("#!");
 }
 
 Status<std::string> copy_file_to(const fs::path& from, const fs::path& to) {
@@ -90,7 +93,8 @@ Result<fs::path, std::string> chosen(const std::vector<fs::path>& files, const s
 
 }  // namespace
 
-std::vector<Submission> submissions_in(const fs::path& folder, const std::vector<std::string>& command) {
+std::vector<Submission> submissions_in(const fs::path& folder, const std::string& ending,
+                                       const std::vector<std::string>& command) {
   std::vector<Submission> submissions;
   std::error_code error;
   fs::directory_iterator entry(folder, error);
@@ -98,6 +102,7 @@ std::vector<Submission> submissions_in(const fs::path& folder, const std::vector
     std::error_code none;
     const fs::path& path = entry->path();
     if (path.filename().string().starts_with('.')) continue;
+    if (!ending.empty() && !entry->is_directory(none) && lowered(path.extension().string()) != ending) continue;
     submissions.push_back({entry->is_directory(none) ? path.filename().string() : path.stem().string(), path, command});
   }
   // Names alone are the same for anna.py and anna.cpp.

@@ -6,9 +6,10 @@
 #include <fstream>
 #include <thread>
 
-#include "passo/confinement/confinement.hpp"
 #include <gmock/gmock.h>
 #include <unistd.h>
+
+#include "passo/confinement/confinement.hpp"
 
 namespace passo {
 namespace {

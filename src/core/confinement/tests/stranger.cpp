@@ -70,8 +70,8 @@ int write_to(const std::string& file) {
 int eat_memory() {
   std::vector<char*> eaten;
   for (std::size_t i = 0; i < 1024; ++i) {
-    char* const piece = static_cast<char*>(
-        mmap(nullptr, 1U << 20, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+    char* const piece =
+        static_cast<char*>(mmap(nullptr, 1U << 20, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
     if (piece == MAP_FAILED) std::abort();
     std::memset(piece, 1, 1U << 20);
     eaten.push_back(piece);

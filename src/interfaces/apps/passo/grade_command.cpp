@@ -39,8 +39,8 @@ Submissions submission_of_command(const std::string& text) {
   for (std::string& word : submission.command) {
     if (!is_file(word)) continue;
     if (!submission.handed.empty()) {
-      return Failure{fmt::format("{}: {} and {} are both files; a program of several files is a folder of a class", text,
-                                 submission.handed.string(), word)};
+      return Failure{fmt::format("{}: {} and {} are both files; a program of several files is a folder of a class",
+                                 text, submission.handed.string(), word)};
     }
     submission.handed = word;
     word = "{}";
@@ -50,12 +50,16 @@ Submissions submission_of_command(const std::string& text) {
   return Failure{text + ": expected a program, a command line in quotes, or the folder of a class"};
 }
 
-Submissions submissions_of(const std::string& program, const std::string& run) {
+// `ending`: of the files of a class; empty: any.
+Submissions submissions_of(const std::string& program, const std::string& run, const std::string& ending = "") {
   const std::vector<std::string> command = words_in(run);
   std::error_code none;
   if (fs::is_directory(program, none)) {
-    std::vector<Submission> all = submissions_in(program, command);
-    if (all.empty()) return Failure{program + ": the folder is empty; expected a file or a folder for each student"};
+    std::vector<Submission> all = submissions_in(program, ending, command);
+    if (all.empty()) {
+      return Failure{fmt::format("{}: expected a {}file or a folder for each student, found none", program,
+                                 ending.empty() ? "" : ending + " ")};
+    }
     return all;
   }
   if (is_file(program)) {
@@ -152,12 +156,11 @@ int grade_board_command(const GradeBoardArguments& arguments) {
   if (!fs::exists(arguments.program, none)) {
     return fail(exit_bad_program, arguments.program + ": there is no such file or folder");
   }
-  const Submissions submissions = submissions_of(arguments.program, "");
+  const Submissions submissions = submissions_of(arguments.program, "", ".hex");
   if (!submissions) return fail(exit_bad_program, submissions.error());
-  return grade_all("Programs for the PIC16F877A on " + arguments.board, arguments.program, *submissions,
-                   arguments.outputs, [&](const Submission& submission, const auto& watch) {
-                     return grade_board(submission, arguments.board, watch);
-                   });
+  return grade_all(
+      "Programs for the PIC16F877A on " + arguments.board, arguments.program, *submissions, arguments.outputs,
+      [&](const Submission& submission, const auto& watch) { return grade_board(submission, arguments.board, watch); });
 }
 
 }  // namespace passo

@@ -18,8 +18,9 @@ void add_grade_outputs(CLI::App& command, GradeOutputs& outputs) {
 
 void add_grade_lines_options(CLI::App& command, GradeLinesArguments& arguments) {
   command
-      .add_option("PROGRAM", arguments.program,
-                  "a program; a command line in quotes; or the folder of a class: each file or folder in it is a student")
+      .add_option(
+          "PROGRAM", arguments.program,
+          "a program; a command line in quotes; or the folder of a class: each file or folder in it is a student")
       ->required();
   command
       .add_option("--motors", arguments.motors,
@@ -34,8 +35,9 @@ void add_grade_lines_options(CLI::App& command, GradeLinesArguments& arguments) 
       ->check(CLI::Range(16U, 65'536U))
       ->capture_default_str()
       ->group("Confinement");
-  command.add_flag("--unconfined", arguments.unconfined,
-                   "run programs with access to your files and the network; only for programs that you trust")
+  command
+      .add_flag("--unconfined", arguments.unconfined,
+                "run programs with access to your files and the network; only for programs that you trust")
       ->group("Confinement");
   add_grade_outputs(command, arguments.outputs);
   command.footer(

@@ -52,8 +52,9 @@ const char* class_of_mark(const Grade& grade) {
 }
 
 std::string summary_html(const GradePage& page) {
-  std::string html = "<div class=\"table\"><table class=\"stack\"><thead><tr><th>student</th><th class=\"n\">right</th>"
-                     "<th class=\"n\">mark</th><th>first fault</th></tr></thead><tbody>\n";
+  std::string html =
+      "<div class=\"table\"><table class=\"stack\"><thead><tr><th>student</th><th class=\"n\">right</th>"
+      "<th class=\"n\">mark</th><th>first fault</th></tr></thead><tbody>\n";
   for (const Grade& grade : page.grades) {
     const std::string fault = grade.first_fault();
     html += fmt::format(
@@ -84,8 +85,9 @@ std::string cases_html(const GradePage& page) {
     }
   }
   if (order.empty()) return "";
-  std::string html = "<h2>Cases</h2>\n<div class=\"table\"><table class=\"stack\"><thead><tr><th>case</th>"
-                     "<th>what it is about</th><th class=\"n\">right</th><th></th></tr></thead><tbody>\n";
+  std::string html =
+      "<h2>Cases</h2>\n<div class=\"table\"><table class=\"stack\"><thead><tr><th>case</th>"
+      "<th>what it is about</th><th class=\"n\">right</th><th></th></tr></thead><tbody>\n";
   for (const std::string& name : order) {
     const Count& count = counts[name];
     html += fmt::format(
@@ -98,9 +100,9 @@ std::string cases_html(const GradePage& page) {
 }
 
 std::string student_html(const Grade& grade, bool is_open) {
-  std::string html = fmt::format("<details{}><summary>{}: <span class=\"{}\">{}</span></summary>\n",
-                                 is_open ? " open" : "", html_text(grade.student), class_of_mark(grade),
-                                 mark_words(grade));
+  std::string html =
+      fmt::format("<details{}><summary>{}: <span class=\"{}\">{}</span></summary>\n", is_open ? " open" : "",
+                  html_text(grade.student), class_of_mark(grade), mark_words(grade));
   if (!grade.program.empty()) html += fmt::format("<p>Program: <code>{}</code></p>\n", html_text(grade.program));
   if (!grade.trouble.empty()) html += fmt::format("<p class=\"bad\">{}</p>\n", html_text(grade.trouble));
   if (!grade.remark.empty()) html += fmt::format("<p class=\"quiet\">{}</p>\n", html_text(grade.remark));
@@ -191,11 +193,12 @@ std::string to_html(const GradePage& page) {
     if (grade.cases > 0 && grade.right() == grade.cases) ++all_right;
     marks += grade.mark();
   }
-  html += fmt::format("<h1>{}</h1>\n<dl><div><dt>students</dt><dd>{}</dd></div><div><dt>all cases right</dt><dd>{}</dd></div>",
-                      html_text(page.title), page.grades.size(), all_right);
+  html += fmt::format(
+      "<h1>{}</h1>\n<dl><div><dt>students</dt><dd>{}</dd></div><div><dt>all cases right</dt><dd>{}</dd></div>",
+      html_text(page.title), page.grades.size(), all_right);
   if (!page.grades.empty()) {
-    html += fmt::format("<div><dt>mean mark</dt><dd>{:.0f} %</dd></div>",
-                        marks / static_cast<double>(page.grades.size()));
+    html +=
+        fmt::format("<div><dt>mean mark</dt><dd>{:.0f} %</dd></div>", marks / static_cast<double>(page.grades.size()));
   }
   html += "</dl>\n<h2>Marks</h2>\n" + summary_html(page) + cases_html(page) + "<h2>Faults</h2>\n";
   for (const Grade& grade : page.grades) html += student_html(grade, page.grades.size() == 1);

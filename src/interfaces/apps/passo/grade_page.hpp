@@ -1,5 +1,5 @@
-// GradePage: the results of a class as a text, as a table (CSV), as JSON and as a page that loads nothing. What students
-// wrote or named becomes printable text before.
+// GradePage: the results of a class as a text, as a table (CSV), as JSON and as a page that loads nothing. What
+// students wrote or named becomes printable text before.
 #pragma once
 
 #include <string>

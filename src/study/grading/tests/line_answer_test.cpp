@@ -54,7 +54,8 @@ TEST(LineCases, suit_the_number_of_motors) {
 
 TEST(LineAnswer, is_right_in_many_forms) {
   const std::string plain = table;
-  const std::string prompts = "Inserisci il numero di passi per il motore 0 Inserisci il numero di passi per il motore 1 ";
+  const std::string prompts =
+      "Inserisci il numero di passi per il motore 0 Inserisci il numero di passi per il motore 1 ";
   std::string numbered;
   std::string named;
   int pulse = 0;
@@ -70,11 +71,11 @@ TEST(LineAnswer, is_right_in_many_forms) {
            replaced(plain, " ", ", "),
            replaced(plain, " ", ";"),
            "[" + replaced(replaced(plain, " ", ", "), "\n", "]\n["),
-           "0 0\n" + plain,                     // with the start
-           "2 motors, 10 steps\n" + plain,      // a heading
-           "motor 0 1\n-----\n" + plain,        // one that looks like a position
-           "10 4\n0 0\n" + plain,               // the input again, and the start
-           plain + "End: 10 4\n",               // the end again
+           "0 0\n" + plain,                 // with the start
+           "2 motors, 10 steps\n" + plain,  // a heading
+           "motor 0 1\n-----\n" + plain,    // one that looks like a position
+           "10 4\n0 0\n" + plain,           // the input again, and the start
+           plain + "End: 10 4\n",           // the end again
            plain + "Goodbye\n",
            replaced(plain, "\n", "\n\n"),
            numbered,
@@ -138,7 +139,8 @@ std::string shared_variable(unsigned x, unsigned y) {
 std::string rounded_quotient(double x, double y) {
   std::string out;
   const double longest = std::max(x, y);
-  for (int i = 1; i <= longest; ++i) out += fmt::format("{}\t{}\t\n", std::round(x / longest * i), std::round(y / longest * i));
+  for (int i = 1; i <= longest; ++i)
+    out += fmt::format("{}\t{}\t\n", std::round(x / longest * i), std::round(y / longest * i));
   return out;
 }
 

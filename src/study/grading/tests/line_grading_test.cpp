@@ -107,9 +107,9 @@ TEST_F(LineGrader, reports_what_ends_a_program_and_stops_asking_one_that_hangs) 
   EXPECT_THAT(crashed.first_fault(), HasSubstr("move (27, 3): no positions found in its output; it crashed"));
   const Grade hung = grade({"gino", write("gino", "#!/bin/sh\nread x\nkill -STOP $$\n")});
   EXPECT_EQ(hung.right(), 0U);
-  EXPECT_EQ(hung.played.size(), 2U);
+  EXPECT_EQ(hung.played.size(), 1U);  // a trial came before
   EXPECT_EQ(hung.first_fault(), "move (10, 4): no positions found in its output; it waited without an end");
-  EXPECT_EQ(hung.remark, "it did not end by itself 2 times; 17 cases were not played");
+  EXPECT_EQ(hung.remark, "it was stopped 2 times; 18 cases were not played");
   const Grade complains = grade({"hugo", write("hugo", "#!/bin/sh\nno-such-command\nexit 3\n")});
   EXPECT_THAT(complains.first_fault(),
               testing::AllOf(HasSubstr("it ended with exit code 3"), HasSubstr("no-such-command: not found")));
@@ -133,8 +133,10 @@ TEST_F(LineGrader, finds_the_students_of_a_class) {
   write("class/max.py", "");
   write("class/max.c", "");
   std::vector<std::string> students;
-  for (const Submission& one : submissions_in(dir_ / "class", {})) students.push_back(one.student);
+  for (const Submission& one : submissions_in(dir_ / "class", "", {})) students.push_back(one.student);
   EXPECT_THAT(students, testing::ElementsAre("anna", "max.c", "max.py", "zoe"));
+  write("class/max.HEX", "");
+  EXPECT_EQ(submissions_in(dir_ / "class", ".hex", {}).size(), 2U);  // and anna's folder
   fs::create_symlink("/etc", dir_ / "class" / "link");
   EXPECT_EQ(grade({"link", dir_ / "class" / "link"}).trouble, "a link, not a file or a folder");
 }

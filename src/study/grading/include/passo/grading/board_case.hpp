@@ -38,7 +38,7 @@ std::vector<BoardCase> board_cases(const std::string& board);
 
 // The change of an output that is the first to be wrong.
 struct OutputFault {
-  std::string output;  // empty: none is wrong
+  std::string output;      // empty: none is wrong
   std::size_t number = 0;  // of the change of this output, from 1
   Nanoseconds at = 0;      // when it was due, or came
   std::string expected;    // the value; empty: no change

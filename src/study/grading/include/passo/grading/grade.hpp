@@ -29,9 +29,7 @@ struct Grade {
   std::size_t cases = 0;     // all, those that were not played included
   std::vector<CaseGrade> played = {};
 
-  std::size_t right() const {
-    return static_cast<std::size_t>(std::ranges::count(played, true, &CaseGrade::is_right));
-  }
+  std::size_t right() const { return static_cast<std::size_t>(std::ranges::count(played, true, &CaseGrade::is_right)); }
   // In per cent.
   double mark() const { return cases == 0 ? 0 : 100.0 * static_cast<double>(right()) / static_cast<double>(cases); }
   // The first wrong case in words; empty if all is right.

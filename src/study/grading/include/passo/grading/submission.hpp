@@ -17,8 +17,10 @@ struct Submission {
   std::vector<std::string> command = {};
 };
 
-// The entries of a class's folder, by name; hidden ones are left out.
-std::vector<Submission> submissions_in(const std::filesystem::path& folder, const std::vector<std::string>& command);
+// The folders in a class's folder, and its files with this ending (".hex"; empty: all files), by name. Hidden ones are
+// left out.
+std::vector<Submission> submissions_in(const std::filesystem::path& folder, const std::string& ending,
+                                       const std::vector<std::string>& command);
 
 // Copies what was handed in to `folder`, which exists and is empty. Links and devices are left out. The error is a
 // sentence without a full stop.
