@@ -98,9 +98,9 @@ std::span<const PrintedPosition> after_start(std::span<const PrintedPosition> pr
   return printed.subspan(1);
 }
 
-LineFault fault_at(const LineCase& asked, std::span<const PrintedPosition> printed,
-                   const std::vector<StepCounts>& expected, std::size_t right) {
-  LineFault fault{.pulse = static_cast<std::int64_t>(right) + 1, .expected = {}, .found = {}, .words = {}};
+AnswerFault fault_at(const LineCase& asked, std::span<const PrintedPosition> printed,
+                     const std::vector<StepCounts>& expected, std::size_t right) {
+  AnswerFault fault{.pulse = static_cast<std::int64_t>(right) + 1, .expected = {}, .found = {}, .words = {}};
   const std::string move = describe_steps(asked.steps);
   if (right < expected.size()) fault.expected = fmt::format("{}", fmt::join(expected[right], " "));
   if (right < printed.size()) fault.found = position_words(printed[right]);
@@ -146,7 +146,7 @@ std::size_t count_motors(std::string_view output, const StepCounts& steps) {
   return 2;
 }
 
-LineFault find_fault(const LineCase& asked, std::string_view output) {
+AnswerFault find_fault(const LineCase& asked, std::string_view output) {
   const std::vector<StepCounts> expected = line_positions(asked.steps);
   const std::vector<PrintedPosition> all = printed_positions(output, asked.steps.size());
   // What stands above the answer may look like a position. Most pulses are right if that is left out which is none.

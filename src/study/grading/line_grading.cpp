@@ -55,7 +55,7 @@ class LineGrader {
   }
 
   CaseGrade judge(const LineCase& asked, const ConfinedRun& run) const {
-    const LineFault fault = find_fault(asked, run.output);
+    const AnswerFault fault = find_fault(asked, run.output);
     CaseGrade result{.name = describe_steps(asked.steps), .why = asked.why};
     const std::string end = describe_end(run, grading_.limits);
     // Many a program of beginners ends with a code other than 0.

@@ -87,7 +87,7 @@ TEST(LineAnswer, is_right_in_many_forms) {
 }
 
 TEST(LineAnswer, names_the_first_wrong_pulse) {
-  const LineFault fault = find_fault(ten_four, replaced(table, "8 3", "8 4"));
+  const AnswerFault fault = find_fault(ten_four, replaced(table, "8 3", "8 4"));
   EXPECT_EQ(fault.pulse, 8);
   EXPECT_EQ(fault.expected, "8 3");
   EXPECT_EQ(fault.found, "8 4");

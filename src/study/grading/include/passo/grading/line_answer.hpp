@@ -24,7 +24,7 @@ std::vector<PrintedPosition> printed_positions(std::string_view output, std::siz
 // most_graded_motors motors; 0: any number.
 std::size_t count_motors(std::string_view output, const StepCounts& steps);
 
-struct LineFault {
+struct AnswerFault {
   std::int64_t pulse = 0;  // from 1; 0: none
   std::string expected;    // the position of the definition; empty: no pulse more
   std::string found;       // empty: the program printed no more
@@ -32,6 +32,6 @@ struct LineFault {
 };
 
 // Compares an answer with the definition.
-LineFault find_fault(const LineCase& asked, std::string_view output);
+AnswerFault find_fault(const LineCase& asked, std::string_view output);
 
 }  // namespace passo
