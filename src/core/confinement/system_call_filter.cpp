@@ -12,6 +12,7 @@
 #include <linux/seccomp.h>
 #include <sched.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -33,9 +34,8 @@ constexpr int set_owner_ex = 15;            // F_SETOWN_EX
 
 // Refused with EPERM whatever the arguments are.
 constexpr int refused[] = {
-    // The network. An unconnected pair of sockets can also send to any address.
-    __NR_socket, __NR_socketpair, __NR_connect, __NR_bind, __NR_listen, __NR_io_uring_setup, __NR_io_uring_enter,
-    __NR_io_uring_register,
+    // The network.
+    __NR_socket, __NR_connect, __NR_bind, __NR_listen, __NR_io_uring_setup, __NR_io_uring_enter, __NR_io_uring_register,
 // Changes of files outside its folder that Landlock does not cover on every kernel.
 #ifdef __NR_chmod
     __NR_chmod, __NR_chown, __NR_lchown, __NR_utime, __NR_utimes, __NR_futimesat,
@@ -64,6 +64,7 @@ class Filter {
     load(static_cast<std::uint32_t>(offsetof(seccomp_data, args) + 8 * std::size_t{number}));
   }
   void answer(std::uint32_t action) { add(BPF_RET | BPF_K, action, 0, 0); }
+  void keep_bits(std::uint32_t bits) { add(BPF_ALU | BPF_AND | BPF_K, bits, 0, 0); }
   void refuse(int error) { answer(SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error)); }
   // If the loaded value is (or has, or is greater than) `value`, the next `count` instructions are executed; else they
   // are skipped.
@@ -135,6 +136,13 @@ bool filter_system_calls(bool may_start_processes) {
   filter.if_equal(__NR_clone3, 1);
   filter.refuse(ENOSYS);
   only_for_this_process(filter, __NR_prlimit64, true);
+  // A pair of streams reaches nobody else; one of datagrams can send to any address.
+  filter.if_equal(__NR_socketpair, 5);
+  filter.load_argument(1);
+  filter.keep_bits(~static_cast<std::uint32_t>(SOCK_CLOEXEC | SOCK_NONBLOCK));
+  filter.if_equal(SOCK_STREAM, 1);
+  filter.answer(SECCOMP_RET_ALLOW);
+  filter.refuse(EPERM);
   if (!may_start_processes) no_other_processes(filter);
   // The owner of a file descriptor gets a signal of the program's choice.
   filter.if_equal(__NR_fcntl, 8);

@@ -15,10 +15,12 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view of_first_board = "first_board/";
 constexpr int slower = 5;  // 4 MHz instead of 20 MHz
 
-const std::vector<std::string> moved = {"windings.x", "windings.y", "windings.z", "relay"};
+// A program may switch windings one after the other. What does not last so long is no current yet.
+constexpr Nanoseconds settling = 10'000;
+
+const std::vector<std::string> windings = {"windings.x", "windings.y", "windings.z"};
 
 std::optional<Nanoseconds> time_of(const std::string& word) {
   double microseconds = 0;
@@ -69,9 +71,37 @@ BoardCase after_automatic_mode(const BoardCase& one) {
   return later;
 }
 
-std::vector<std::string> with(std::vector<std::string> outputs, std::initializer_list<const char*> more) {
+std::vector<std::string> windings_and(std::initializer_list<const char*> more) {
+  std::vector<std::string> outputs = windings;
   outputs.insert(outputs.end(), more.begin(), more.end());
   return outputs;
+}
+
+bool is_first_board(const std::string& board) {
+  return board.starts_with("first_board");
+}
+
+// One in a folder is for the board of this name alone.
+bool is_of_board(std::string_view vector, const std::string& board) {
+  return vector.starts_with(board + "/");
+}
+bool is_of_all_boards(std::string_view vector) {
+  return vector.find('/') == std::string_view::npos;
+}
+
+bool asks_for_one_of(const std::vector<std::string>& outputs, const BoardCase& one) {
+  return std::ranges::any_of(
+      one.due, [&](const DueChange& due) { return std::ranges::find(outputs, due.change.output) != outputs.end(); });
+}
+
+// Without what lasts shorter than `shortest`.
+std::vector<OutputChange> settled(const std::vector<OutputChange>& seen, Nanoseconds shortest) {
+  std::vector<OutputChange> kept;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (i + 1 < seen.size() && seen[i + 1].at < seen[i].at + shortest) continue;
+    if (seen[i].value != (kept.empty() ? "0000" : kept.back().value)) kept.push_back(seen[i]);
+  }
+  return kept;
 }
 
 std::string value_words(const std::string& value, Nanoseconds at) {
@@ -132,29 +162,42 @@ Result<BoardCase, std::string> read_board_case(const std::string& name, std::str
 }
 
 const std::vector<std::string>& graded_boards() {
-  static const std::vector<std::string> boards = {"first_board", "pic_two_on", "pic_wave", "pic_half_step"};
+  static const std::vector<std::string> boards = [] {
+    std::vector<std::string> all = {"first_board", "first_board_copied", "first_board_as_listed",
+                                    "pic_two_on",  "pic_wave",           "pic_half_step"};
+    std::erase_if(all, [](const std::string& board) {
+      return is_first_board(board) && std::ranges::none_of(board_vector_texts(), [&](const BoardVectorText& vector) {
+               return is_of_board(vector.name, board);
+             });
+    });
+    return all;
+  }();
   return boards;
 }
 
 std::vector<BoardCase> board_cases(const std::string& board) {
-  const bool first = board == "first_board";
+  const bool first = is_first_board(board);
   const std::string drive = first ? "two_on" : board.substr(board.find('_') + 1);
   std::vector<BoardCase> own;
   std::vector<BoardCase> shared;
   for (const BoardVectorText& vector : board_vector_texts()) {
-    const auto read = read_board_case(vector.name, vector.text);
+    auto read = read_board_case(vector.name, vector.text);
     ensure(read.has_value(), "a built-in vector can be read");
-    const bool is_own = read->name.starts_with(of_first_board);
-    if (read->drive != drive || (is_own && !first)) continue;
-    if (is_own) {
-      own.push_back(*read);
-      own.back().outputs = with(moved, {"indicator.relay", "led.0", "led.1", "led.2", "led.3"});
-    } else if (!first) {
-      shared.push_back(*read);
-      shared.back().outputs = with(moved, {"indicator.relay", "indicator.automatic", "indicator.manual"});
-    } else if (is_of_lines_alone(*read)) {
-      shared.push_back(after_automatic_mode(*read));
-      shared.back().outputs = moved;
+    if (read->drive != drive) continue;
+    if (is_of_board(vector.name, board)) {
+      read->settling = slower * settling;
+      read->outputs = windings_and({"relay", "indicator.relay", "led.0", "led.1", "led.2", "led.3"});
+      own.push_back(*std::move(read));
+    } else if (is_of_all_boards(vector.name) && !first) {
+      read->settling = settling;
+      read->outputs = windings_and({"relay", "indicator.relay", "indicator.automatic", "indicator.manual"});
+      shared.push_back(*std::move(read));
+    } else if (is_of_all_boards(vector.name) && is_of_lines_alone(*read)) {
+      BoardCase later = after_automatic_mode(*read);
+      later.settling = slower * settling;
+      // The other images of the first board differ in the sense of the relay.
+      later.outputs = board == "first_board" ? windings_and({"relay"}) : windings;
+      if (asks_for_one_of(later.outputs, later)) shared.push_back(std::move(later));
     }
   }
   // What is easiest first: lines and windings.
@@ -169,6 +212,7 @@ OutputFault find_output_fault(const BoardCase& asked, std::span<const OutputChan
   for (const OutputChange& change : seen) came[change.output].push_back(change);
   OutputFault first;
   for (const std::string& output : asked.outputs) {
+    if (output.starts_with("windings.")) came[output] = settled(came[output], asked.settling);
     OutputFault fault = fault_of(output, due[output], came[output]);
     if (!fault.output.empty() && (first.output.empty() || fault.at < first.at)) first = std::move(fault);
   }

@@ -39,7 +39,7 @@ std::string about_program(std::string words, const fs::path& image) {
   Status<std::string> confined = Unit{};
   if (check_confinement()) confined = confine({.folder = work, .readable = {}, .may_start_processes = true});
   limit_resources(emulator_limits);
-  const PicFollower chip = board == "first_board" ? PicFollower::first_board : PicFollower::at_20_mhz;
+  const PicFollower chip = board.starts_with("first_board") ? PicFollower::first_board : PicFollower::at_20_mhz;
   if (!confined) {
     told = "! " + confined.error();
   } else if (const auto run = run_pic_follower(chip, image, one.lines, one.end, work); !run) {

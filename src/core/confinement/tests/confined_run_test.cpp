@@ -69,6 +69,7 @@ TEST_F(Stranger, may_have_threads_but_starts_no_process) {
 TEST_F(Stranger, has_no_network) {
   EXPECT_EQ(answer({"socket"}), "refused: Operation not permitted\n");
   EXPECT_EQ(answer({"pair"}), "refused: Operation not permitted\n");
+  EXPECT_EQ(answer({"streams"}), "done\n");
 }
 
 TEST_F(Stranger, reads_and_writes_in_its_own_folder_alone) {

@@ -142,6 +142,8 @@ int main(int count, char** words) {
   if (count > 2) return with_argument(what, words[2]);
   if (what == "fork") return start_another();
   if (what == "socket") return connect_out();
+  if (what == "streams")
+    return tell(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, std::vector<int>(2).data()) == 0);
   if (what == "pair") return tell(socketpair(AF_UNIX, SOCK_DGRAM, 0, std::vector<int>(2).data()) == 0);
   if (what == "memory") return eat_memory();
   if (what == "folder") return fill_folder();

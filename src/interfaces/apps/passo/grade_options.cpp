@@ -61,7 +61,7 @@ void add_grade_board_options(CLI::App& command, GradeBoardArguments& arguments) 
       ->required();
   command
       .add_option("--board", arguments.board,
-                  "board: first_board (4 MHz); at 20 MHz pic_two_on, pic_wave or pic_half_step, by drive mode")
+                  "board: first_board or a variant (4 MHz); at 20 MHz pic_two_on, pic_wave or pic_half_step")
       ->check(CLI::IsMember(graded_boards()))
       ->capture_default_str();
   add_grade_outputs(command, arguments.outputs);

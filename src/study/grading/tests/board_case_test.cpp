@@ -48,6 +48,12 @@ TEST(BoardCases, are_all_vectors_that_suit_the_board) {
   EXPECT_THAT(names_of("pic_two_on"), testing::IsSupersetOf({"steps", "jog", "modes", "reset"}));
   EXPECT_THAT(names_of("pic_wave"), testing::ElementsAre("wave"));
   EXPECT_THAT(names_of("pic_half_step"), testing::ElementsAre("half_step"));
+  // Each variant of the first board has vectors of its own, and none of the others.
+  for (const std::string& board : graded_boards()) {
+    for (const std::string& name : names_of(board)) {
+      EXPECT_TRUE(name.find('/') == std::string::npos || name.starts_with(board + "/")) << board << ": " << name;
+    }
+  }
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(PASSO_SOURCE_DIR "/tests/follower/vectors")) {
     if (entry.path().extension() == ".txt") ++files;
@@ -58,7 +64,7 @@ TEST(BoardCases, are_all_vectors_that_suit_the_board) {
   }
 }
 
-// One second after the reset of the first board somebody has pressed `*`; the pulses are five times as slow.
+// 0.1 s after the reset of the first board somebody has pressed `*`; the pulses are five times as slow.
 TEST(BoardCases, on_the_first_board_come_after_the_key_for_automatic_mode) {
   const std::vector<BoardCase> cases = board_cases("first_board");
   const auto steps = std::ranges::find(cases, "steps", &BoardCase::name);
@@ -83,6 +89,16 @@ TEST(OutputFault, is_the_first_in_time_of_all_outputs) {
       {1'030'000, "windings.x", "1001"}, {1'500'000, "windings.y", "0110"}, {2'000'000, "relay", "1"}};
   EXPECT_EQ(find_output_fault(one_case(), more).words,
             "windings.y, change 1: expected no change, found 0110 at 1.5 ms");
+  // Windings that are switched one after the other.
+  BoardCase slowly = one_case();
+  slowly.settling = 10'000;
+  const std::vector<OutputChange> stepwise = {{1'020'000, "windings.x", "1000"},
+                                              {1'025'000, "windings.x", "0000"},
+                                              {1'026'000, "windings.x", "0001"},
+                                              {1'030'000, "windings.x", "1001"},
+                                              {2'000'000, "relay", "1"}};
+  EXPECT_EQ(find_output_fault(slowly, stepwise).output, "");
+  EXPECT_EQ(find_output_fault(one_case(), stepwise).found, "1000");
   // What is not looked at may do anything.
   const std::vector<OutputChange> other = {
       {10, "led.0", "1"}, {1'030'000, "windings.x", "1001"}, {2'000'000, "relay", "1"}};

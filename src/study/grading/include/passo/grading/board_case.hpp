@@ -25,12 +25,14 @@ struct BoardCase {
   std::vector<DueChange> due = {};
   Nanoseconds end = 0;
   std::vector<std::string> outputs = {};  // that are looked at
+  Nanoseconds settling = 0;               // a winding pattern that lasts shorter is not looked at
 };
 
 // Reads the text of a vector; its README describes the form. The error names the line.
 Result<BoardCase, std::string> read_board_case(const std::string& name, std::string_view text);
 
-// The boards that can be graded: "first_board", "pic_two_on", "pic_wave", "pic_half_step".
+// The boards that can be graded: "first_board" and its variants with vectors of their own, "pic_two_on", "pic_wave",
+// "pic_half_step".
 const std::vector<std::string>& graded_boards();
 // Their cases. On the first board somebody first presses `*`, and all times are five times as long, as its clock is
 // slower; it also has vectors of its own.
