@@ -70,6 +70,17 @@ TEST_F(Grading, writes_a_table_and_a_page_of_a_class) {
   EXPECT_THAT(page, HasSubstr("<dt>mean mark</dt><dd>5 %</dd>"));
 }
 
+TEST_F(Grading, stops_at_once_by_ctrl_c_and_leaves_nothing) {
+  fs::create_directories(path("temporary"));
+  const std::string waits = write("anna", "#!/bin/sh\nkill -STOP $$\n");
+  const std::string interrupted = "TMPDIR=" + path("temporary") + " timeout --preserve-status --signal=INT 0.5";
+  const Outcome stopped = passo("grade lines " + waits + " --csv " + path("m.csv"), interrupted);
+  if (lacks_confinement(stopped)) GTEST_SKIP() << stopped.err;
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  EXPECT_TRUE(fs::is_empty(path("temporary")));
+  EXPECT_FALSE(fs::exists(path("m.csv")));
+}
+
 TEST_F(Grading, refuses_in_words_what_it_cannot_grade) {
   const auto refused = [&](const std::string& arguments) {
     const Outcome outcome = passo("grade " + arguments);

@@ -240,6 +240,7 @@ class Supervisor {
         now - start_ > std::chrono::seconds(program_.limits.total_seconds)) {
       stop(ConfinedRun::End::waits);
     }
+    if (program_.is_cancelled && program_.is_cancelled()) stop(ConfinedRun::End::waits);
     if (fills_its_folder()) stop(ConfinedRun::End::too_much_output);
   }
   bool fills_its_folder() const {
@@ -308,7 +309,8 @@ Result<ConfinedRun, std::string> run_confined(const ConfinedProgram& program) {
   pipes.start.close_end(1);
   const std::string told = read_start(pipes.start.read_end());
   if (told.empty()) return Supervisor(program, process, pipes).run();
-  waitpid(process, nullptr, 0);
+  while (waitpid(process, nullptr, 0) < 0 && errno == EINTR) {
+  }
   if (told.find_first_not_of("0123456789") != std::string::npos) return Failure{told};
   return ConfinedRun{.end = ConfinedRun::End::not_started, .code = std::stoi(told)};
 }

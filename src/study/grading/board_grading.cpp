@@ -1,6 +1,7 @@
 #include "passo/grading/board_grading.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -39,6 +40,7 @@ std::string about_program(std::string words, const fs::path& image) {
   Status<std::string> confined = Unit{};
   if (check_confinement()) confined = confine({.folder = work, .readable = {}, .may_start_processes = true});
   limit_resources(emulator_limits);
+  std::signal(SIGXFSZ, SIG_DFL);  // a log that is cut off would look like an output that does not change
   const PicFollower chip = board.starts_with("first_board") ? PicFollower::first_board : PicFollower::at_20_mhz;
   if (!confined) {
     told = "! " + confined.error();
@@ -87,7 +89,8 @@ Result<Played, std::string> play(const BoardCase& one, const std::string& board,
   if (child < 0) return Failure{std::string("no process: ") + std::strerror(errno)};
   if (child == 0) play_in_child(one, board, image, work.name());
   int status = 0;
-  ::waitpid(child, &status, 0);
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
   const std::uintmax_t log = fs::file_size(work.path("pins.log"), error);
   if (!error && log >= emulator_limits.file_size) {
     return Played{.trouble = fmt::format("it writes to its ports more often than can be recorded: {} MB in {:g} s",
@@ -129,7 +132,7 @@ std::string refuse_hex(const fs::path& hex) {
 }  // namespace
 
 Result<Grade, std::string> grade_board(const Submission& submission, const std::string& board,
-                                       const std::function<void(double)>& watch) {
+                                       const GradingWatch& watch) {
   if (!gpsim_is_here()) {
     return Failure{std::string("gpsim, which emulates the PIC, is not installed: run scripts/install.sh")};
   }
@@ -144,7 +147,7 @@ Result<Grade, std::string> grade_board(const Submission& submission, const std::
   if (grade.trouble.empty()) grade.program = hex->filename().string();
   for (const BoardCase& one : cases) {
     if (!grade.trouble.empty()) break;
-    if (watch) watch(static_cast<double>(grade.played.size()) / static_cast<double>(cases.size()));
+    if (watch && !watch(static_cast<double>(grade.played.size()) / static_cast<double>(cases.size()))) break;
     ensure(one.end <= longest_case, "no case takes longer than a program gets");
     const Result<Played, std::string> played = play(one, board, *hex);
     if (!played) return Failure{played.error()};

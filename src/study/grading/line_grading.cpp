@@ -20,7 +20,10 @@ constexpr int most_stopped_runs = 2;
 
 class LineGrader {
  public:
-  LineGrader(const Submission& submission, const LineGrading& grading) : submission_(submission), grading_(grading) {}
+  LineGrader(const Submission& submission, const LineGrading& grading, const GradingWatch& watch)
+      : submission_(submission), grading_(grading), watch_(watch) {}
+
+  bool is_stopped() const { return watch_ && !watch_(share()); }
 
   // A run with a fresh copy. Empty: the grade has the trouble, or there is an error.
   std::optional<ConfinedRun> play(const StepCounts& steps) {
@@ -42,7 +45,8 @@ class LineGrader {
                              .input = dialogue_for(steps, grading_.asks_count),
                              .readable = grading_.readable,
                              .unconfined = grading_.unconfined,
-                             .limits = grading_.limits});
+                             .limits = grading_.limits,
+                             .is_cancelled = [this] { return is_stopped(); }});
     if (!run) {
       error = run.error();
       return {};
@@ -76,6 +80,10 @@ class LineGrader {
   std::string error;
 
  private:
+  double share() const {
+    return grade.cases == 0 ? 0 : static_cast<double>(grade.played.size()) / static_cast<double>(grade.cases);
+  }
+
   // The last line of what it wrote to standard error, e.g. a Python exception.
   static std::string last_message(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
@@ -89,6 +97,7 @@ class LineGrader {
 
   const Submission& submission_;
   const LineGrading& grading_;
+  const GradingWatch& watch_;
 };
 
 bool was_stopped(const ConfinedRun& run) {
@@ -136,8 +145,8 @@ std::string dialogue_for(const std::vector<std::int64_t>& steps, bool asks_count
 }
 
 Result<Grade, std::string> grade_lines(const Submission& submission, const LineGrading& grading,
-                                       const std::function<void(double)>& watch) {
-  LineGrader grader(submission, grading);
+                                       const GradingWatch& watch) {
+  LineGrader grader(submission, grading, watch);
   grader.grade.student = submission.student;
   std::size_t motors = grading.motors;
   int stopped = 0;
@@ -154,7 +163,7 @@ Result<Grade, std::string> grade_lines(const Submission& submission, const LineG
   for (const LineCase& one : cases) {
     if (!grader.error.empty()) return Failure{grader.error};
     if (!grader.grade.trouble.empty()) break;
-    if (watch) watch(static_cast<double>(played.size()) / static_cast<double>(cases.size()));
+    if (grader.is_stopped()) break;
     const std::optional<ConfinedRun> run = grader.play(one.steps);
     if (!run) continue;
     played.push_back(grader.judge(one, *run));

@@ -8,6 +8,7 @@
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "run_outputs.hpp"
+#include "run_signals.hpp"
 #include <fmt/format.h>
 
 #include "passo/confinement/confinement.hpp"
@@ -91,18 +92,21 @@ template <class GradeOne>
 int grade_all(const std::string& title, const std::string& program, const std::vector<Submission>& submissions,
               const GradeOutputs& outputs, const GradeOne& grade_one) {
   std::error_code none;
+  catch_signals();
   GradePage page{.title = title, .grades = {}, .is_class = fs::is_directory(program, none)};
   {
     ProgressDisplay progress("grade");
     for (const Submission& submission : submissions) {
       const auto watch = [&](double share) {
         progress.update((static_cast<double>(page.grades.size()) + share) / static_cast<double>(submissions.size()));
+        return interrupted_by() == 0;
       };
       Result<Grade, std::string> grade = grade_one(submission, watch);
       if (!grade) {
         progress.clear();
         return fail(exit_failed, grade.error());
       }
+      if (interrupted_by() != 0) return exit_of_signal();
       make_printable(*grade);
       page.grades.push_back(*std::move(grade));
     }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct ConfinedProgram {
   std::vector<std::string> readable = {};  // as in Confinement
   bool unconfined = false;                 // only the limits apply; it may open, connect and start whatever it likes
   ProgramLimits limits = {};
+  std::function<bool()> is_cancelled = nullptr;  // asked again and again; if true, the program is stopped (End::waits)
 };
 
 struct ConfinedRun {

@@ -2,7 +2,6 @@
 // it reads a stranger's file; the program itself cannot leave the emulated chip.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "passo/base/result.hpp"
@@ -11,9 +10,9 @@
 
 namespace passo {
 
-// `board`: one of graded_boards(). `watch` gets the fraction that is done. The error is what keeps this computer from
-// grading.
+// `board`: one of graded_boards(). If `watch` asks to stop, the grade is incomplete. The error is what keeps this
+// computer from grading.
 Result<Grade, std::string> grade_board(const Submission& submission, const std::string& board,
-                                       const std::function<void(double)>& watch = nullptr);
+                                       const GradingWatch& watch = nullptr);
 
 }  // namespace passo

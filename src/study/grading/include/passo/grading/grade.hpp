@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,9 @@ struct Grade {
     return wrong == played.end() ? "" : wrong->fault;
   }
 };
+
+// Gets the fraction that is done, 0 to 1, several times a second while a program runs; returns false to stop. Empty:
+// nobody watches.
+using GradingWatch = std::function<bool(double)>;
 
 }  // namespace passo

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,8 +27,8 @@ struct LineGrading {
 // What the program gets for a case: the steps, a line each, and an empty line.
 std::string dialogue_for(const std::vector<std::int64_t>& steps, bool asks_count);
 
-// `watch` gets the fraction that is done. The error is what keeps this computer from grading.
+// If `watch` asks to stop, the grade is incomplete. The error is what keeps this computer from grading.
 Result<Grade, std::string> grade_lines(const Submission& submission, const LineGrading& grading,
-                                       const std::function<void(double)>& watch = nullptr);
+                                       const GradingWatch& watch = nullptr);
 
 }  // namespace passo
