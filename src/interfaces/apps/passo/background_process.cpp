@@ -2,7 +2,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <vector>
 
@@ -11,15 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "passo/confinement/confinement.hpp"
+
 namespace passo {
 namespace {
-
-namespace fs = std::filesystem;
-
-void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
-  const rlimit bound{most, most};
-  setrlimit(what, &bound);
-}
 
 // In the new process.
 [[noreturn]] void become(const std::string& folder, const std::vector<std::string>& words, int progress) {
@@ -41,9 +35,9 @@ void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
   }
   close_range(BackgroundProcess::progress_pipe + 1, ~0U, 0);
   setenv(BackgroundProcess::wants_progress, "1", 1);
-  limit(RLIMIT_CPU, BackgroundProcess::most_time);
-  limit(RLIMIT_AS, BackgroundProcess::most_memory);
-  limit(RLIMIT_FSIZE, BackgroundProcess::longest_file);
+  limit_resources({.processor_seconds = BackgroundProcess::most_time,
+                   .memory = BackgroundProcess::most_memory,
+                   .file_size = BackgroundProcess::longest_file});
   // A tenth of what others get on a busy computer. At 19 it would be a hundredth: an answer of a second took two
   // minutes.
   setpriority(PRIO_PROCESS, 0, 10);
@@ -98,21 +92,6 @@ std::string words_of_end(int status) {
     return "it exceeded its time limit and was stopped";
   }
   return "it failed";
-}
-
-bool TemporaryFolder::make() {
-  if (!name_.empty()) return true;
-  std::error_code none;
-  std::string made = (fs::temp_directory_path(none) / "passo-make-XXXXXX").string();
-  if (mkdtemp(made.data()) == nullptr) return false;
-  name_ = made;
-  return true;
-}
-
-void TemporaryFolder::remove() {
-  std::error_code none;
-  if (!name_.empty()) fs::remove_all(name_, none);
-  name_.clear();
 }
 
 std::string content_of(const std::string& file) {

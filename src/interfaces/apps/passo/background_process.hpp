@@ -15,6 +15,7 @@
 #include <sys/types.h>
 
 #include "passo/base/percent_line.hpp"
+#include "passo/confinement/temporary_folder.hpp"
 
 namespace passo {
 
@@ -59,24 +60,6 @@ class BackgroundProcess {
 
 // Explains an exit status for which the process gave no message itself.
 std::string words_of_end(int status);
-
-// A temporary folder, removed with all its contents. Its name is empty until it is created.
-class TemporaryFolder {
- public:
-  TemporaryFolder() = default;
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { remove(); }
-
-  // Returns false if it cannot be created.
-  bool make();
-  void remove();
-  const std::string& name() const { return name_; }
-  std::string path(const std::string& file) const { return name_ + "/" + file; }
-
- private:
-  std::string name_;
-};
 
 std::string content_of(const std::string& file);
 // Returns false if the file cannot be written completely.

@@ -17,6 +17,7 @@
 #include "command_table.hpp"
 #include "command_words.hpp"
 #include "commands.hpp"
+#include "grade_options.hpp"
 #include "machine_options.hpp"
 #include "probing_commands.hpp"
 #include "program_input.hpp"
@@ -57,6 +58,7 @@ constexpr const char* examples = R"(Examples:
   passo interpolate --compare --to 27,10                      compare how interpolation methods step along a line
   passo motor --help                                          calculate the torque of a stepper motor at each speed
   passo loop --compare --picture rules.svg                    compare PID rules for a motor with an encoder
+  passo grade lines ./anna                                    grade a student's program
   passo help run                                              list all options of a command
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    calculate step times of a ramp
   passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   divide a curve into chords within a tolerance
@@ -121,6 +123,7 @@ const std::vector<Command>& all_commands() {
        options_of<WindingsArguments, add_windings_options, windings>},
       {"follower", "run the follower firmware: step and direction in, winding currents out", nullptr,
        follower_commands()},
+      {"grade", "grade students' programs: line interpolation, and the PIC of a board", nullptr, grade_commands()},
       {"chords", "divide a curve into chords within a tolerance",
        options_of<ChordsArguments, add_chords_options, chords>}};
   return commands;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "progress_display.hpp"
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "passo/interpreter/tool_table_file.hpp"
