@@ -192,8 +192,8 @@ struct ServeArguments {
 int serve(const ServeArguments& arguments);
 
 struct InterpolateArguments {
-  std::string method;  // a name of method_names(); empty with `compare`
-  std::string to;      // "10,4", in steps
+  std::string method;  // a name of method_names(); empty: lean, for an arc midpoint; empty with `compare`
+  std::string to;      // "10,4", in steps; empty: the dialogue asks for it
   std::string from;    // empty: zero
   std::string center;  // the centre of an arc; empty: a line
   bool clockwise = false;

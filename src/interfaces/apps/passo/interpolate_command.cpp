@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "interpolate_dialogue.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/report/interpolation_picture.hpp"
+#include "passo/study/faulty_listing.hpp"
 #include "passo/study/ideal_path.hpp"
 #include "passo/study/measure.hpp"
 
@@ -58,7 +60,12 @@ int write_pulses(const Method& method, const StepMove& move, const PulseTable& t
   const Status<std::string> done = write_pulse_table(method, move, table, *file);
   if (!done) return fail(exit_bad_program, title(method) + " " + done.error());
   const Status<OutputError> written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error().message);
+  if (!written) return fail(exit_failed, written.error().message);
+  if (right_method_of(method)) {
+    std::fflush(stdout);
+    fmt::print(stderr, "{}: {}\n", title(method), check_listing(method, move)->describe());
+  }
+  return exit_done;
 }
 
 // --- figures --------------------------------------------------------------------------------------------------------
@@ -75,6 +82,13 @@ Parsed<std::vector<StudiedMethod>> study(const std::vector<Method>& methods, con
     studied.push_back({.method = method, .measures = *measures});
   }
   return studied;
+}
+
+// In a picture the right method is shown beside a faulty listing.
+std::vector<StudiedMethod> studied_for_picture(const std::vector<StudiedMethod>& studied, const StepMove& move) {
+  const std::optional<Method> right = right_method_of(studied.front().method);
+  if (!right) return studied;
+  return {studied.front(), {.method = *right, .measures = *measure(*right, move)}};
 }
 
 void print_json(const std::vector<StudiedMethod>& studied, const StepMove& move, double um) {
@@ -96,6 +110,13 @@ void print_json(const std::vector<StudiedMethod>& studied, const StepMove& move,
     for (std::size_t rule = 0; rule < speed_rules; ++rule) {
       method["speed"][rule_names[rule]] = {{"lag_steps", found.evenness[rule].lag},
                                            {"ratio", found.evenness[rule].ratio}};
+    }
+    if (const std::optional<Method> right = right_method_of(one.method)) {
+      const auto check = check_listing(one.method, move);
+      method["listing"] = {{"right_method", title(*right)},
+                           {"wrong_pulses", check->wrong()},
+                           {"first_wrong_pulse", check->first_wrong()},
+                           {"end", check->place()}};
     }
     all["methods"].push_back(method);
   }
@@ -145,6 +166,12 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
   return exit_failed;
 }
 
+// Only the method can be chosen for the dialogue.
+bool is_dialogue(const InterpolateArguments& a) {
+  return a.from.empty() && a.center.empty() && !a.clockwise && a.end.empty() && !a.compare && !a.beats && !a.time &&
+         !a.feed && a.rule.empty() && a.picture.empty() && a.output.empty() && !a.json;
+}
+
 }  // namespace
 
 Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments) {
@@ -169,7 +196,8 @@ Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments
 }
 
 Result<Method, std::string> method_of(const InterpolateArguments& arguments) {
-  const std::optional<MethodName> name = method_named(arguments.method, !arguments.center.empty());
+  const std::string named = arguments.method.empty() ? "bresenham" : arguments.method;
+  const std::optional<MethodName> name = method_named(named, !arguments.center.empty());
   if (!name) {
     return Failure{
         fmt::format("--method: '{}' is not one of {}, bresenham", arguments.method, fmt::join(method_names(), ", "))};
@@ -208,6 +236,10 @@ Result<std::optional<Seconds>, std::string> time_of(const InterpolateArguments& 
 }
 
 int interpolate(const InterpolateArguments& arguments) {
+  if (arguments.to.empty()) {
+    return is_dialogue(arguments) ? interpolate_dialogue(arguments)
+                                  : fail(exit_bad_program, "--to is missing: expected the end of the move, X,Y[,Z...]");
+  }
   if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const Parsed<StepMove> move = step_move_of(arguments);
   if (!move) return fail(exit_bad_program, move.error());
@@ -218,7 +250,6 @@ int interpolate(const InterpolateArguments& arguments) {
       return fail(exit_bad_program, "--compare uses all methods, so it cannot be combined with --method");
     methods = methods_for(*move);
   } else {
-    if (arguments.method.empty()) return fail(exit_bad_program, "expected --method NAME, or --compare");
     const Parsed<Method> method = method_of(arguments);
     if (!method) return fail(exit_bad_program, method.error());
     methods = {*method};
@@ -235,7 +266,7 @@ int interpolate(const InterpolateArguments& arguments) {
   const Parsed<std::vector<StudiedMethod>> studied = study(methods, *move);
   if (!studied) return fail(exit_bad_program, studied.error());
   if (!arguments.picture.empty()) {
-    const int code = draw(*studied, *move, arguments.picture);
+    const int code = draw(studied_for_picture(*studied, *move), *move, arguments.picture);
     // A picture is an answer by itself. The pulses are written too only if a file for them is named.
     if (code == exit_done && !arguments.output.empty()) {
       return write_pulses(methods[0], *move, table, arguments.output);

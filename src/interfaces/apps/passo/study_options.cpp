@@ -70,8 +70,11 @@ Examples:
 void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments) {
   command.add_option("--method", arguments.method,
                      "interpolation method: master-slave, lean, dda, slope-recalculated, slope-blocks, "
-                     "point-comparison or midpoint; bresenham is lean for lines and midpoint for arcs");
-  command.add_option("--to", arguments.to, "end of the move in steps, X,Y[,Z...]")->required();
+                     "point-comparison or midpoint; bresenham is lean for lines and midpoint for arcs (default: "
+                     "bresenham); or a faulty listing: listing:rounding, listing:shared-variable, "
+                     "listing:slope-blocks or listing:projection");
+  command.add_option("--to", arguments.to,
+                     "end of the move in steps, X,Y[,Z...]; without it, a dialogue asks for the steps of each motor");
   command.add_option("--from", arguments.from, "start of the move (default: 0)");
   command.add_option("--center", arguments.center,
                      "X,Y: centre of an arc; if start and end are the same, a full circle");
@@ -100,9 +103,13 @@ void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments)
       ->capture_default_str();
   command.footer(
       R"(Prints a line for each pulse: its number, the position of each axis after it, and the method's decision variables.
+Without --to it asks for the steps of motor 1, 2, ... until an empty line, and prints the positions after each pulse.
+A faulty listing is a published program that is wrong on some moves; its wrong pulses are red in the picture.
 
 Examples:
-  passo interpolate --method lean --to 10,4                             master and slave axes, as in an interrupt
+  passo interpolate --to 10,4                                           master and slave axes, as in an interrupt
+  echo 10 4 | passo interpolate                                         the same by the dialogue: only the positions
+  passo interpolate --method listing:shared-variable --to 10,4 -p l.svg a listing that ends a step too far
   passo interpolate --method dda --half-loaded --to 10,4,7              three axes, half-full integrators
   passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
   passo interpolate --method master-slave --beats --to 7,3              the fractions and midlines of the cells
