@@ -36,6 +36,11 @@ std::string header(const PulseSource& source, const StepMove& move, const PulseT
   return fmt::format("{}\n", fmt::join(names, ","));
 }
 
+// There may be no cells at all, e.g. no decision of a faulty listing.
+void add_cells(const std::vector<std::string>& cells, std::string& line) {
+  for (const std::string& cell : cells) line += "," + cell;
+}
+
 }  // namespace
 
 Status<std::string> write_pulse_table(const Method& method, const StepMove& move, const PulseTable& table,
@@ -56,13 +61,14 @@ Status<std::string> write_pulse_table(const Method& method, const StepMove& move
   double before = 0;
   for (std::int64_t k = 1; !(*source)->done() && !file.failed(); ++k) {
     line = table.point > 0 ? fmt::format("{},{}", table.point, k) : fmt::format("{}", k);
-    if (table.beats) fmt::format_to(std::back_inserter(line), ",{}", fmt::join(beats.judge(k, place, values), ","));
+    if (table.beats) add_cells(beats.judge(k, place, values), line);
     const Pulse pulse = (*source)->next();
     apply(pulse, place);
     (*source)->decisions(values);
     if (table.beats) line += "," + PulseDetails::feed(pulse);
-    fmt::format_to(std::back_inserter(line), ",{},{}", fmt::join(place, ","), fmt::join(values, ","));
-    if (table.beats) fmt::format_to(std::back_inserter(line), ",{}", fmt::join(beats.end(k, place), ","));
+    fmt::format_to(std::back_inserter(line), ",{}", fmt::join(place, ","));
+    if (!values.empty()) fmt::format_to(std::back_inserter(line), ",{}", fmt::join(values, ","));
+    if (table.beats) add_cells(beats.end(k, place), line);
     if (table.time) {
       const double now = clock.after({.pulse = pulse, .place = place, .progress = path.progress(place)});
       const double seconds = table.time->value();
