@@ -72,7 +72,7 @@ export const it: LabWords = {
   lag: 'Anticipo o ritardo, passi',
   fastestSlowest: 'Massima : minima',
   'method_master-slave': 'Master e slave, per arrotondamento',
-  method_lean: 'Master e slave, algoritmo snello (Bresenham)',
+  method_lean: 'Algoritmo snello (Bresenham)',
   method_dda: 'Analizzatore differenziale digitale (DDA)',
   'method_dda-half': 'DDA con registri mezzi pieni',
   'method_slope-recalculated': 'Pendenza ricalcolata a ogni impulso',

@@ -141,8 +141,8 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
               ))}
             </div>
             <div class="lab-motor-count">
-              <button type="button" class="button" disabled={now.to.length >= mostMotors} onClick={() => change({ to: [...now.to, 3] })}>{say('addMotor')}</button>
-              <button type="button" class="button" disabled={now.to.length <= 2} onClick={() => change({ to: now.to.slice(0, -1) })}>{say('removeMotor')}</button>
+              {now.to.length < mostMotors && <button type="button" class="button" onClick={() => change({ to: [...now.to, 3] })}>{say('addMotor')}</button>}
+              {now.to.length > 2 && <button type="button" class="button" onClick={() => change({ to: now.to.slice(0, -1) })}>{say('removeMotor')}</button>}
             </div>
             {now.to.length > 2 && (
               <div class="lab-pair">
@@ -315,7 +315,7 @@ function JudgementLine({ played, beat, quiet }: { played: readonly Played[]; bea
       <span>{say('pulse')} <b>{beat}</b></span>
       <span class="lab-judged">{judged}</span>
       <span>→ <b class="lab-feed">{feedText(answer, beat - 1)}</b></span>
-      <span>({answer.places.map((places) => places[beat - 1] ?? 0).join(', ')})</span>
+      <span>({answer.places.map((places) => places[beat - 1] ?? 0).join(', ').replaceAll('-', '−')})</span>
       <span>{say('error')} <b>{(answer.deviation[beat - 1] ?? 0).toFixed(3)}</b> {say('steps')}</span>
     </p>
   );
