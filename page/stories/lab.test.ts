@@ -90,7 +90,7 @@ describe('the lab', () => {
     await expect.poll(() => page.locator('.lab-player output').innerText()).toBe('2 / 7');
     await expect.poll(() => page.locator('.lab-midlines .lab-now text').textContent()).toBe('6/7');
     expect(await page.locator('.lab-midlines path').count()).toBe(7);
-    expect((await page.locator('.lab-code .lab-ran').allInnerTexts()).join(' ')).toMatch(/step j\s+X Y/);
+    expect((await page.locator('.lab-code .lab-ran').allInnerTexts()).join(' ')).toMatch(/\+\+p\[j\];\s+X Y/);
     await page.keyboard.press(',');
     await expect.poll(() => page.locator('.lab-player output').innerText()).toBe('1 / 7');
     expect(errors).toEqual([]);
@@ -103,7 +103,7 @@ describe('the lab', () => {
     await page.getByRole('button', { name: 'Add a motor' }).click();
     await expect.poll(() => query(page).get('to')).toBe('10,4,7,3');
     expect(await page.locator('.lab-strip-name').allTextContents()).toEqual(expect.arrayContaining(['X', 'Y', 'Z', 'A']));
-    await page.getByLabel('Up', { exact: true }).selectOption('z');
+    await page.getByRole('combobox', { name: /^Up/ }).selectOption('z');
     await expect.poll(() => page.locator('.lab-end').getAttribute('aria-valuetext')).toBe('x 10, y 7');
     await expect.poll(() => judgement(page)).toContain('(10, 4, 7, 3)');
     await context.close();

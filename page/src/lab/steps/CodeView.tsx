@@ -10,64 +10,63 @@ interface Line {
   shows?: string; // columns of the pulse, e.g. "sum" for sum_x and sum_y
 }
 
-const stepOf = (take: string, test: string): Line[] => [
-  { code: `    if ${test}`, runs: 'each' },
-  { code: '      step j', runs: 'step' },
-  { code: `      ${take}`, runs: 'step' },
+const stepOf = (test: string, take: string): Line[] => [
+  { code: `    if (${test}) {`, runs: 'each' },
+  { code: '      ++p[j];', runs: 'step' },
+  { code: `      ${take};`, runs: 'step' },
 ];
-const loop: Line[] = [
-  { code: 'for k = 1 … Δm', runs: 'each' },
-  { code: '  for each j', runs: 'each' },
+const loop = (pulses: string): Line[] => [
+  { code: `for (k = 1; k <= ${pulses}; ++k)`, runs: 'each' },
+  { code: '  for (j = 0; j < n; ++j) {', runs: 'each' },
 ];
-const comparison = (end: string): Line[] => [
-  { code: 'F = 0', runs: 'start' },
-  { code: `while ${end}`, runs: 'each' },
-  { code: '  if F ≥ 0', runs: 'each', shows: 'judge' },
-  { code: '    step x;  F −= |ye|', runs: 'x' },
+const comparison = (left: string): Line[] => [
+  { code: 'f = 0;', runs: 'start' },
+  { code: `while (${left} > 0)`, runs: 'each' },
+  { code: '  if (f >= 0)', runs: 'each', shows: 'judge' },
+  { code: '    ++x, f -= ye;', runs: 'x' },
   { code: '  else', runs: 'y' },
-  { code: '    step y;  F += |xe|', runs: 'y' },
+  { code: '    ++y, f += xe;', runs: 'y' },
 ];
+// In C, as the sources have them: s[j] are the steps of an axis, m those of the master, p[j] its place.
 const listings: Partial<Record<string, Line[]>> = {
   'master-slave': [
-    ...loop,
-    { code: '    if 2·k·Δ[j] ≥ (2·p[j] + 1)·Δm', runs: 'each', shows: 'ideal' },
-    { code: '      step j;  p[j] += 1', runs: 'step' },
+    ...loop('m'),
+    { code: '    if (2*k*s[j] >= (2*p[j] + 1)*m)', runs: 'each', shows: 'ideal' },
+    { code: '      ++p[j];', runs: 'step' },
   ],
   lean: [
-    { code: 'for each j:  d[j] = −Δm', runs: 'start' },
-    ...loop,
-    { code: '    d[j] += 2·Δ[j]', runs: 'each', shows: 'sum' },
-    ...stepOf('d[j] −= 2·Δm', 'd[j] ≥ 0'),
+    { code: 'd[j] = -m;', runs: 'start' },
+    ...loop('m'),
+    { code: '    d[j] += 2*s[j];', runs: 'each', shows: 'sum' },
+    ...stepOf('d[j] >= 0', 'd[j] -= 2*m'),
   ],
   dda: [
-    { code: 'for each j:  A[j] = 0  (2^N / 2)', runs: 'start' },
-    { code: 'for k = 1 … 2^N', runs: 'each' },
-    { code: '  for each j', runs: 'each' },
-    { code: '    A[j] += Δ[j]', runs: 'each', shows: 'sum' },
-    ...stepOf('A[j] −= 2^N', 'A[j] ≥ 2^N'),
+    { code: 'a[j] = 0;', runs: 'start' },
+    ...loop('1 << bits'),
+    { code: '    a[j] += s[j];', runs: 'each', shows: 'sum' },
+    ...stepOf('a[j] >= 1 << bits', 'a[j] -= 1 << bits'),
   ],
   'slope-recalculated': [
-    { code: 'm = Δy / Δx', runs: 'start' },
-    { code: 'for k = 1 … Δx', runs: 'each' },
-    { code: '  if (ye − y)/(xe − x) ≥ m  and k > 1', runs: 'each', shows: 'slope_left' },
-    { code: '    step x, y', runs: 'both' },
+    { code: 'for (k = 1; k <= dx; ++k)', runs: 'each' },
+    { code: '  if (k > 1 && (dy - y)/(dx - x) >= dy/dx)', runs: 'each', shows: 'slope_left' },
+    { code: '    ++x, ++y;', runs: 'both' },
     { code: '  else', runs: 'along' },
-    { code: '    step x', runs: 'along' },
+    { code: '    ++x;', runs: 'along' },
   ],
-  'point-comparison': comparison('n[x] + n[y] > 0'),
+  'point-comparison': comparison('nx + ny'),
   'listing:rounding': [
-    ...loop,
-    { code: '    q = round((Δ[j] / Δm)·k)', runs: 'each', shows: 'ideal' },
-    { code: '    if q ≠ p[j]', runs: 'each' },
-    { code: '      step j;  p[j] = q', runs: 'step' },
+    ...loop('m'),
+    { code: '    q = round((s[j]/m)*k);', runs: 'each', shows: 'ideal' },
+    { code: '    if (q != p[j])', runs: 'each' },
+    { code: '      ++p[j];', runs: 'step' },
   ],
   'listing:shared-variable': [
-    { code: 'd = +Δm', runs: 'start' },
-    ...loop,
-    { code: '    d += 2·Δ[j]', runs: 'each', shows: 'sum' },
-    ...stepOf('d −= 2·Δm', 'd ≥ 0'),
+    { code: 'd = +m;', runs: 'start' },
+    ...loop('m'),
+    { code: '    d += 2*s[j];', runs: 'each', shows: 'sum' },
+    ...stepOf('d >= 0', 'd -= 2*m'),
   ],
-  'listing:projection': comparison('n > 0'),
+  'listing:projection': comparison('n'),
 };
 export const hasCode = (answer: Interpolation): boolean => listings[answer.name] !== undefined;
 
@@ -86,7 +85,7 @@ export function CodeView({ answer, beat }: { answer: Interpolation; beat: number
   const note = (line: Line): string => {
     if (beat === 0 || !ran(line)) return '';
     if (line.shows !== undefined) return shown(answer, line.shows, beat);
-    return line.runs === 'each' || line.runs === 'start' || !line.code.includes('step') ? '' : stepped.join(' ');
+    return line.runs === 'each' || line.runs === 'start' || !line.code.includes('++') ? '' : stepped.join(' ');
   };
   return (
     <ol class="lab-code" aria-label={say('codeTitle')}>

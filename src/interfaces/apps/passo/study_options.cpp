@@ -75,8 +75,8 @@ void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments)
                      "listing:slope-blocks or listing:projection");
   command.add_option(
       "--to", arguments.to,
-      "end of the move in steps, X,Y[,Z...], or several points \"X,Y X,Y ...\"; without it, a dialogue asks for "
-      "the steps of each motor");
+      "end of the move in steps, X,Y[,Z...], or several points \"X,Y X,Y ...\" (default: a dialogue asks for "
+      "the steps of each motor)");
   command.add_option("--from", arguments.from, "start of the move (default: 0)");
   command.add_option("--center", arguments.center,
                      "X,Y: centre of an arc; if start and end are the same, a full circle");
