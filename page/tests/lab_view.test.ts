@@ -40,6 +40,7 @@ describe('the lab in the address', () => {
     expect(listings.length).toBe(4);
     for (const listing of listings) expect(methodsFor('line')).toContain(rightOf(listing));
     expect(rightOf('lean')).toBeUndefined();
+    expect(read('a=listing:rounding&to=22,15').b).toBe('lean');
   });
 
   it('keeps methods to those that take the shape', () => {

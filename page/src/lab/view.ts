@@ -156,7 +156,10 @@ export function readView(query: URLSearchParams): LabView {
     const text = query.get(name);
     view[name] = (text === null ? undefined : field.read(text)) ?? field.usual;
   }
-  return sound(view as LabView);
+  // A faulty listing is shown beside the right method, unless the link says what to show.
+  const read = view as LabView;
+  const right = query.has('b') ? undefined : rightOf(read.a);
+  return sound(right ? { ...read, b: right } : read);
 }
 
 export interface RefusedValue {
