@@ -123,6 +123,21 @@ describe('the lab', () => {
     await context.close();
   });
 
+  it('listens to the keys at once, and shows midlines, fractions and the lines of the code', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'lab?to=7,3&beat=0');
+    await page.locator('.lab-end').waitFor();
+    await page.keyboard.press('.');
+    await page.keyboard.press('.');
+    await expect.poll(() => page.locator('.lab-player output').innerText()).toBe('2 / 7');
+    await expect.poll(() => page.locator('.lab-midlines .lab-now text').textContent()).toBe('6/7');
+    expect(await page.locator('.lab-midlines path').count()).toBe(7);
+    expect((await page.locator('.lab-code .lab-ran').allInnerTexts()).join(' ')).toMatch(/\+\+p\[j\];\s+X Y/);
+    await page.keyboard.press(',');
+    await expect.poll(() => page.locator('.lab-player output').innerText()).toBe('1 / 7');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+
   it('refuses two lines on one pin, and reproduces another assignment by a link', async () => {
     const { page, context } = await visit(browser, daemon, 'lab?part=board&mode=automatic&unit=inch&perunit=1270,1270,1270');
     const clockY = page.getByRole('combobox', { name: 'Clock Y' });
@@ -156,5 +171,48 @@ describe('the lab', () => {
     await expect.poll(() => page.locator('[data-overdrive]').innerText()).toContain('not enough');
     expect(await violations(page)).toEqual([]);
     await context.close();
+  });
+
+  it('moves any number of motors, and shows two of them on the grid', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?to=10,4,7');
+    await page.locator('.lab-end').waitFor();
+    await page.getByRole('button', { name: 'Add a motor' }).click();
+    await expect.poll(() => query(page).get('to')).toBe('10,4,7,3');
+    expect(await page.locator('.lab-strip-name').allTextContents()).toEqual(expect.arrayContaining(['X', 'Y', 'Z', 'A']));
+    await page.getByRole('combobox', { name: /^Up/ }).selectOption('z');
+    await expect.poll(() => page.locator('.lab-end').getAttribute('aria-valuetext')).toBe('x 10, y 7');
+    await expect.poll(() => judgement(page)).toContain('(10, 4, 7, 3)');
+    await context.close();
+  });
+
+  it('shows a faulty listing beside the right method, with its wrong steps and its wrong end', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?to=3,29');
+    await page.locator('.lab-end').waitFor();
+    await page.getByLabel('A · Method').selectOption('listing:slope-blocks');
+    await expect.poll(() => query(page).get('b')).toBe('slope-blocks');
+    expect(await page.locator('.lab-stage .lab-refused').innerText()).toContain('Wrong from pulse 10 on; wrong steps are red. It ends at (6, 27).');
+    expect(await page.locator('path.lab-wrong').count()).toBe(4); // three steps and the end
+    await context.close();
+  });
+
+  it('names what a link asks for and cannot be, and answers when the link is copied', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?to=201,1&a=wu');
+    const refused = page.locator('.lab > .lab-refused');
+    await refused.first().waitFor();
+    expect((await refused.allInnerTexts()).join(' ')).toMatch(/to=201,1 is not possible.*−200 … 200.*a=wu is not possible/s);
+    await page.getByRole('button', { name: 'Copy the link' }).click();
+    await expect.poll(() => page.locator('.lab-copy [role=status]').innerText()).toMatch(/^(Copied|The browser)/);
+    await context.close();
+  });
+
+  it('has no English words in another language', async () => {
+    for (const [language, method, words] of [['it', 'master-slave', 'ideale'], ['fr', 'lean', 'somme'], ['zh', 'slope-blocks', '段']] as const) {
+      const { page, context } = await visit(browser, daemon, `lab?a=${method}&to=10,4&beat=3`, { language });
+      await page.locator('.lab-end').waitFor();
+      const text = `${await page.locator('.lab-judgement').innerText()} ${await page.locator('.lab-beats thead').innerText()}`;
+      expect(text.toLowerCase()).toContain(words);
+      expect(text).not.toMatch(/ideal_|midline|sum_|decision|accumulator|blocks|\bplain\b|\bleft\b| of /);
+      await context.close();
+    }
   });
 });

@@ -3,7 +3,7 @@ import { nearest, niceStep, ticksOf } from '../src/lab/Chart';
 import { boardLines, conflictIn, restingRegisters, wiringField, withBoardLines, withLine } from '../src/lab/board/port';
 import { atEnd, inUnit, placeOf, stepsTo, type Table } from '../src/lab/board/table';
 import { beatAt, shareOf } from '../src/lab/play';
-import { fields, methodsFor, moveOf, onCircle, readView, writeView } from '../src/lab/view';
+import { fields, methodCodes, methodsFor, moveOf, onCircle, readView, refusedIn, rightOf, writeView } from '../src/lab/view';
 import { labTables } from '../src/lab/words';
 
 const read = (text: string) => readView(new URLSearchParams(text));
@@ -20,6 +20,29 @@ describe('the lab in the address', () => {
     const view = read('to=1e9,2&a=nothing&beat=-3&accel=NaN&part=secret&kp=&move=yes');
     expect(view).toEqual(read(''));
     expect(read('to=0,0').to).not.toEqual([0, 0]);
+  });
+
+  it('names what makes no sense', () => {
+    expect(refusedIn(new URLSearchParams('to=201,1&a=lean&beat=x&kp=0.1'))).toEqual([
+      { name: 'to', text: '201,1', expects: 'x,y[,z…]: −200 … 200' },
+      { name: 'beat', text: 'x', expects: '0 … 99999' },
+    ]);
+  });
+
+  it('has two to eight motors, of which the grid shows two', () => {
+    expect(read('to=10,4,7&across=z&up=z')).toMatchObject({ to: [10, 4, 7], across: 'z', up: 'y' });
+    expect(read('to=10,4&up=z')).toMatchObject({ across: 'x', up: 'y' });
+    expect(read('to=1,2,3,4,5,6,7,8,9').to).toEqual([10, 4]);
+    expect(moveOf(read('to=10,4,7')).ends).toEqual([10, 4, 7]);
+    expect(read('to=10,4,7&a=slope-blocks').a).toBe('lean');
+  });
+
+  it('knows the right method beside each faulty listing', () => {
+    const listings = methodCodes.filter((code) => code.startsWith('listing:'));
+    expect(listings.length).toBe(4);
+    for (const listing of listings) expect(methodsFor('line')).toContain(rightOf(listing));
+    expect(rightOf('lean')).toBeUndefined();
+    expect(read('a=listing:rounding&to=22,15').b).toBe('lean');
   });
 
   it('keeps methods to those that take the shape', () => {

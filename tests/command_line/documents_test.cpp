@@ -92,6 +92,29 @@ TEST_F(Documents, each_command_that_stands_with_its_output_prints_that) {
   EXPECT_GE(run, 12U);
 }
 
+// The errata name the tests that verify their numbers: `a_listing_in_doubles_misses_ties`, `SourceNumbers.of_a_step`.
+TEST_F(Documents, each_test_that_the_errata_name_exists) {
+  std::string sources;
+  for (const auto& entry : fs::recursive_directory_iterator(checkout + "/src/study")) {
+    if (entry.path().filename().string().ends_with("_test.cpp")) sources += read(entry.path());
+  }
+  sources += read(checkout + "/tests/command_line/interpolate_test.cpp");
+  const std::string errata = read(checkout + "/docs/errata.md");
+  std::size_t named = 0;
+  for (std::size_t at = errata.find('`'); at != std::string::npos; at = errata.find('`', at)) {
+    const std::size_t end = errata.find('`', at + 1);
+    std::string name = errata.substr(at + 1, end - at - 1);
+    at = end + 1;
+    name.erase(0, name.find('.') == std::string::npos ? 0 : name.find('.') + 1);
+    if (std::ranges::count(name, '_') < 2 ||
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+      continue;
+    EXPECT_NE(sources.find(", " + name + ")"), std::string::npos) << name;
+    ++named;
+  }
+  EXPECT_GE(named, 30U);
+}
+
 // The examples of a command's help: "  passo ramp ...", perhaps over several lines, and after two spaces what they do.
 std::vector<std::string> examples_of(const std::string& help, const std::string& command) {
   std::vector<std::string> examples;

@@ -107,6 +107,21 @@ TEST_F(Held, stops_at_the_limit_of_the_following_error_and_tells_line_and_place)
   }
 }
 
+// The example of docs/ramps/loop.md.
+TEST_F(Held, of_the_document_loses_steps_without_an_encoder_and_none_with_one) {
+  const std::string folder = std::string(PASSO_SOURCE_DIR) + "/examples/troubles/";
+  const auto lost = [&](const std::string& machine, const std::string& disturbance) {
+    const Outcome outcome =
+        passo("run " + folder + "blocked.ngc -m " + folder + machine + " --physics --json" + disturbance);
+    const auto steps = nlohmann::json::parse(outcome.out)["physics"]["motors"][0]["lost_steps"].get<int>();
+    EXPECT_EQ(outcome.code, steps == 0 ? 0 : 1);
+    return steps;
+  };
+  EXPECT_EQ(lost("blocked.toml", ""), 0);
+  EXPECT_EQ(lost("blocked.toml", " --disturb X:0.6@2:0.1"), 448);
+  EXPECT_EQ(lost("blocked-closed.toml", " --disturb X:0.6@2:0.1"), 0);
+}
+
 // The drive's alarm presses the emergency stop of a board whose firmware runs on an emulated chip.
 TEST_F(Held, stops_an_emulated_board_or_comes_back_on_it) {
   const std::string encoder = "[axis.X.encoder]\ncounts_per_turn = 4000\n";

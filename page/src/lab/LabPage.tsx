@@ -1,12 +1,12 @@
 // The lab: interpolators, motors, ramps, torque and loops, live. Nothing here asks or moves the machine.
 import './lab.css';
 import type { JSX } from 'preact';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { BoardLab } from './board/BoardLab';
 import { DriverLab } from './driver/DriverLab';
 import { LoopLab } from './LoopLab';
 import { RampsLab } from './RampsLab';
-import { change, core, coreFailed, followAddress, loadCore, view } from './state';
+import { change, core, coreFailed, followAddress, linkToView, loadCore, refused, view } from './state';
 import { StepsLab } from './steps/StepsLab';
 import { TorqueLab } from './TorqueLab';
 import { parts } from './view';
@@ -24,6 +24,9 @@ export function LabPage(): JSX.Element {
         <p>{say('labLesson')}</p>
         <CopyLink />
       </header>
+      {refused.value.map(({ name, text, expects }) => (
+        <p key={name} class="lab-refused" role="status">{say('outOfRange', { value: `${name}=${text}`, expects })}</p>
+      ))}
       <div class="lab-tabs" role="tablist" aria-label={say('lab')}>
         {parts.map((one) => (
           <button
@@ -60,12 +63,30 @@ export function LabPage(): JSX.Element {
   );
 }
 
-// The address is the view. Without a clipboard (no TLS, not this computer) it can still be copied from the address line.
-function CopyLink(): JSX.Element | null {
-  if (typeof navigator === 'undefined' || !('clipboard' in navigator)) return null;
+const answerFor = 4000; // ms
+
+// The address is the view. Where the browser has no clipboard (no TLS, not this computer), the words say so.
+function CopyLink(): JSX.Element {
+  const [answer, setAnswer] = useState<'copied' | 'notCopied' | undefined>(undefined);
+  useEffect(() => {
+    if (answer === undefined) return;
+    const timer = setTimeout(() => setAnswer(undefined), answerFor);
+    return () => clearTimeout(timer);
+  }, [answer]);
+  const copy = async (): Promise<void> => {
+    try {
+      await navigator.clipboard.writeText(linkToView());
+      setAnswer('copied');
+    } catch {
+      setAnswer('notCopied');
+    }
+  };
   return (
-    <button type="button" class="button lab-copy" onClick={() => void navigator.clipboard.writeText(location.href)}>
-      {say('copyLink')}
-    </button>
+    <span class="lab-copy">
+      <span role="status">{answer === undefined ? '' : say(answer)}</span>
+      <button type="button" class="button" onClick={() => void copy()}>
+        {say('copyLink')}
+      </button>
+    </span>
   );
 }

@@ -6,7 +6,7 @@ import { type Gains, isFailed, type LabCore, type LoopRequest } from './core';
 import { MotorFields, motorOf } from './motor_fields';
 import { Figure, Lesson, NumberField, Refused, Segments, short } from './shared';
 import { change, view } from './state';
-import { say } from './words';
+import { refusal, say } from './words';
 
 const period = 1e-4; // s, of the control
 
@@ -75,7 +75,7 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
       </div>
       <div class="panel lab-charts">
         {isFailed(answer) ? (
-          <Refused words={answer.error} />
+          <Refused words={refusal(answer.error)} />
         ) : (
           <>
             <dl class="lab-figures">

@@ -5,7 +5,7 @@ import { Chart, type ChartLine } from './Chart';
 import { type Answer, isFailed, type LabCore, type Ramp, type RampRequest } from './core';
 import { Lesson, NumberField, Refused, short, Tick } from './shared';
 import { change, view } from './state';
-import { say } from './words';
+import { refusal, say } from './words';
 
 interface Shown {
   key: 'exact' | 'recursive' | 'tabled' | 'curved';
@@ -63,7 +63,7 @@ export function RampsLab({ core }: { core: LabCore }): JSX.Element {
         </div>
       </div>
       <div class="panel lab-charts">
-        {shown.map(({ key, answer }) => isFailed(answer) && <Refused key={key} words={`${say(key)}: ${answer.error}`} />)}
+        {shown.map(({ key, answer }) => isFailed(answer) && <Refused key={key} words={`${say(key)}: ${refusal(answer.error)}`} />)}
         {good.length > 0 && (
           <>
             <Chart title={say('rateOverTime')} xTitle={`${say('time')}, ms`} yTitle={say('perSecond')} lines={rates} from={0} height={300} />

@@ -6,7 +6,7 @@ import { isFailed, type LabCore } from './core';
 import { MotorFields, motorOf } from './motor_fields';
 import { Figure, Lesson, NumberField, Refused, short } from './shared';
 import { change, view } from './state';
-import { say } from './words';
+import { refusal, say } from './words';
 
 const rows = 240;
 
@@ -24,7 +24,7 @@ export function TorqueLab({ core }: { core: LabCore }): JSX.Element {
       </div>
       <div class="panel lab-charts">
         {isFailed(answer) ? (
-          <Refused words={answer.error} />
+          <Refused words={refusal(answer.error)} />
         ) : (
           <>
             <dl class="lab-figures">

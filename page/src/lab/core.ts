@@ -15,6 +15,7 @@ export const ruleNames = ['beats', 'roots', 'exact'] as const;
 export type Rule = (typeof ruleNames)[number];
 export const methodNames = [
   'master-slave', 'lean', 'dda', 'slope-recalculated', 'slope-blocks', 'point-comparison', 'midpoint',
+  'listing:rounding', 'listing:shared-variable', 'listing:slope-blocks', 'listing:projection',
 ] as const;
 export type MethodName = (typeof methodNames)[number];
 
@@ -29,6 +30,7 @@ export interface Place {
 export interface Move {
   from: Place;
   to: Place;
+  ends?: readonly number[]; // of a line of more than two axes: the ends of all of them
   arc?: { centre: Place; clockwise: boolean };
 }
 
@@ -59,6 +61,17 @@ export interface Interpolation extends Figures {
   judge: Record<string, string[]>;
   decisions: Record<string, number[]>;
   end: Record<string, string[]>;
+  places: number[][]; // a list for each axis
+  feet: number[][];
+  fault?: Fault;
+}
+// What a faulty listing gets wrong. Pulses are counted from 1; `first` may be the one that is missing at the end.
+export interface Fault {
+  right: string;
+  first: number;
+  wrong: number[];
+  end: number[];
+  ends_right: boolean;
 }
 
 // --- motors ---
@@ -247,9 +260,11 @@ export class LabCore {
 
   interpolation(method: Method, move: Move): Answer<Interpolation> {
     const number = methodNames.indexOf(method.name);
+    if (move.ends) return this.#ask('lab_line', number, method.half_loaded ? 1 : 0, ...endsOf(move.ends));
     return this.#ask('lab_interpolation', number, method.half_loaded ? 1 : 0, ...numbersOf(move));
   }
   comparison(move: Move): Answer<{ methods: Figures[] }> {
+    if (move.ends) return this.#ask('lab_line_comparison', ...endsOf(move.ends));
     return this.#ask('lab_comparison', ...numbersOf(move));
   }
   windings(drive: DriveName, stepsPerTurn: number, first: number, last: number): Answer<Windings> {
@@ -306,6 +321,11 @@ export class LabCore {
       motor.supply, motor.resistive ? 1 : 0, motor.loadInertia, motor.friction,
     );
   }
+}
+
+// How many axes, and eight ends.
+function endsOf(ends: readonly number[]): number[] {
+  return [ends.length, ...ends, ...new Array<number>(8 - ends.length).fill(0)];
 }
 
 function numbersOf(move: Move): number[] {

@@ -3,14 +3,25 @@
 import { batch, effect, signal } from '@preact/signals';
 import { query, replaceQuery } from '../core/route';
 import { LabCore } from './core';
-import { type LabView, readView, sound, writeView } from './view';
+import { type LabView, readView, refusedIn, type RefusedValue, sound, writeView } from './view';
 
 export const view = signal<LabView>(readView(new URLSearchParams()));
 export const core = signal<LabCore | undefined>(undefined);
 export const coreFailed = signal(false);
+export const refused = signal<RefusedValue[]>([]); // what the address asked for and cannot be
 
 export function change(what: Partial<LabView>): void {
+  refused.value = [];
   view.value = sound({ ...view.value, ...what });
+}
+
+// The address of the present view: the address line may be a moment behind.
+export function linkToView(): string {
+  const address = new URL(location.href);
+  const asked = writeView(view.value).toString();
+  if (address.hash.startsWith('#')) address.hash = address.hash.split('?')[0] + (asked === '' ? '' : `?${asked}`);
+  else address.search = asked;
+  return address.href;
 }
 
 const writeAfter = 200; // ms
@@ -23,6 +34,7 @@ export function followAddress(): () => void {
     const text = query.value.toString();
     if (text === written) return;
     written = text;
+    refused.value = refusedIn(query.value);
     view.value = readView(query.value);
   });
   const endWriting = effect(() => {

@@ -1,5 +1,5 @@
 // What the lab shows, as it stands in the address behind "?": a link reproduces the view. Values that are as usual are left
-// out, so a link is short; values that make no sense are taken as usual.
+// out, so a link is short; values that make no sense are taken as usual, and named (refusedIn).
 import { wiringField } from './board/port';
 import { axesField, tripleField } from './board/table';
 import { driveNames, type DriveName, methodNames, ruleNames, type Method, type Move, type Rule } from './core';
@@ -8,24 +8,26 @@ interface Field<T> {
   usual: T;
   read: (text: string) => T | undefined;
   write: (value: T) => string;
+  expects: string; // the range or the choices, for everybody
 }
+const range = (from: number, to: number): string => `${from} … ${to}`.replaceAll('-', '−');
 
 function choice<T extends string>(values: readonly T[], usual: T): Field<T> {
-  return { usual, read: (text) => values.find((one) => one === text), write: (value) => value };
+  return { usual, read: (text) => values.find((one) => one === text), write: (value) => value, expects: values.join(', ') };
 }
 function whole(from: number, to: number, usual: number): Field<number> {
   const read = (text: string): number | undefined => {
     const value = Number(text);
     return Number.isInteger(value) && value >= from && value <= to ? value : undefined;
   };
-  return { usual, read: (text) => (text === '' ? undefined : read(text)), write: String };
+  return { usual, read: (text) => (text === '' ? undefined : read(text)), write: String, expects: range(from, to) };
 }
 function real(from: number, to: number, usual: number): Field<number> {
   const read = (text: string): number | undefined => {
     const value = Number(text);
     return text !== '' && Number.isFinite(value) && value >= from && value <= to ? value : undefined;
   };
-  return { usual, read, write: (value) => String(Number(value.toPrecision(6))) };
+  return { usual, read, write: (value) => String(Number(value.toPrecision(6))), expects: range(from, to) };
 }
 function pair(limit: number, usual: [number, number]): Field<[number, number]> {
   const one = whole(-limit, limit, 0);
@@ -36,10 +38,25 @@ function pair(limit: number, usual: [number, number]): Field<[number, number]> {
       return x !== undefined && y !== undefined && more.length === 0 ? [x, y] : undefined;
     },
     write: (value) => value.join(','),
+    expects: `x,y: ${range(-limit, limit)}`,
+  };
+}
+// The ends of the motors of a line, two to eight.
+function ends(limit: number, usual: readonly number[]): Field<readonly number[]> {
+  const one = whole(-limit, limit, 0);
+  return {
+    usual,
+    read: (text) => {
+      const all = text.split(',').map(one.read);
+      if (all.length < 2 || all.length > mostMotors) return undefined;
+      return all.every((value) => value !== undefined) ? (all as number[]) : undefined;
+    },
+    write: (value) => value.join(','),
+    expects: `x,y[,z…]: ${range(-limit, limit)}`,
   };
 }
 function flag(usual: boolean): Field<boolean> {
-  return { usual, read: (text) => (text === '1' ? true : text === '0' ? false : undefined), write: (v) => (v ? '1' : '0') };
+  return { usual, read: (text) => (text === '1' ? true : text === '0' ? false : undefined), write: (v) => (v ? '1' : '0'), expects: '0, 1' };
 }
 
 export const parts = ['steps', 'ramps', 'torque', 'loop', 'board', 'driver'] as const;
@@ -51,10 +68,24 @@ export type MethodCode = (typeof methodCodes)[number];
 export const methodOf = (code: MethodCode): Method =>
   code === 'dda-half' ? { name: 'dda', half_loaded: true } : { name: code, half_loaded: false };
 export const codeOf = (method: Method): MethodCode => (method.half_loaded ? 'dda-half' : method.name);
-export const methodsFor = (shape: 'line' | 'arc'): MethodCode[] =>
-  shape === 'arc'
-    ? ['midpoint', 'point-comparison', 'dda', 'dda-half']
-    : ['master-slave', 'lean', 'slope-recalculated', 'slope-blocks', 'point-comparison', 'dda', 'dda-half'];
+export const methodsFor = (shape: 'line' | 'arc', motors = 2): MethodCode[] => {
+  if (shape === 'arc') return ['midpoint', 'point-comparison', 'dda', 'dda-half'];
+  if (motors > 2) return ['master-slave', 'lean', 'dda', 'dda-half', 'listing:rounding', 'listing:shared-variable'];
+  return [
+    'master-slave', 'lean', 'slope-recalculated', 'slope-blocks', 'point-comparison', 'dda', 'dda-half',
+    'listing:rounding', 'listing:shared-variable', 'listing:slope-blocks', 'listing:projection',
+  ];
+};
+// What a faulty listing was meant to be.
+export const rightOf = (code: MethodCode): MethodCode | undefined =>
+  code === 'listing:rounding' || code === 'listing:shared-variable' ? 'lean'
+    : code === 'listing:slope-blocks' ? 'slope-blocks'
+    : code === 'listing:projection' ? 'point-comparison'
+    : undefined;
+
+export const axisNames = ['x', 'y', 'z', 'a', 'b', 'c', 'u', 'v'] as const;
+export type AxisName = (typeof axisNames)[number];
+export const mostMotors = axisNames.length;
 
 export const rotors = ['4', '24', '48', '200'] as const;
 export const farthest = 200; // steps, of a drawn move along an axis
@@ -63,7 +94,9 @@ export const wholeMove = 99_999; // as a beat: all pulses have come
 export const fields = {
   part: choice(parts, 'steps'),
   shape: choice(['line', 'arc'], 'line'),
-  to: pair(farthest, [10, 4]),
+  to: ends(farthest, [10, 4]),
+  across: choice<AxisName>(axisNames, 'x'), // the axes that the grid shows
+  up: choice<AxisName>(axisNames, 'y'),
   radius: whole(1, farthest, 8),
   end: pair(farthest, [0, 8]),
   cw: flag(false),
@@ -155,7 +188,26 @@ export function readView(query: URLSearchParams): LabView {
     const text = query.get(name);
     view[name] = (text === null ? undefined : field.read(text)) ?? field.usual;
   }
-  return sound(view as LabView);
+  // A faulty listing is shown beside the right method, unless the link says what to show.
+  const read = view as LabView;
+  const right = query.has('b') ? undefined : rightOf(read.a);
+  return sound(right ? { ...read, b: right } : read);
+}
+
+export interface RefusedValue {
+  name: string;
+  text: string;
+  expects: string;
+}
+// The values of a link that make no sense, e.g. to=201,1.
+export function refusedIn(query: URLSearchParams): RefusedValue[] {
+  const refused: RefusedValue[] = [];
+  for (const name of names) {
+    const text = query.get(name);
+    const field = fields[name] as Field<unknown>;
+    if (text !== null && field.read(text) === undefined) refused.push({ name, text, expects: field.expects });
+  }
+  return refused;
 }
 
 export function writeView(view: LabView): URLSearchParams {
@@ -170,11 +222,15 @@ export function writeView(view: LabView): URLSearchParams {
 
 // What belongs together fits together: the methods take the shape, and the end of an arc is on its circle.
 export function sound(view: LabView): LabView {
-  const takes = methodsFor(view.shape);
+  const takes = methodsFor(view.shape, view.to.length);
   const a = takes.includes(view.a) ? view.a : (takes[view.shape === 'arc' ? 0 : 1] ?? 'dda');
   const b = view.b !== 'none' && takes.includes(view.b) ? view.b : 'none';
-  const to: [number, number] = view.to[0] === 0 && view.to[1] === 0 ? [1, 0] : view.to;
-  return { ...view, a, b, to, end: onCircle(view.radius, view.end) };
+  const to = view.to.every((value) => value === 0) ? [1, ...view.to.slice(1)] : view.to;
+  const motors = view.shape === 'arc' ? 2 : to.length;
+  const shown = (name: AxisName): boolean => axisNames.indexOf(name) < motors;
+  const across = shown(view.across) ? view.across : 'x';
+  const up = shown(view.up) && view.up !== across ? view.up : across === 'y' ? 'x' : 'y';
+  return { ...view, a, b, to, across, up, end: onCircle(view.radius, view.end) };
 }
 
 // The place in whole steps beside the circle that is nearest in angle. Its distance from the circle is below a step.
@@ -187,7 +243,10 @@ export function onCircle(radius: number, [x, y]: readonly [number, number]): [nu
 }
 
 export function moveOf(view: LabView): Move {
-  if (view.shape === 'line') return { from: { x: 0, y: 0 }, to: { x: view.to[0], y: view.to[1] } };
+  if (view.shape === 'line') {
+    const line = { from: { x: 0, y: 0 }, to: { x: view.to[0] ?? 0, y: view.to[1] ?? 0 } };
+    return view.to.length > 2 ? { ...line, ends: view.to } : line;
+  }
   return {
     from: { x: view.radius, y: 0 },
     to: { x: view.end[0], y: view.end[1] },

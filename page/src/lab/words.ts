@@ -28,6 +28,22 @@ export function say(key: LabKey, values: Record<string, string | number> = {}): 
   return fill(labTables[language.value][key], values);
 }
 
+// The program gives its reasons in English; in another language only that the values do not fit.
+export const refusal = (reason: string): string => (language.value === 'en' ? reason : say('refused'));
+
+// The columns of the program's tables: "sum_x" is the sum of X.
+const columns = [
+  'ideal', 'midline', 'sum', 'slope_left', 'slope', 'block', 'run', 'judge', 'at_midpoint', 'reached', 'middle',
+  'decision', 'accumulator', 'excess', 'plain', 'blocks', 'deviation', 'left',
+] as const;
+export function columnWords(name: string): string {
+  const column = columns.find((one) => name === one || (name.startsWith(`${one}_`) && name.length === one.length + 2));
+  if (!column) return name;
+  const words = say(`column_${column}`);
+  return name === column ? words : `${words} ${name.slice(-1).toUpperCase()}`;
+}
+export const cellText = (cell: string): string => cell.replace(' of ', '/').replace('>=', ' ≥ ').replace('<', ' < ').replaceAll('-', '−');
+
 export const methodWords = (code: MethodCode): string => say(`method_${code}`);
 export const methodLesson = (code: MethodCode): string => say(`lesson_${code}`);
 export const ruleWords = (rule: Rule): string => say(`rule_${rule}`);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/study/faulty_listing.hpp"
 #include "passo/study/ideal_path.hpp"
 
 namespace passo {
@@ -24,12 +25,15 @@ std::string coordinates(const Place& place) {
 
 std::vector<Shown> followed(const Method& method, const StepMove& move) {
   std::vector<Shown> all = {{.place = move.from}};
+  std::optional<ListingCheck> check;
+  if (right_method_of(method)) check.emplace(method, move);
   const auto add = [&](const Followed& now) {
     const int axes = std::popcount(now.pulse.steps);
+    const bool wrong = check && check->is_wrong(now.pulse);
     if (axes == 0) {
       all.back().waited = true;
     } else {
-      all.push_back({.place = now.place, .axes = axes});
+      all.push_back({.place = now.place, .axes = axes, .wrong = wrong});
     }
   };
   static_cast<void>(follow(method, move, add).has_value());
@@ -124,6 +128,13 @@ std::string figures(const Measures& found) {
 }
 std::string deviations(const Measures& found) {
   return fmt::format("off by {:.3f} step at most, {:.3f} on average", found.largest_deviation, found.mean_deviation);
+}
+
+// What a faulty listing gets wrong; empty for a method.
+std::string fault(const Method& method, const StepMove& move) {
+  if (!right_method_of(method)) return {};
+  const auto check = check_listing(method, move);
+  return check ? check->describe() : std::string();
 }
 
 std::string move_text(const StepMove& move) {
@@ -286,10 +297,13 @@ void draw_panels(Canvas& canvas, const StepMove& move, const std::vector<Studied
     const StudiedMethod& studied = methods[all[i].method];
     canvas.text({cell.x, cell.y + 14}, passo::title(studied.method), step_look::heading_font);
     canvas.text({cell.x, cell.y + 36}, figures(studied.measures), step_look::caption_font);
-    canvas.text({cell.x, cell.y + 54}, deviations(studied.measures), step_look::caption_font);
+    const std::string wrong = fault(studied.method, move);
+    canvas.text({cell.x, cell.y + 54}, wrong.empty() ? deviations(studied.measures) : wrong, step_look::caption_font);
     const std::vector<Shown> shown = followed(studied.method, move);
     const StepView view = view_of(shown, move, 0, all[i].up, {cell.x + 30, cell.y + 80, width - 60, height - 110});
     draw_view(canvas, view, shown, move);
+    draw_wrong_pulses(canvas, view, shown);
+    if (!wrong.empty() && shown.back().place != move.to) draw_wrong_end(canvas, view, shown.back().place);
     if (methods.size() == 1 && has_midlines(studied.method, move)) draw_midlines(canvas, view, shown, move);
   }
 }
@@ -310,6 +324,9 @@ Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<S
   if (methods.size() == 1 && has_midlines(methods[0].method, move)) {
     keys.push_back({"midline of the cell: a slave axis steps where the ideal path reaches or crosses it",
                     step_look::midline_colour, true});
+  }
+  if (!methods.empty() && right_method_of(methods[0].method)) {
+    keys.push_back({"wrong step", step_look::wrong_colour, false});
   }
   draw_step_keys(canvas, keys, border, 66);
   const double charts = methods.size() == 1 && methods[0].measures.pulses > 0 ? 290 : 0;

@@ -115,6 +115,23 @@ void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>&
   }
 }
 
+void draw_wrong_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown) {
+  for (std::size_t k = 1; k < shown.size(); ++k) {
+    if (!shown[k].wrong) continue;
+    canvas.line(view.spot(shown[k - 1].place), view.spot(shown[k].place),
+                {.colour = step_look::wrong_colour, .width = 3});
+    if (view.has_dots()) canvas.disc(view.spot(shown[k].place), view.dot_radius(), step_look::wrong_colour);
+  }
+}
+
+void draw_wrong_end(Canvas& canvas, const StepView& view, const Place& place) {
+  constexpr double arm = 9;
+  const Spot at = view.spot(place);
+  const Pen pen{.colour = step_look::wrong_colour, .width = 2.5};
+  canvas.line({at.x - arm, at.y - arm}, {at.x + arm, at.y + arm}, pen);
+  canvas.line({at.x - arm, at.y + arm}, {at.x + arm, at.y - arm}, pen);
+}
+
 std::vector<StepKey> step_keys() {
   return {{"ideal path", step_look::ideal_colour, true},
           {"one axis steps", step_look::one_axis, false},

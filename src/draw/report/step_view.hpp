@@ -25,12 +25,14 @@ inline const Colour one_axis{0.16, 0.38, 0.70};
 inline const Colour together{0.93, 0.55, 0.10};
 inline const Colour waiting{0.80, 0.82, 0.86};
 inline const Colour midline_colour{0.20, 0.60, 0.45};
+inline const Colour wrong_colour{0.85, 0.05, 0.10};
 }  // namespace step_look
 
 struct Shown {  // one pulse, or the start
   Place place;
   int axes = 0;  // number of axes that stepped
   bool waited = false;
+  bool wrong = false;  // of a faulty listing: the right method makes another pulse here
 };
 
 class StepView {
@@ -79,6 +81,11 @@ void draw_step_lines(Canvas& canvas, const StepView& view);
 void draw_step_grid(Canvas& canvas, const StepView& view);
 // Draws the pulses, joined by a line. Blue: one axis stepped; orange: several; grey ring: a pause.
 void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown);
+
+// Draws the wrong pulses again, in red: each with the line that led to it.
+void draw_wrong_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown);
+// Marks the place where a faulty listing ends, if that is not the end of the move.
+void draw_wrong_end(Canvas& canvas, const StepView& view, const Place& place);
 
 struct StepKey {
   std::string text;

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <array>
 
 #include "json_text.hpp"
 
 #include "passo/lab/answers.hpp"
+#include "passo/study/faulty_listing.hpp"
 #include "passo/study/ideal_path.hpp"
 #include "passo/study/measure.hpp"
 #include "passo/study/pulse_details.hpp"
@@ -55,10 +57,8 @@ void add_ideal(const StepMove& move, JsonText& json) {
 struct PulseColumns {
   std::vector<std::int64_t> steps = {};
   std::vector<std::int64_t> directions = {};
-  std::vector<std::int64_t> x = {};
-  std::vector<std::int64_t> y = {};
-  std::vector<double> foot_x = {};  // the place of the ideal path nearest to the tool
-  std::vector<double> foot_y = {};
+  std::vector<std::vector<std::int64_t>> places = {};  // a column for each axis
+  std::vector<std::vector<double>> feet = {};          // the place of the ideal path nearest to the tool
   std::vector<double> deviation = {};
   std::array<std::vector<double>, speed_rules> clock = {};
   std::vector<std::vector<std::string>> judge = {};  // a column for each name
@@ -92,15 +92,16 @@ PulseColumns columns_of(const Method& method, const StepMove& move, std::int64_t
     add_row(beats.end(k, place), columns.end);
     columns.steps.push_back(pulse.steps);
     columns.directions.push_back(pulse.directions);
-    columns.x.push_back(place[0]);
-    columns.y.push_back(place[1]);
+    add_row(place, columns.places);
     const Followed now{
         .pulse = pulse, .place = place, .progress = path.progress(place), .deviation = path.distance(place)};
     columns.deviation.push_back(now.deviation);
     const auto foot = path.at(now.progress);
-    columns.foot_x.push_back(foot[0]);
-    columns.foot_y.push_back(foot[1]);
-    for (std::size_t rule = 0; rule < speed_rules; ++rule) columns.clock[rule].push_back(clocks[rule].after(now));
+    add_row(std::vector<double>(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(move.axes())), columns.feet);
+    // A faulty listing may go beyond the end, where its time would be up.
+    for (std::size_t rule = 0; rule < speed_rules; ++rule) {
+      columns.clock[rule].push_back(std::min(clocks[rule].after(now), 1.0));
+    }
   }
   return columns;
 }
@@ -110,6 +111,39 @@ std::string named_columns(const std::vector<std::string>& names, const std::vect
   JsonText json;
   for (std::size_t i = 0; i < columns.size(); ++i) json.list(names[i], columns[i]);
   return json.take();
+}
+
+// Lists of equal kind, as one list.
+template <class T>
+std::string lists(const std::vector<std::vector<T>>& columns) {
+  std::string text;
+  for (const std::vector<T>& column : columns) {
+    JsonText one;
+    one.list("", column);
+    const std::string json = one.take();  // {"":[…]}
+    text += (text.empty() ? "" : ",") + json.substr(4, json.size() - 5);
+  }
+  return "[" + text + "]";
+}
+
+// What a faulty listing gets wrong: the numbers of its wrong pulses, the first wrong or missing one, and where it ends.
+void add_fault(const Method& method, const StepMove& move, const PulseColumns& columns, JsonText& json) {
+  const std::optional<Method> right = right_method_of(method);
+  if (!right) return;
+  ListingCheck check(method, move);
+  std::vector<std::int64_t> wrong;
+  for (std::size_t k = 0; k < columns.steps.size(); ++k) {
+    const Pulse pulse{static_cast<std::uint8_t>(columns.steps[k]), static_cast<std::uint8_t>(columns.directions[k])};
+    if (check.is_wrong(pulse)) wrong.push_back(static_cast<std::int64_t>(k) + 1);
+  }
+  check.end();
+  JsonText fault;
+  fault.words("right", title(*right));
+  fault.number("first", static_cast<double>(check.first_wrong()));
+  fault.list("wrong", wrong);
+  fault.list("end", check.place());
+  fault.flag("ends_right", check.place() == move.to);
+  json.raw("fault", fault.take());
 }
 
 }  // namespace
@@ -122,7 +156,7 @@ std::string error_answer(const std::string& words) {
 
 std::string interpolation_answer(const Method& method, const StepMove& move) {
   if (const Status<std::string> good = check(move); !good) return error_answer("the move " + good.error());
-  if (move.axes() != 2) return error_answer("the move is not one of two axes");
+  if (move.axes() < 2) return error_answer("the move has fewer than two axes");
   const auto source = start(method, move);
   if (!source) return error_answer(title(method) + " " + source.error());
   const std::vector<std::string> decision_names = (*source)->decision_names();
@@ -141,10 +175,12 @@ std::string interpolation_answer(const Method& method, const StepMove& move) {
   add_ideal(move, json);
   json.list("steps", columns.steps);
   json.list("directions", columns.directions);
-  json.list("x", columns.x);
-  json.list("y", columns.y);
-  json.list("foot_x", columns.foot_x);
-  json.list("foot_y", columns.foot_y);
+  json.list("x", columns.places.empty() ? std::vector<std::int64_t>() : columns.places[0]);
+  json.list("y", columns.places.empty() ? std::vector<std::int64_t>() : columns.places[1]);
+  json.list("foot_x", columns.feet.empty() ? std::vector<double>() : columns.feet[0]);
+  json.list("foot_y", columns.feet.empty() ? std::vector<double>() : columns.feet[1]);
+  json.raw("places", lists(columns.places));
+  json.raw("feet", lists(columns.feet));
   json.list("deviation", columns.deviation);
   JsonText clock;
   for (std::size_t rule = 0; rule < speed_rules; ++rule) clock.list(rule_names[rule], columns.clock[rule]);
@@ -152,6 +188,7 @@ std::string interpolation_answer(const Method& method, const StepMove& move) {
   json.raw("judge", named_columns(beats.judge_names(), columns.judge));
   json.raw("decisions", named_columns(decision_names, columns.decisions));
   json.raw("end", named_columns(beats.end_names(), columns.end));
+  add_fault(method, move, columns, json);
   return json.take();
 }
 

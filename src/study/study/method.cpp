@@ -12,6 +12,7 @@
 #include "passo/interpolate/point_comparison_line.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
 #include "passo/interpolate/slope_recalculated.hpp"
+#include "passo/study/faulty_listing.hpp"
 
 namespace passo {
 namespace {
@@ -146,8 +147,17 @@ Started start_dda(const Method& method, const StepMove& move) {
 }  // namespace
 
 const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = {
-      "master-slave", "lean", "dda", "slope-recalculated", "slope-blocks", "point-comparison", "midpoint"};
+  static const std::vector<std::string> names = {"master-slave",
+                                                 "lean",
+                                                 "dda",
+                                                 "slope-recalculated",
+                                                 "slope-blocks",
+                                                 "point-comparison",
+                                                 "midpoint",
+                                                 "listing:rounding",
+                                                 "listing:shared-variable",
+                                                 "listing:slope-blocks",
+                                                 "listing:projection"};
   return names;
 }
 
@@ -156,6 +166,16 @@ std::optional<MethodName> method_named(std::string_view name, bool arc) {
   const auto found = std::ranges::find(method_names(), name);
   if (found == method_names().end()) return std::nullopt;
   return static_cast<MethodName>(found - method_names().begin());
+}
+
+std::optional<Method> right_method_of(const Method& method) {
+  switch (method.name) {
+    case MethodName::listing_rounding:
+    case MethodName::listing_shared_variable: return Method{.name = MethodName::lean};
+    case MethodName::listing_slope_blocks: return Method{.name = MethodName::slope_blocks};
+    case MethodName::listing_projection: return Method{.name = MethodName::point_comparison};
+    default: return std::nullopt;
+  }
 }
 
 std::string title(const Method& method) {
@@ -167,6 +187,7 @@ std::string title(const Method& method) {
 
 Result<std::unique_ptr<PulseSource>, std::string> start(const Method& method, const StepMove& move) {
   if (move.arc) return start_arc(method, move);
+  if (right_method_of(method)) return start_listing(method, move);
   switch (method.name) {
     case MethodName::master_slave: return source(MasterSlave<most_axes>(distances(move).all), move);
     case MethodName::lean: return source(BresenhamLine<most_axes>(distances(move).all), move);
@@ -180,7 +201,7 @@ std::vector<Method> methods_for(const StepMove& move) {
   std::vector<Method> found;
   for (std::size_t name = 0; name < method_names().size(); ++name) {
     Method method{.name = static_cast<MethodName>(name)};
-    if (!start(method, move)) continue;
+    if (right_method_of(method) || !start(method, move)) continue;
     found.push_back(method);
     if (method.name != MethodName::dda) continue;
     method.half_loaded = true;

@@ -30,14 +30,16 @@ std::int64_t PulseDetails::length(std::size_t axis) const {
 }
 
 bool PulseDetails::judges_axes() const {
-  return method_.name == MethodName::lean || method_.name == MethodName::dda;
+  return method_.name == MethodName::lean || method_.name == MethodName::dda ||
+         method_.name == MethodName::listing_shared_variable;
 }
 
 std::vector<std::string> PulseDetails::judge_names() const {
   Cells names;
   if (method_.name == MethodName::slope_recalculated) return {"slope", "slope_left"};
   if (method_.name == MethodName::slope_blocks) return {"block", "run"};
-  if (method_.name == MethodName::point_comparison) return {"judge"};
+  if (method_.name == MethodName::listing_slope_blocks) return {};
+  if (method_.name == MethodName::point_comparison || method_.name == MethodName::listing_projection) return {"judge"};
   if (method_.name == MethodName::midpoint) return {"at_midpoint"};
   for (std::size_t axis = 0; axis < move_.axes(); ++axis) {
     names.push_back((judges_axes() ? "sum_" : "ideal_") + axis_name(axis));
@@ -51,9 +53,13 @@ std::vector<std::string> PulseDetails::judge(std::int64_t k, const Place& place,
                                              const std::vector<std::int64_t>& decisions) const {
   Cells cells;
   switch (method_.name) {
-    case MethodName::master_slave: return fractions(k, place);
+    case MethodName::master_slave:
+    case MethodName::listing_rounding: return fractions(k, place);
     case MethodName::slope_recalculated: return slopes(place);
     case MethodName::slope_blocks: return block(k);
+    case MethodName::listing_slope_blocks: return {};
+    case MethodName::listing_shared_variable: return shared_sums(decisions[0]);
+    case MethodName::listing_projection:
     case MethodName::point_comparison: return {decisions[0] >= 0 ? "F>=0" : "F<0"};
     case MethodName::midpoint: return {fmt::format("{}", at_midpoint(place, decisions[0]))};
     case MethodName::lean:
@@ -67,6 +73,17 @@ std::vector<std::string> PulseDetails::judge(std::int64_t k, const Place& place,
   for (std::size_t axis = 0; axis < move_.axes(); ++axis) {
     const std::int64_t added = move_.arc ? std::abs(place[1 - axis] - move_.arc->centre[1 - axis]) : length(axis);
     cells.push_back(fmt::format("{}", decisions[move_.arc ? 1 + axis : axis] + added));
+  }
+  return cells;
+}
+
+// The one variable of all axes, as each axis in turn finds it.
+std::vector<std::string> PulseDetails::shared_sums(std::int64_t decision) const {
+  Cells cells;
+  for (std::size_t axis = 0; axis < move_.axes(); ++axis) {
+    decision += 2 * length(axis);
+    cells.push_back(fmt::format("{}", decision));
+    if (decision >= 0) decision -= 2 * longest_;
   }
   return cells;
 }
@@ -123,6 +140,7 @@ std::int64_t PulseDetails::at_midpoint(const Place& place, std::int64_t deviatio
 }
 
 std::vector<std::string> PulseDetails::end_names() const {
+  if (method_.name == MethodName::listing_projection) return {length(0) < length(1) ? "left_y" : "left_x"};
   if (method_.name != MethodName::point_comparison || move_.arc) return {"left"};
   switch (method_.end_judging) {
     case EndJudging::coordinates: return {"left_x", "left_y"};

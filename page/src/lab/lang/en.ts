@@ -43,10 +43,10 @@ export const en = {
   pulsePattern: 'Fastest to slowest step rate',
   even: 'even',
   stripsTitle: 'Pulse trains',
-  strips: 'Pulses of X and Y during the move',
+  strips: 'Pulses of the motors during the move',
   stripsLesson:
     'These are the signals on the step wires. The number of pulses sets the distance; their spacing sets the speed. A diagonal step moves the tool √2 times as far as a step of one axis, so the speed is constant only if the diagonal step also takes √2 times as long.',
-  windingsOfX: 'Winding currents of the X motor',
+  windingsOf: 'Winding currents of the {axis} motor',
   motorsTitle: 'Windings and rotors',
   motorsLesson:
     'A step only changes the currents in the windings. Together the currents produce a magnetic field (the arrow), and the rotor turns to follow it. A full step turns the field by 90 electrical degrees, a half step by 45. With microsteps the currents follow a sine and a cosine, so the field turns almost smoothly.',
@@ -62,7 +62,7 @@ export const en = {
   place: 'Position',
   beatsTitle: 'Pulse by pulse',
   beatsLesson:
-    'For each pulse, the method compares, steps, updates its variables and checks for the end. The table shows these variables, pulse by pulse. All of them are integers.',
+    'For each pulse, the method compares, steps, updates its variables and checks for the end. The table shows these variables, pulse by pulse. The methods decide with whole numbers only; the fractions and slopes are what these numbers mean.',
   comparison: 'All methods compared on this move',
   comparisonLesson:
     'Error: the distance from the tool to the ideal path after each pulse, in steps. Both axes: pulses in which both axes step. Idle: pulses in which no axis steps. Lead or lag: the maximum distance of the tool from a point that moves at constant speed. Select methods A and B in the table.',
@@ -70,7 +70,7 @@ export const en = {
   idle: 'Idle',
   lag: 'Lead or lag, steps',
   fastestSlowest: 'Fastest : slowest',
-  'method_master-slave': 'Major and minor axis, rounded',
+  'method_master-slave': 'Master and slaves, by rounding',
   method_lean: 'Bresenham line',
   method_dda: 'Digital differential analyser (DDA)',
   'method_dda-half': 'DDA with half-full registers',
@@ -79,9 +79,9 @@ export const en = {
   'method_point-comparison': 'Point-by-point comparison',
   method_midpoint: 'Midpoint circle (Bresenham)',
   'lesson_master-slave':
-    'The axis with more steps (the major axis) steps at every pulse. The minor axis steps when the ideal line reaches the midpoint between two of its positions. No axis is therefore ever off by more than half a step, which is the best possible result with whole steps.',
+    'The axis with the most steps (the master) steps at every pulse. A slave axis steps when the ideal line reaches the midpoint between two of its positions. No axis is therefore ever off by more than half a step, which is the best possible result with whole steps.',
   lesson_lean:
-    'This method gives the same pulses as rounding, but needs only additions and comparisons. Each axis has a running sum. At every pulse, twice the number of steps of the axis is added to it; when the sum reaches zero, the axis steps, and twice the number of steps of the major axis is subtracted. Small microcontrollers do this in their step interrupt.',
+    'This method gives the same pulses as rounding, but needs only additions and comparisons. Each axis has a running sum. At every pulse, twice the number of steps of the axis is added to it; when the sum reaches zero, the axis steps, and twice the number of steps of the master is subtracted. Small microcontrollers do this in their step interrupt.',
   lesson_dda:
     'At every clock tick, each axis adds its number of steps to a register; an overflow produces a step. The method makes no decisions and works for any number of axes, but the steps come late: the error reaches almost a whole step, and at some ticks no axis moves.',
   'lesson_dda-half':
@@ -94,9 +94,55 @@ export const en = {
     'A variable F shows on which side of the path the tool is. At each pulse, one axis steps towards the path and F is updated. The two axes never step together, so the staircase needs more pulses, and the error is up to one step.',
   lesson_midpoint:
     'One axis steps at every pulse. The other axis steps too if the midpoint between its two possible positions is outside the circle, because then the inner position is nearer. The error is at most half a step.',
+  // Several motors, faulty listings, columns, answers
+  copied: 'Copied.',
+  notCopied: 'The browser does not allow it. Copy the link from the address line.',
+  outOfRange: '{value} is not possible and was left out. Possible: {expects}',
+  refused: 'This does not work with these values.',
+  addMotor: 'Add a motor',
+  removeMotor: 'Remove a motor',
+  across: 'Right',
+  up: 'Up',
+  codeTitle: 'The lines of code that this pulse ran through',
+  quadrant: 'Quadrant',
+  faultNone: 'The listing is right on this line.',
+  faultFirst: 'Wrong from pulse {n} on; wrong steps are red.',
+  faultMissing: 'Pulse {n} is missing.',
+  faultEnd: 'It ends at {end}.',
+  faultRight: 'The right method: {method}.',
+  'method_listing:rounding': 'Faulty: rounding in doubles',
+  'method_listing:shared-variable': 'Faulty: one variable for all axes',
+  'method_listing:slope-blocks': 'Faulty: slope in blocks above 45°',
+  'method_listing:projection': 'Faulty: end by projection',
+  'lesson_listing:rounding':
+    'A published listing: round((Δs/Δm)·k) in floating point. The quotient is rounded before the multiplication, so a tie may be computed just below the middle, and the step comes one pulse late. Try (22, 15).',
+  'lesson_listing:shared-variable':
+    'A published listing keeps one decision variable for all axes and starts it at +Δm instead of −Δm. It ends a step too far; with three motors the variable also mixes them up. Try (10, 4) and (10, 4, 7).',
+  'lesson_listing:slope-blocks':
+    'Above 45° the axes swap roles. A published listing swaps only the quotient: it takes the remainder of the other division and makes the extra steps along the wrong axis. Try (3, 29).',
+  'lesson_listing:projection':
+    'The end is judged by the counter of the longer axis alone. At 45° X is counted and arrives one pulse before Y, so the last step is missing. Try (4, 4), and (0, 5).',
+  column_ideal: 'ideal',
+  column_midline: 'midline',
+  column_sum: 'sum',
+  column_slope: 'slope',
+  column_slope_left: 'slope left',
+  column_block: 'block',
+  column_run: 'run',
+  column_judge: 'comparison',
+  column_at_midpoint: 'F at the midpoint',
+  column_reached: '2ks',
+  column_middle: '(2p + 1)m',
+  column_decision: 'd',
+  column_accumulator: 'register',
+  column_excess: 'E',
+  column_plain: 'plain left',
+  column_blocks: 'blocks left',
+  column_deviation: 'F',
+  column_left: 'left',
   // Ramps
   rampsLesson:
-    'A stepper motor cannot start at full speed. A ramp shortens the time between steps, beginning with the first interval c₀ = f√(2α/a), where f is the timer clock, α the step angle and a the acceleration. The exact method needs a square root per step, the recursive method a division, the table a multiplication.',
+    'A stepper motor cannot start at full speed. A ramp shortens the time between steps, beginning with the first interval c₀ = f√(2α/a), where f is the timer clock, α the step angle and a the acceleration. In whole ticks, the exact and the recursive method need one division per step, the table one multiplication.',
   exact: 'Exact, in whole ticks',
   recursive: 'Recursive',
   tabled: 'Table, 16-bit',

@@ -17,6 +17,7 @@ interface GridProps {
   end: readonly [number, number];
   centre?: readonly [number, number]; // of an arc
   share: number; // of the time
+  longest?: number; // steps of the master, where midlines are drawn
   onEnd: (place: [number, number]) => void;
   onStart?: (place: [number, number]) => void; // an arc's start gives the radius
 }
@@ -119,6 +120,7 @@ export function Grid(props: GridProps): JSX.Element {
   const error = beat > 0 ? (first?.answer.deviation[beat - 1] ?? 0) : 0;
   const runner = first ? idealAt(first.answer.ideal, share) : start;
   const dots = box.scale >= 7;
+  const fault = first?.answer.fault;
   return (
     <div class="lab-grid-frame" ref={element}>
       {first && size.width > 0 && (
@@ -155,6 +157,23 @@ export function Grid(props: GridProps): JSX.Element {
               </g>
             );
           })}
+          {props.longest !== undefined && first && (
+            <Midlines answer={first.answer} end={end} longest={props.longest} beat={beat} box={box} />
+          )}
+          {first &&
+            fault?.wrong.map((k) => {
+              const from = k > 1 ? ([first.answer.x[k - 2] ?? 0, first.answer.y[k - 2] ?? 0] as const) : start;
+              return (
+                <path
+                  key={k}
+                  class={`lab-wrong${k <= beat ? '' : ' lab-ahead'}`}
+                  d={`M${place(from[0], from[1])}L${place(first.answer.x[k - 1] ?? 0, first.answer.y[k - 1] ?? 0)}`}
+                />
+              );
+            })}
+          {first && fault && !fault.ends_right && (
+            <path class="lab-wrong" d={`M${place(first.answer.x.at(-1) ?? 0, first.answer.y.at(-1) ?? 0)}m-8 -8l16 16m-16 0l16 -16`} />
+          )}
           <circle class="lab-start" cx={px(start[0])} cy={py(start[1])} r="4" />
           <circle class="lab-runner" cx={px(runner[0])} cy={py(runner[1])} r="6" />
           <path class="lab-whisker" d={`M${place(tool[0], tool[1])}L${place(foot[0], foot[1])}`} />
@@ -169,6 +188,49 @@ export function Grid(props: GridProps): JSX.Element {
         </svg>
       )}
     </div>
+  );
+}
+
+interface MidlinesProps {
+  answer: Interpolation;
+  end: readonly [number, number];
+  longest: number;
+  beat: number;
+  box: Box;
+}
+// Master and slaves: the middle of each side through which the ideal line leaves a cell, and at which part of the side it
+// does. The slave steps where that is at the midline or above it.
+function Midlines({ answer, end, longest, beat, box }: MidlinesProps): JSX.Element | null {
+  const master = Math.abs(end[0]) === longest ? 0 : 1;
+  const slave = Math.abs(end[1 - master] ?? 0);
+  if (Math.abs(end[master]) !== longest || slave === 0 || slave === longest || box.scale < 14) return null;
+  const [along, across] = [Math.sign(end[master]), Math.sign(end[1 - master] ?? 0)];
+  const spot = (k: number, height: number): [number, number] => {
+    const [x, y] = master === 0 ? [along * k, across * height] : [across * height, along * k];
+    return [(x - box.x) * box.scale, (box.y - y) * box.scale];
+  };
+  const stands = master === 0 ? answer.y : answer.x;
+  return (
+    <g class="lab-midlines" aria-hidden="true">
+      {stands.map((_, i) => {
+        const k = i + 1;
+        const [x, y] = spot(k, Math.abs(i === 0 ? 0 : (stands[i - 1] ?? 0)) + 0.5);
+        const half = 0.28 * box.scale;
+        return <path key={k} d={master === 0 ? `M${x - half} ${y}h${2 * half}` : `M${x} ${y - half}v${2 * half}`} />;
+      })}
+      {stands.map((_, i) => {
+        const k = i + 1;
+        const part = (k * slave) % longest;
+        if (part === 0 || k > beat || (k !== beat && box.scale < 40)) return null;
+        const [x, y] = spot(k, (k * slave) / longest);
+        return (
+          <g key={k} class={k === beat ? 'lab-now' : ''}>
+            <circle cx={x} cy={y} r="3" />
+            <text x={x + 6} y={y + (across > 0 ? 15 : -7)}>{`${part}/${longest}`}</text>
+          </g>
+        );
+      })}
+    </g>
   );
 }
 

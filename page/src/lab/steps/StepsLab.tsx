@@ -1,13 +1,14 @@
 // Which axis steps next: one move on the grid, by one method or by two, beat by beat, with its motors.
 import type { JSX } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { isFailed, type LabCore, type Windings } from '../core';
+import { type Interpolation, isFailed, type LabCore, type Windings } from '../core';
 import { beatAt, secondsFor, shareOf, usePlaying } from '../play';
 import { Figure, Lesson, NumberField, Refused, Segments, Select, short } from '../shared';
 import { change, view } from '../state';
-import { farthest, type MethodCode, methodOf, methodsFor, moveOf, rotors, wholeMove } from '../view';
-import { driveWords, methodLesson, methodWords, ruleWords, say } from '../words';
+import { type AxisName, axisNames, farthest, type MethodCode, methodOf, methodsFor, mostMotors, moveOf, rightOf, rotors, wholeMove } from '../view';
+import { cellText, columnWords, driveWords, methodLesson, methodWords, refusal, ruleWords, say } from '../words';
 import { driveNames, ruleNames } from '../core';
+import { CodeView, hasCode, Quadrants } from './CodeView';
 import { Grid, type Played } from './Grid';
 import { MotorView } from './MotorView';
 import { startOf, Strips } from './Strips';
@@ -38,7 +39,10 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
   useEffect(() => setPlaying(false), [asked]);
   usePlaying(playing, secondsFor(clock.length), () => shareNow.current, setShare, () => setPlaying(false));
 
-  if (isFailed(answers.a)) return <Refused words={answers.a.error} />;
+  const goBy = useRef<(by: number) => void>(() => undefined);
+  useKeys(goBy);
+
+  if (isFailed(answers.a)) return <Refused words={refusal(answers.a.error)} />;
   const a = answers.a;
   const beat = beatAt(clock, share);
   const goTo = (to: number): void => {
@@ -47,6 +51,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
     setShare(shareOf(clock, bounded));
     change({ beat: bounded >= a.pulses ? wholeMove : bounded });
   };
+  goBy.current = (by) => goTo(beat + by);
   const play = (): void => {
     if (playing) goTo(beat);
     else setPlaying(true);
@@ -55,23 +60,20 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
   if (answers.b && !isFailed(answers.b)) {
     played.push({ answer: answers.b, beat: beatAt(answers.b.clock[now.rule], share), mark: 'mark-b' });
   }
-  const windings = (axis: 0 | 1): Windings | undefined => windingsOf(core, played[0], axis);
-  const [first, second] = [windings(0), windings(1)];
-  const place = (axis: 0 | 1): number => {
-    const places = axis === 0 ? a.x : a.y;
-    return beat > 0 ? (places[beat - 1] ?? 0) : startOf({ answer: a, beat: 0, mark: 'mark-a' }, axis);
-  };
+  const [across, up] = [axisNames.indexOf(now.across), axisNames.indexOf(now.up)];
+  const seen = played.map((one) => ({ ...one, answer: seenOn(one.answer, move.ends, across, up) }));
+  const ends = move.arc ? [move.to.x, move.to.y] : now.to;
+  const seenEnd: [number, number] = [ends[across] ?? 0, ends[up] ?? 0];
+  const windings = (axis: number): Windings | undefined => windingsOf(core, played[0], axis);
+  const [first, second] = [windings(across), windings(up)];
+  const place = (axis: number): number =>
+    beat > 0 ? (a.places[axis]?.[beat - 1] ?? 0) : startOf({ answer: a, beat: 0, mark: 'mark-a' }, axis);
+  const setEnd = (axis: number, value: number): void =>
+    change({ to: now.to.map((end, i) => (i === axis ? bound(Math.round(value), -farthest) : end)) });
+  const hasMidlines = !move.arc && ['master-slave', 'lean', 'listing:rounding', 'listing:shared-variable'].includes(a.name);
+  const choose = (code: MethodCode): void => change({ a: code, b: rightOf(code) ?? now.b });
   return (
-    <div
-      class="lab-steps"
-      onKeyDown={(event) => {
-        if (event.target instanceof HTMLInputElement && event.target.type === 'number') return;
-        if (event.key === '.') goTo(beat + 1);
-        else if (event.key === ',') goTo(beat - 1);
-        else return;
-        event.preventDefault();
-      }}
-    >
+    <div class="lab-steps">
       <div class="panel lab-stage">
         <div class="lab-player">
           <button type="button" class="button" onClick={() => goTo(0)} aria-label={say('toStart')}><PlayerIcon shape="M6 5v14M20 5L9 12l11 7z" /></button>
@@ -90,15 +92,19 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
           <output>{`${beat} / ${a.pulses}`}</output>
         </div>
         <JudgementLine played={played} beat={beat} quiet={playing} />
+        {a.fault && <FaultLine code={now.a} answer={a} />}
         <Grid
-          played={played}
-          start={[move.from.x, move.from.y]}
-          end={[move.to.x, move.to.y]}
+          played={seen}
+          start={move.arc ? [move.from.x, move.from.y] : [0, 0]}
+          end={seenEnd}
           share={share}
+          {...(hasMidlines ? { longest: Math.max(...now.to.map(Math.abs)) } : {})}
           {...(move.arc ? { centre: [0, 0] as const, onStart: (to: [number, number]) => change({ radius: bound(Math.abs(to[0]), 1), end: now.end }) } : {})}
           onEnd={([x, y]) => {
             if (move.arc) change({ end: [x, y] });
-            else if (x !== 0 || y !== 0) change({ to: [bound(x, -farthest), bound(y, -farthest)] });
+            else if (x !== 0 || y !== 0) {
+              change({ to: now.to.map((end, i) => (i === across ? bound(x, -farthest) : i === up ? bound(y, -farthest) : end)) });
+            }
           }}
         />
       </div>
@@ -120,22 +126,34 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
             <NumberField label={say('radius')} unit={say('steps')} value={now.radius} step={1} from={1} to={farthest} onChange={(radius) => change({ radius: Math.round(radius) })} />
           </>
         ) : (
-          <div class="lab-pair">
-            {([0, 1] as const).map((axis) => (
-              <NumberField
-                key={axis}
-                label={`${say('end')} ${axis === 0 ? 'X' : 'Y'}`}
-                value={now.to[axis]}
-                step={1}
-                from={-farthest}
-                to={farthest}
-                onChange={(value) => change({ to: axis === 0 ? [Math.round(value), now.to[1]] : [now.to[0], Math.round(value)] })}
-              />
-            ))}
-          </div>
+          <>
+            <div class="lab-pair">
+              {now.to.map((value, axis) => (
+                <NumberField
+                  key={axis}
+                  label={`${say('end')} ${motorName(axis)}`}
+                  value={value}
+                  step={1}
+                  from={-farthest}
+                  to={farthest}
+                  onChange={(to) => setEnd(axis, to)}
+                />
+              ))}
+            </div>
+            <div class="lab-motor-count">
+              {now.to.length < mostMotors && <button type="button" class="button" onClick={() => change({ to: [...now.to, 3] })}>{say('addMotor')}</button>}
+              {now.to.length > 2 && <button type="button" class="button" onClick={() => change({ to: now.to.slice(0, -1) })}>{say('removeMotor')}</button>}
+            </div>
+            {now.to.length > 2 && (
+              <div class="lab-pair">
+                <AxisChoice label={say('across')} value={now.across} motors={now.to.length} onChange={(name) => change({ across: name, up: name === now.up ? now.across : now.up })} />
+                <AxisChoice label={say('up')} value={now.up} motors={now.to.length} onChange={(name) => change({ up: name, across: name === now.across ? now.up : now.across })} />
+              </div>
+            )}
+          </>
         )}
-        <MethodChoice label={`A · ${say('method')}`} value={now.a} shape={now.shape} onChange={(code) => code !== 'none' && change({ a: code })} />
-        <MethodChoice label={`B · ${say('beside')}`} value={now.b} shape={now.shape} none onChange={(b) => change({ b })} />
+        <MethodChoice label={`A · ${say('method')}`} value={now.a} shape={now.shape} motors={now.to.length} onChange={(code) => code !== 'none' && choose(code)} />
+        <MethodChoice label={`B · ${say('beside')}`} value={now.b} shape={now.shape} motors={now.to.length} none onChange={(b) => change({ b })} />
         <Select label={say('duration')} value={now.rule} options={ruleNames.map((value) => ({ value, words: ruleWords(value) }))} onChange={(rule) => change({ rule })} />
         <dl class="lab-figures">
           {played.map(({ answer, mark }) => (
@@ -161,6 +179,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
           rule={now.rule}
           share={share}
           windings={first}
+          motor={across}
           onSeek={(to) => goTo(beatAt(clock, to))}
         />
       </section>
@@ -173,13 +192,15 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
           <Select label={say('rotor')} value={now.rotor} options={rotors.map((value) => ({ value, words: say('fullStepsATurn', { n: value }) }))} onChange={(rotor) => change({ rotor })} />
         </div>
         <div class="lab-motors">
-          {first && <MotorView axis="X" windings={first} place={place(0)} fullSteps={Number(now.rotor)} />}
-          {second && <MotorView axis="Y" windings={second} place={place(1)} fullSteps={Number(now.rotor)} />}
+          {first && <MotorView axis={motorName(across)} windings={first} place={place(across)} fullSteps={Number(now.rotor)} />}
+          {second && <MotorView axis={motorName(up)} windings={second} place={place(up)} fullSteps={Number(now.rotor)} />}
         </div>
       </section>
       <section class="panel">
         <h2>{say('beatsTitle')}</h2>
         <Lesson>{say('beatsLesson')}</Lesson>
+        {!move.arc && hasCode(a) && <CodeView answer={a} beat={beat} />}
+        {!move.arc && (a.name === 'point-comparison' || a.name === 'listing:projection') && <Quadrants end={[move.to.x, move.to.y]} />}
         <BeatTable answer={a} beat={beat} onBeat={goTo} />
       </section>
       </div>
@@ -204,9 +225,54 @@ function PlayerIcon({ shape }: { shape: string }): JSX.Element {
 
 const bound = (value: number, low: number): number => Math.min(farthest, Math.max(low, value));
 
-function windingsOf(core: LabCore, played: Played | undefined, axis: 0 | 1): Windings | undefined {
+const motorName = (axis: number): string => (axisNames[axis] ?? '').toUpperCase();
+
+// The keys work wherever the focus is, except where a character is typed: a link opens without any focus.
+function useKeys(goBy: { current: (by: number) => void }): void {
+  useEffect(() => {
+    const pressed = (event: KeyboardEvent): void => {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      const at = event.target;
+      const typing = at instanceof HTMLInputElement ? !['range', 'radio', 'checkbox'].includes(at.type) : at instanceof HTMLTextAreaElement;
+      if (typing || (event.key !== '.' && event.key !== ',')) return;
+      goBy.current(event.key === '.' ? 1 : -1);
+      event.preventDefault();
+    };
+    addEventListener('keydown', pressed);
+    return () => removeEventListener('keydown', pressed);
+  }, []);
+}
+
+// The answer as the grid sees it: two of the axes.
+function seenOn(answer: Interpolation, ends: readonly number[] | undefined, across: number, up: number): Interpolation {
+  if (!ends) return answer;
+  return {
+    ...answer,
+    x: answer.places[across] ?? [],
+    y: answer.places[up] ?? [],
+    foot_x: answer.feet[across] ?? [],
+    foot_y: answer.feet[up] ?? [],
+    ideal: { x: [0, ends[across] ?? 0], y: [0, ends[up] ?? 0] },
+  };
+}
+
+// What a faulty listing gets wrong on this move.
+function FaultLine({ code, answer }: { code: MethodCode; answer: Interpolation }): JSX.Element | null {
+  const { fault } = answer;
+  if (!fault) return null;
+  const right = rightOf(code);
+  const first = fault.first === 0 ? say('faultNone') : say(fault.first > answer.pulses ? 'faultMissing' : 'faultFirst', { n: fault.first });
+  const end = fault.ends_right ? '' : say('faultEnd', { end: `(${fault.end.join(', ').replaceAll('-', '−')})` });
+  return <Refused words={[first, end, right ? say('faultRight', { method: methodWords(right) }) : ''].filter((one) => one !== '').join(' ')} />;
+}
+
+function AxisChoice({ label, value, motors, onChange }: { label: string; value: AxisName; motors: number; onChange: (name: AxisName) => void }): JSX.Element {
+  return <Select label={label} value={value} options={axisNames.slice(0, motors).map((name) => ({ value: name, words: name.toUpperCase() }))} onChange={onChange} />;
+}
+
+function windingsOf(core: LabCore, played: Played | undefined, axis: number): Windings | undefined {
   const { drive, rotor } = view.value;
-  const places = axis === 0 ? played?.answer.x : played?.answer.y;
+  const places = played?.answer.places[axis];
   const start = played ? startOf(played, axis) : 0;
   const [low, high] = [Math.min(start, ...(places ?? [])), Math.max(start, ...(places ?? []))];
   return useMemo(() => {
@@ -219,11 +285,12 @@ interface MethodChoiceProps {
   label: string;
   value: MethodCode | 'none';
   shape: 'line' | 'arc';
+  motors: number;
   none?: boolean;
   onChange: (code: MethodCode | 'none') => void;
 }
-function MethodChoice({ label, value, shape, none = false, onChange }: MethodChoiceProps): JSX.Element {
-  const codes: (MethodCode | 'none')[] = [...(none ? (['none'] as const) : []), ...methodsFor(shape)];
+function MethodChoice({ label, value, shape, motors, none = false, onChange }: MethodChoiceProps): JSX.Element {
+  const codes: (MethodCode | 'none')[] = [...(none ? (['none'] as const) : []), ...methodsFor(shape, motors)];
   return (
     <Select
       label={label}
@@ -241,17 +308,14 @@ function JudgementLine({ played, beat, quiet }: { played: readonly Played[]; bea
     return <p class="lab-judgement" aria-live={quiet ? 'off' : 'polite'}>{say('atStart')}</p>;
   }
   const judged = Object.entries(answer.judge)
-    .map(([name, cells]) => (name === 'judge' ? (cells[beat - 1] ?? '') : `${name} = ${cells[beat - 1] ?? ''}`))
-    .join(', ')
-    .replace('>=', ' ≥ ')
-    .replace('<', ' < ')
-    .replaceAll('-', '−');
+    .map(([name, cells]) => (name === 'judge' ? '' : `${columnWords(name)} = `) + cellText(cells[beat - 1] ?? ''))
+    .join(', ');
   return (
     <p class="lab-judgement" aria-live={quiet ? 'off' : 'polite'}>
       <span>{say('pulse')} <b>{beat}</b></span>
       <span class="lab-judged">{judged}</span>
       <span>→ <b class="lab-feed">{feedText(answer, beat - 1)}</b></span>
-      <span>({answer.x[beat - 1]}, {answer.y[beat - 1]})</span>
+      <span>({answer.places.map((places) => places[beat - 1] ?? 0).join(', ').replaceAll('-', '−')})</span>
       <span>{say('error')} <b>{(answer.deviation[beat - 1] ?? 0).toFixed(3)}</b> {say('steps')}</span>
     </p>
   );

@@ -1,8 +1,9 @@
-// The pulse trains: when X and Y step, over the time of the move. A pulse up counts up, a pulse down counts down.
+// The pulse trains: when the motors step, over the time of the move. A pulse up counts up, a pulse down counts down.
 import type { JSX } from 'preact';
 import type { Rule, Windings } from '../core';
 import { useSize } from '../shared';
 import { say } from '../words';
+import { axisNames } from '../view';
 import type { Played } from './Grid';
 
 interface StripsProps {
@@ -10,21 +11,24 @@ interface StripsProps {
   names: readonly string[]; // of the methods
   rule: Rule;
   share: number;
-  windings?: Windings | undefined; // of the X motor
+  windings?: Windings | undefined; // of the motor below
+  motor: number; // whose windings are shown
   onSeek: (share: number) => void;
 }
 
+const motorName = (axis: number): string => (axisNames[axis] ?? '').toUpperCase();
 const row = 34;
 const left = 34;
 
-export function Strips({ played, names, rule, share, windings, onSeek }: StripsProps): JSX.Element {
+export function Strips({ played, names, rule, share, windings, motor, onSeek }: StripsProps): JSX.Element {
   const [element, size] = useSize<HTMLDivElement>();
   const width = Math.max(size.width, 200);
   const inner = width - left - 10;
   const px = (part: number): number => left + part * inner;
   const rows = played.flatMap((one, i) =>
-    [0, 1].map((axis) => ({ one, axis, name: axis === 0 ? 'X' : 'Y', title: axis === 0 ? (names[i] ?? '') : '' })),
+    one.answer.places.map((_, axis) => ({ one, axis, name: motorName(axis), title: axis === 0 ? (names[i] ?? '') : '' })),
   );
+  const motors = played[0]?.answer.places.length ?? 2;
   const windingsTop = rows.length * row + played.length * 14 + 8;
   const height = windingsTop + (windings ? 14 + 4 * 20 : 0) + 4;
   const pulseWidth = Math.min(5, (inner / Math.max(1, played[0]?.answer.pulses ?? 1)) * 0.5);
@@ -42,7 +46,7 @@ export function Strips({ played, names, rule, share, windings, onSeek }: StripsP
         }}
       >
         {rows.map(({ one, axis, name, title }, i) => {
-          const base = i * row + (Math.floor(i / 2) + 1) * 14 + row / 2 + 2;
+          const base = i * row + (Math.floor(i / motors) + 1) * 14 + row / 2 + 2;
           const clock = one.answer.clock[rule];
           let path = `M${left} ${base}`;
           one.answer.steps.forEach((steps, k) => {
@@ -66,7 +70,7 @@ export function Strips({ played, names, rule, share, windings, onSeek }: StripsP
           );
         })}
         {windings && played[0] && (
-          <WindingStrips windings={windings} played={played[0]} rule={rule} top={windingsTop} px={px} />
+          <WindingStrips windings={windings} motor={motor} played={played[0]} rule={rule} top={windingsTop} px={px} />
         )}
         <line class="lab-cursor" x1={px(share)} x2={px(share)} y1={0} y2={height} />
       </svg>
@@ -76,24 +80,26 @@ export function Strips({ played, names, rule, share, windings, onSeek }: StripsP
 
 interface WindingStripsProps {
   windings: Windings;
+  motor: number;
   played: Played;
   rule: Rule;
   top: number;
   px: (share: number) => number;
 }
-function WindingStrips({ windings, played, rule, top, px }: WindingStripsProps): JSX.Element {
+function WindingStrips({ windings, motor, played, rule, top, px }: WindingStripsProps): JSX.Element {
   const clock = played.answer.clock[rule];
   const first = windings.first;
-  // From one pulse to the next the outputs of X stay as they are.
-  const states = [played.answer.x[0] ?? 0, ...played.answer.x].map((x, k) => ({
+  // From one pulse to the next the outputs stay as they are.
+  const places = played.answer.places[motor] ?? [];
+  const states = [places[0] ?? 0, ...places].map((at, k) => ({
     at: k === 0 ? 0 : (clock[k - 1] ?? 1),
     until: clock[k] ?? 1,
-    place: (k === 0 ? startOf(played, 0) : x) - first,
+    place: (k === 0 ? startOf(played, motor) : at) - first,
   }));
   return (
     <g>
       <text class="lab-strip-title" x={left} y={top + 4}>
-        {say('windingsOfX')}
+        {say('windingsOf', { axis: motorName(motor) })}
       </text>
       {[0, 1, 2, 3].map((output) => {
         const base = top + 12 + output * 20 + 14;
@@ -126,8 +132,8 @@ function WindingStrips({ windings, played, rule, top, px }: WindingStripsProps):
 }
 
 // Where an axis stood before the first pulse.
-export function startOf({ answer }: Played, axis: 0 | 1): number {
-  const after = (axis === 0 ? answer.x[0] : answer.y[0]) ?? 0;
+export function startOf({ answer }: Played, axis: number): number {
+  const after = answer.places[axis]?.[0] ?? 0;
   if ((((answer.steps[0] ?? 0) >> axis) & 1) === 0) return after;
   return (((answer.directions[0] ?? 0) >> axis) & 1) === 1 ? after + 1 : after - 1;
 }

@@ -3,15 +3,15 @@ import type { JSX } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Figures, Interpolation, Rule } from '../core';
 import { short } from '../shared';
-import { codeOf, type MethodCode } from '../view';
-import { say, methodWords } from '../words';
+import { axisNames, codeOf, type MethodCode } from '../view';
+import { cellText, columnWords, say, methodWords } from '../words';
 
 const rowsAround = 24; // of the present pulse, in a long move
 
 export function feedText(answer: Interpolation, pulse: number): string {
   const steps = answer.steps[pulse] ?? 0;
   const directions = answer.directions[pulse] ?? 0;
-  const text = ['X', 'Y'].map((name, axis) => (((steps >> axis) & 1) === 0 ? '' : `${((directions >> axis) & 1) === 1 ? '−' : '+'}${name}`)).join('');
+  const text = axisNames.map((name, axis) => (((steps >> axis) & 1) === 0 ? '' : `${((directions >> axis) & 1) === 1 ? '−' : '+'}${name.toUpperCase()}`)).join('');
   return text === '' ? '–' : text;
 }
 
@@ -37,13 +37,12 @@ export function BeatTable({ answer, beat, onBeat }: { answer: Interpolation; bea
         <thead>
           <tr>
             <th>{say('pulse')}</th>
-            {judge.map(([name]) => <th key={name}>{name}</th>)}
+            {judge.map(([name]) => <th key={name}>{columnWords(name)}</th>)}
             <th>{say('feed')}</th>
-            <th>x</th>
-            <th>y</th>
+            {answer.places.map((_, axis) => <th key={axis}>{axisNames[axis]}</th>)}
             <th>{say('error')}</th>
-            {decisions.map(([name]) => <th key={name}>{name}</th>)}
-            {end.map(([name]) => <th key={name}>{name}</th>)}
+            {decisions.map(([name]) => <th key={name}>{columnWords(name)}</th>)}
+            {end.map(([name]) => <th key={name}>{columnWords(name)}</th>)}
           </tr>
         </thead>
         <tbody>
@@ -51,15 +50,14 @@ export function BeatTable({ answer, beat, onBeat }: { answer: Interpolation; bea
             <tr
               key={pulse}
               ref={pulse === beat - 1 ? present : null}
-              class={pulse === beat - 1 ? 'lab-present' : pulse < beat ? '' : 'lab-to-come'}
+              class={`${pulse === beat - 1 ? 'lab-present' : pulse < beat ? '' : 'lab-to-come'}${answer.fault?.wrong.includes(pulse + 1) ? ' lab-wrong-row' : ''}`}
               aria-current={pulse === beat - 1 ? 'step' : undefined}
               onClick={() => onBeat(pulse + 1)}
             >
               <td>{pulse + 1}</td>
-              {judge.map(([name, cells]) => <td key={name}>{cells[pulse]}</td>)}
+              {judge.map(([name, cells]) => <td key={name}>{cellText(cells[pulse] ?? '')}</td>)}
               <td class="lab-feed">{feedText(answer, pulse)}</td>
-              <td>{answer.x[pulse]}</td>
-              <td>{answer.y[pulse]}</td>
+              {answer.places.map((places, axis) => <td key={axis}>{places[pulse]}</td>)}
               <td>{(answer.deviation[pulse] ?? 0).toFixed(3)}</td>
               {decisions.map(([name, cells]) => <td key={name}>{cells[pulse]}</td>)}
               {end.map(([name, cells]) => <td key={name}>{cells[pulse]}</td>)}

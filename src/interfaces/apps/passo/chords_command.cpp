@@ -248,6 +248,9 @@ int draw_pulses_of(const AnyCurve& curve, const ChordChoice& choice, const StepS
 
 Result<Method, std::string> fine_method(const ChordsArguments& arguments) {
   const std::optional<MethodName> name = method_named(arguments.fine);
+  if (name && right_method_of({.name = *name})) {
+    return Failure{std::string("--fine: a faulty listing does not follow a curve; expected a method")};
+  }
   if (!name) {
     return Failure{
         fmt::format("--fine: '{}' is not one of {}, bresenham", arguments.fine, fmt::join(method_names(), ", "))};

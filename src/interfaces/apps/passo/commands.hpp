@@ -198,8 +198,8 @@ struct ServeArguments {
 int serve(const ServeArguments& arguments);
 
 struct InterpolateArguments {
-  std::string method;  // a name of method_names(); empty with `compare`
-  std::string to;      // "10,4", in steps
+  std::string method;  // a name of method_names(); empty: lean, for an arc midpoint; empty with `compare`
+  std::string to;      // "10,4", in steps, or several points "10,4 27,10"; empty: the dialogue asks for it
   std::string from;    // empty: zero
   std::string center;  // the centre of an arc; empty: a line
   bool clockwise = false;
@@ -211,6 +211,7 @@ struct InterpolateArguments {
   std::optional<double> time;  // seconds for the whole move; prints each pulse with its duration
   std::optional<double> feed;  // mm/min, instead of the time
   std::string rule;            // how durations are computed: roots, exact or beats; empty: roots
+  bool step_times = false;     // prints a line for each point: its time, N1, N2 and the time of a step
   std::string picture;         // .svg or .png
   std::string output;          // empty: standard output
   bool json = false;

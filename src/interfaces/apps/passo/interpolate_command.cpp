@@ -5,8 +5,10 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "interpolate_dialogue.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
+#include "point_after_point.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "pulse_table.hpp"
@@ -15,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/report/interpolation_picture.hpp"
+#include "passo/study/faulty_listing.hpp"
 #include "passo/study/ideal_path.hpp"
 #include "passo/study/measure.hpp"
 
@@ -58,7 +61,12 @@ int write_pulses(const Method& method, const StepMove& move, const PulseTable& t
   const Status<std::string> done = write_pulse_table(method, move, table, *file);
   if (!done) return fail(exit_bad_program, title(method) + " " + done.error());
   const Status<OutputError> written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error().message);
+  if (!written) return fail(exit_failed, written.error().message);
+  if (right_method_of(method)) {
+    std::fflush(stdout);
+    fmt::print(stderr, "{}: {}\n", title(method), check_listing(method, move)->describe());
+  }
+  return exit_done;
 }
 
 // --- figures --------------------------------------------------------------------------------------------------------
@@ -75,6 +83,13 @@ Parsed<std::vector<StudiedMethod>> study(const std::vector<Method>& methods, con
     studied.push_back({.method = method, .measures = *measures});
   }
   return studied;
+}
+
+// In a picture the right method is shown beside a faulty listing.
+std::vector<StudiedMethod> studied_for_picture(const std::vector<StudiedMethod>& studied, const StepMove& move) {
+  const std::optional<Method> right = right_method_of(studied.front().method);
+  if (!right) return studied;
+  return {studied.front(), {.method = *right, .measures = *measure(*right, move)}};
 }
 
 void print_json(const std::vector<StudiedMethod>& studied, const StepMove& move, double um) {
@@ -96,6 +111,13 @@ void print_json(const std::vector<StudiedMethod>& studied, const StepMove& move,
     for (std::size_t rule = 0; rule < speed_rules; ++rule) {
       method["speed"][rule_names[rule]] = {{"lag_steps", found.evenness[rule].lag},
                                            {"ratio", found.evenness[rule].ratio}};
+    }
+    if (const std::optional<Method> right = right_method_of(one.method)) {
+      const auto check = check_listing(one.method, move);
+      method["listing"] = {{"right_method", title(*right)},
+                           {"wrong_pulses", check->wrong()},
+                           {"first_wrong_pulse", check->first_wrong()},
+                           {"end", check->place()}};
     }
     all["methods"].push_back(method);
   }
@@ -145,6 +167,12 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
   return exit_failed;
 }
 
+// Only the method can be chosen for the dialogue.
+bool is_dialogue(const InterpolateArguments& a) {
+  return a.from.empty() && a.center.empty() && !a.clockwise && a.end.empty() && !a.compare && !a.beats && !a.time &&
+         !a.feed && !a.step_times && a.rule.empty() && a.picture.empty() && a.output.empty() && !a.json;
+}
+
 }  // namespace
 
 Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments) {
@@ -169,7 +197,8 @@ Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments
 }
 
 Result<Method, std::string> method_of(const InterpolateArguments& arguments) {
-  const std::optional<MethodName> name = method_named(arguments.method, !arguments.center.empty());
+  const std::string named = arguments.method.empty() ? "bresenham" : arguments.method;
+  const std::optional<MethodName> name = method_named(named, !arguments.center.empty());
   if (!name) {
     return Failure{
         fmt::format("--method: '{}' is not one of {}, bresenham", arguments.method, fmt::join(method_names(), ", "))};
@@ -207,45 +236,62 @@ Result<std::optional<Seconds>, std::string> time_of(const InterpolateArguments& 
   return std::optional(Seconds(length_mm / *arguments.feed * seconds_per_minute));
 }
 
-int interpolate(const InterpolateArguments& arguments) {
-  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
-  const Parsed<StepMove> move = step_move_of(arguments);
-  if (!move) return fail(exit_bad_program, move.error());
-  if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");
-  std::vector<Method> methods;
-  if (arguments.compare) {
-    if (!arguments.method.empty())
-      return fail(exit_bad_program, "--compare uses all methods, so it cannot be combined with --method");
-    methods = methods_for(*move);
-  } else {
-    if (arguments.method.empty()) return fail(exit_bad_program, "expected --method NAME, or --compare");
-    const Parsed<Method> method = method_of(arguments);
-    if (!method) return fail(exit_bad_program, method.error());
-    methods = {*method};
-  }
-  const Parsed<std::optional<Seconds>> time = time_of(arguments, *move);
+namespace {
+
+// What to do with one move: its pulses, its figures, its picture.
+int interpolate_move(const InterpolateArguments& arguments, const std::vector<Method>& methods, const StepMove& move) {
+  const Parsed<std::optional<Seconds>> time = time_of(arguments, move);
   if (!time) return fail(exit_bad_program, time.error());
   const PulseTable table{.beats = arguments.beats, .time = *time, .rule = rule_of(arguments)};
   const bool figures = arguments.compare || arguments.json;
   if (figures && (!arguments.output.empty() || table.beats || table.time)) {
     return fail(exit_bad_program, "--output, --beats, --time and --feed are for the pulses of one method");
   }
-  if (!figures && arguments.picture.empty()) return write_pulses(methods[0], *move, table, arguments.output);
+  if (!figures && arguments.picture.empty()) return write_pulses(methods[0], move, table, arguments.output);
 
-  const Parsed<std::vector<StudiedMethod>> studied = study(methods, *move);
+  const Parsed<std::vector<StudiedMethod>> studied = study(methods, move);
   if (!studied) return fail(exit_bad_program, studied.error());
   if (!arguments.picture.empty()) {
-    const int code = draw(*studied, *move, arguments.picture);
+    const int code = draw(studied_for_picture(*studied, move), move, arguments.picture);
     // A picture is an answer by itself. The pulses are written too only if a file for them is named.
     if (code == exit_done && !arguments.output.empty()) {
-      return write_pulses(methods[0], *move, table, arguments.output);
+      return write_pulses(methods[0], move, table, arguments.output);
     }
     if (code != exit_done) return code;
   }
   const double um = 1000 / arguments.steps_per_mm;
-  if (arguments.json) print_json(*studied, *move, um);
-  if (arguments.compare && !arguments.json) print_table(*studied, *move, um);
+  if (arguments.json) print_json(*studied, move, um);
+  if (arguments.compare && !arguments.json) print_table(*studied, move, um);
   return exit_done;
+}
+
+}  // namespace
+
+int interpolate(const InterpolateArguments& arguments) {
+  if (arguments.to.empty()) {
+    return is_dialogue(arguments) ? interpolate_dialogue(arguments)
+                                  : fail(exit_bad_program, "--to is missing: expected the end of the move, X,Y[,Z...]");
+  }
+  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
+  const Parsed<std::vector<StepMove>> moves = step_moves_of(arguments);
+  if (!moves) return fail(exit_bad_program, moves.error());
+  if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");
+  const bool points =
+      moves->size() > 1 || arguments.step_times || (arguments.json && (arguments.time || arguments.feed));
+  if (points && (arguments.compare || !arguments.picture.empty())) {
+    return fail(exit_bad_program,
+                "--compare and --picture are for one point, without --step-times and without the times of --json");
+  }
+  if (arguments.compare) {
+    if (!arguments.method.empty())
+      return fail(exit_bad_program, "--compare uses all methods, so it cannot be combined with --method");
+    return interpolate_move(arguments, methods_for(moves->front()), moves->front());
+  }
+  const Parsed<Method> method = method_of(arguments);
+  if (!method) return fail(exit_bad_program, method.error());
+  if (!points) return interpolate_move(arguments, {*method}, moves->front());
+  return point_after_point(arguments, *method, *moves,
+                           {.beats = arguments.beats, .time = {}, .rule = rule_of(arguments)});
 }
 
 }  // namespace passo

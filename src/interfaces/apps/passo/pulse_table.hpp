@@ -16,6 +16,10 @@ struct PulseTable {
   bool beats = false;           // judge, feed, compute, check for the end
   std::optional<Seconds> time;  // duration of the whole move; empty: no durations
   SpeedRule rule = SpeedRule::roots;
+  // For one of several moves: its number from 1, which becomes the first column, and when it begins. The header is
+  // written with move 1 only.
+  int point = 0;
+  Seconds begin{0};
 };
 
 // Writes the header and all pulses. Fails with the reason if the method does not support the move.

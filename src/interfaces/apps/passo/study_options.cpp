@@ -89,8 +89,13 @@ Examples:
 void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments) {
   command.add_option("--method", arguments.method,
                      "interpolation method: master-slave, lean, dda, slope-recalculated, slope-blocks, "
-                     "point-comparison or midpoint; bresenham is lean for lines and midpoint for arcs");
-  command.add_option("--to", arguments.to, "end of the move in steps, X,Y[,Z...]")->required();
+                     "point-comparison or midpoint; bresenham is lean for lines and midpoint for arcs (default: "
+                     "bresenham); or a faulty listing: listing:rounding, listing:shared-variable, "
+                     "listing:slope-blocks or listing:projection");
+  command.add_option(
+      "--to", arguments.to,
+      "end of the move in steps, X,Y[,Z...], or several points \"X,Y X,Y ...\" (default: a dialogue asks for "
+      "the steps of each motor)");
   command.add_option("--from", arguments.from, "start of the move (default: 0)");
   command.add_option("--center", arguments.center,
                      "X,Y: centre of an arc; if start and end are the same, a full circle");
@@ -111,6 +116,10 @@ void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments)
           "--rule", arguments.rule,
           "rule for the durations: roots (\u221An for a pulse of n axes), exact, or beats (all equal; default: roots)")
       ->check(CLI::IsMember({"roots", "exact", "beats"}));
+  command.add_flag(
+      "--step-times", arguments.step_times,
+      "with --time or --feed: a line for each point with its time TPS, its pulses of one axis N1 and of two "
+      "axes N2, and the time of a step, t = TPS/(N1 + N2 \u221A2)");
   command.add_flag("--compare", arguments.compare, "compare all methods that support the move");
   command.add_option("-p,--picture", arguments.picture, "picture of the pulses on the grid (FILE.svg or FILE.png)");
   command.add_option("-o,--output", arguments.output, "file for the pulses");
@@ -119,14 +128,19 @@ void add_interpolate_options(CLI::App& command, InterpolateArguments& arguments)
       ->capture_default_str();
   command.footer(
       R"(Prints a line for each pulse: its number, the position of each axis after it, and the method's decision variables.
+Without --to it asks for the steps of motor 1, 2, ... until an empty line, and prints the positions after each pulse.
+A faulty listing is a published program that is wrong on some moves; its wrong pulses are red in the picture.
 
 Examples:
-  passo interpolate --method lean --to 10,4                             major and minor axis, as in an interrupt
+  passo interpolate --to 10,4                                           major and minor axis, as in an interrupt
+  echo 10 4 | passo interpolate                                         the same by the dialogue: only the positions
+  passo interpolate --method listing:shared-variable --to 10,4 -p l.svg  a listing that ends a step too far
   passo interpolate --method dda --half-loaded --to 10,4,7              three axes, half-full integrators
   passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
   passo interpolate --method master-slave --beats --to 7,3              the fractions and midlines of the cells
   passo interpolate --method point-comparison --beats --to 10,4         judge, feed, deviation, end counter
   passo interpolate --method bresenham --to 10,4 --time 1               pulse durations for a constant speed
+  passo interpolate --to "27,3 27,30 0,0" --feed 60 --step-times        point after point: TPS, N1, N2, t
   passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as a table and a picture
   passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle with all methods for arcs)");
 }

@@ -31,13 +31,30 @@ TEST(InterpolationAnswer, TellsTheFootOfTheToolOnThePath) {
   EXPECT_THAT(answer, HasSubstr(R"("foot_x":[0.4999)"));
 }
 
+TEST(InterpolationAnswer, OfSeveralAxesHasAColumnForEach) {
+  const StepMove move{.from = {0, 0, 0}, .to = {3, -2, 1}, .arc = {}};
+  const std::string answer = interpolation_answer({.name = MethodName::lean}, move);
+  EXPECT_THAT(answer, HasSubstr(R"("places":[[1,2,3],[-1,-1,-2],[0,1,1]])"));
+  EXPECT_THAT(answer, HasSubstr(R"("feet":[[)"));
+  EXPECT_THAT(answer, HasSubstr("\"sum_z\""));
+}
+
+TEST(InterpolationAnswer, OfAListingTellsItsFault) {
+  EXPECT_THAT(interpolation_answer({.name = MethodName::listing_rounding}, line_to(22, 15)),
+              HasSubstr(R"("fault":{"right":"lean","first":11,"wrong":[11,12],"end":[22,15],"ends_right":true})"));
+  EXPECT_THAT(interpolation_answer({.name = MethodName::listing_projection}, line_to(4, 4)),
+              HasSubstr(R"("first":8,"wrong":[],"end":[4,3],"ends_right":false})"));
+  EXPECT_THAT(interpolation_answer({.name = MethodName::lean}, line_to(22, 15)), Not(HasSubstr("fault")));
+}
+
 TEST(InterpolationAnswer, RefusesInWords) {
   StepMove arc{.from = {5, 0}, .to = {0, 5}, .arc = StepMove::Arc{.centre = {0, 0}}};
   EXPECT_EQ(interpolation_answer({.name = MethodName::slope_blocks}, arc),
             R"({"error":"slope-blocks is for lines; arcs are for point-comparison, dda and midpoint"})");
   EXPECT_THAT(interpolation_answer({}, line_to(std::int64_t{1} << 40, 1)), HasSubstr("exceeds"));
   EXPECT_THAT(interpolation_answer({}, line_to(most_entries + 1, 1)), HasSubstr("more than 20000 pulses"));
-  EXPECT_THAT(interpolation_answer({}, {.from = {0, 0, 0}, .to = {1, 2, 3}, .arc = {}}), HasSubstr("two axes"));
+  EXPECT_THAT(interpolation_answer({}, {.from = {0}, .to = {1}, .arc = {}}), HasSubstr("fewer than two axes"));
+  EXPECT_THAT(interpolation_answer({.name = MethodName::listing_slope_blocks}, line_to(5, 0)), HasSubstr("by zero"));
 }
 
 TEST(InterpolationAnswer, OfTheLongestMoveIsBounded) {

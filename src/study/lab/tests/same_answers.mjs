@@ -48,7 +48,9 @@ function random(from, to) {
 }
 
 const lineMethods = ['master-slave', 'lean', 'dda', 'slope-recalculated', 'slope-blocks', 'point-comparison'];
-const allMethods = [...lineMethods, 'midpoint'];
+const allMethods = [
+  ...lineMethods, 'midpoint', 'listing:rounding', 'listing:shared-variable', 'listing:slope-blocks', 'listing:projection',
+];
 let compared = 0;
 
 function compareMove(name, halfLoaded, from, to, arc) {
@@ -99,6 +101,24 @@ for (const end of ends.filter(([x, y]) => x !== 0 || y !== 0)) {
   compareMove('dda', true, [random(-9, 9), random(-9, 9)], end);
   compareFigures([0, 0], end);
 }
+// Faulty listings, and lines of several axes.
+for (const name of allMethods.slice(7)) {
+  for (const end of [[22, 15], [3, 29], [-8, 8], [10, 4]]) compareMove(name, false, [0, 0], end);
+}
+for (const end of [[10, 4, 7], [5, -9, 3, 0, 2], [7, 3, 1, -6, 5, 4, 2, 7]]) {
+  for (const name of ['master-slave', 'lean', 'dda', 'listing:rounding', 'listing:shared-variable']) {
+    const printed = columnsOf(passo('interpolate', '--method', name, '--beats', `--to=${end}`));
+    const padded = [...end, ...new Array(8 - end.length).fill(0)];
+    const mine = ask('lab_line', allMethods.indexOf(name), 0, end.length, ...padded);
+    assert.equal(mine.error, undefined, name);
+    end.forEach((_, axis) => assert.deepEqual(texts(mine.places[axis]), printed['xyzabcuv'[axis]], `${name} to ${end}`));
+    for (const [column, values] of Object.entries({ ...mine.judge, ...mine.decisions, ...mine.end })) {
+      assert.deepEqual(texts(values), printed[column], `${name} to ${end}: ${column}`);
+    }
+    ++compared;
+  }
+}
+
 // Arcs: both senses, full circles, ends beside the circle.
 for (let i = 0; i < 8; ++i) {
   const radius = random(3, 40);

@@ -4,6 +4,7 @@
 //
 // Methods, drives and kinds are numbers: the order of their lists in the enums beside the functions.
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -31,6 +32,18 @@ std::size_t answered(std::string text) {
 StepMove move_of(int from_x, int from_y, int to_x, int to_y, int sense, int centre_x, int centre_y) {
   StepMove move{.from = {from_x, from_y}, .to = {to_x, to_y}, .arc = {}};
   if (sense != 0) move.arc = StepMove::Arc{.centre = {centre_x, centre_y}, .clockwise = sense == 2};
+  return move;
+}
+
+constexpr int last_method = static_cast<int>(MethodName::listing_projection);
+
+// A line of `axes` axes, 2 to 8, from zero.
+StepMove line_to(int axes, std::initializer_list<int> ends) {
+  StepMove move;
+  for (const int end : ends) {
+    if (static_cast<int>(move.to.size()) < axes) move.to.push_back(end);
+  }
+  move.from = Place(move.to.size(), 0);
   return move;
 }
 
@@ -82,9 +95,21 @@ const char* PASSO_EXPORT(lab_answer)() {
 // `method`: MethodName.
 std::size_t PASSO_EXPORT(lab_interpolation)(int method, int half_loaded, int from_x, int from_y, int to_x, int to_y,
                                             int sense, int centre_x, int centre_y) {
-  if (method < 0 || method > static_cast<int>(MethodName::midpoint)) return answered(error_answer("no such method"));
+  if (method < 0 || method > last_method) return answered(error_answer("no such method"));
   const Method chosen{.name = static_cast<MethodName>(method), .half_loaded = half_loaded != 0};
   return answered(interpolation_answer(chosen, move_of(from_x, from_y, to_x, to_y, sense, centre_x, centre_y)));
+}
+
+// The same for a line of several axes from zero.
+std::size_t PASSO_EXPORT(lab_line)(int method, int half_loaded, int axes, int x, int y, int z, int a, int b, int c,
+                                   int u, int v) {
+  if (method < 0 || method > last_method) return answered(error_answer("no such method"));
+  const Method chosen{.name = static_cast<MethodName>(method), .half_loaded = half_loaded != 0};
+  return answered(interpolation_answer(chosen, line_to(axes, {x, y, z, a, b, c, u, v})));
+}
+
+std::size_t PASSO_EXPORT(lab_line_comparison)(int axes, int x, int y, int z, int a, int b, int c, int u, int v) {
+  return answered(comparison_answer(line_to(axes, {x, y, z, a, b, c, u, v})));
 }
 
 std::size_t PASSO_EXPORT(lab_comparison)(int from_x, int from_y, int to_x, int to_y, int sense, int centre_x,

@@ -25,6 +25,11 @@ enum class MethodName : std::uint8_t {
   slope_blocks,
   point_comparison,
   midpoint,
+  // Faulty listings, see passo/study/faulty_listing.hpp. They are no methods: methods_for() leaves them out.
+  listing_rounding,
+  listing_shared_variable,
+  listing_slope_blocks,
+  listing_projection,
 };
 enum class EndJudging : std::uint8_t { coordinates, projection, total };
 
@@ -35,10 +40,12 @@ struct Method {
   EndJudging end_judging = EndJudging::total;      // point comparison of lines; the pulses are the same for all
 };
 
-// Returns all names, in a fixed order: "master-slave", "lean", ….
+// Returns all names, in the order of MethodName: "master-slave", "lean", …, "listing:rounding", ….
 const std::vector<std::string>& method_names();
 // Also accepts "bresenham", the common name of `lean`, and for arcs of `midpoint`.
 std::optional<MethodName> method_named(std::string_view name, bool arc = false);
+// Returns the method that a faulty listing was meant to be; empty for a method.
+std::optional<Method> right_method_of(const Method& method);
 // Returns e.g. "dda, half loaded".
 std::string title(const Method& method);
 
@@ -56,7 +63,7 @@ class PulseSource {
 // an arc is cut by …".
 Result<std::unique_ptr<PulseSource>, std::string> start(const Method& method, const StepMove& move);
 
-// Returns every method that supports this move, with its variants.
+// Returns every method that supports this move, with its variants, without the faulty listings.
 std::vector<Method> methods_for(const StepMove& move);
 
 }  // namespace passo

@@ -39,6 +39,7 @@ class PulseDetails {
  private:
   std::vector<std::string> fractions(std::int64_t k, const Place& place) const;
   std::vector<std::string> slopes(const Place& place) const;
+  std::vector<std::string> shared_sums(std::int64_t decision) const;
   std::vector<std::string> block(std::int64_t k) const;
   std::int64_t at_midpoint(const Place& place, std::int64_t deviation) const;
   std::int64_t length(std::size_t axis) const;  // steps of an axis of a line
