@@ -70,7 +70,7 @@ export const en = {
   idle: 'Idle',
   lag: 'Lead or lag, steps',
   fastestSlowest: 'Fastest : slowest',
-  'method_master-slave': 'Master and slaves, by rounding',
+  'method_master-slave': 'Major and minor axis, by rounding',
   method_lean: 'Bresenham line',
   method_dda: 'Digital differential analyser (DDA)',
   'method_dda-half': 'DDA with half-full registers',
