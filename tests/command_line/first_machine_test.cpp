@@ -211,6 +211,7 @@ TEST_F(FirstMachine, has_no_inputs) {
   write("probe.ngc", "G21 F100\nG38.2 Z-1\nM2\n");
   EXPECT_THAT(run("run probe.ngc" + machine).err, HasSubstr("[port.no-inputs]"));
   EXPECT_THAT(run("run probe.ngc --touch Z:-1" + machine).err, HasSubstr("has none"));
+  EXPECT_THAT(run("jog X1" + machine).err, HasSubstr("[board.one-way]"));
   EXPECT_THAT(run("run probe.ngc --anyway -m examples/machines/first-machine.toml").err, HasSubstr("sim:first_board"));
 }
 
