@@ -1,10 +1,12 @@
 // docs/manual/first-machine.md: its commands, in their order, and what it says of them.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
@@ -14,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using passo::test::checkout;
-using passo::test::contains;
 using passo::test::lacks_an_emulator;
 using passo::test::Outcome;
 using passo::test::read;
@@ -104,7 +105,7 @@ std::set<std::pair<long, long>> holes_of(const std::string& program, double scal
   for (std::string line; std::getline(text, line);) {
     std::smatch words;
     if (!std::regex_search(line, words, hole)) continue;
-    const auto hundredths = [&](int word) { return std::lround(std::stod(words[word]) * scale * 100); };
+    const auto hundredths = [&](std::size_t word) { return std::lround(std::stod(words[word]) * scale * 100); };
     holes.emplace(hundredths(1), hundredths(2));
   }
   return holes;
