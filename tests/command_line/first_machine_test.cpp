@@ -1,10 +1,12 @@
 // docs/manual/first-machine.md: its commands, in their order, and what it says of them.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
@@ -14,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using passo::test::checkout;
-using passo::test::contains;
 using passo::test::lacks_an_emulator;
 using passo::test::Outcome;
 using passo::test::read;
@@ -104,7 +105,7 @@ std::set<std::pair<long, long>> holes_of(const std::string& program, double scal
   for (std::string line; std::getline(text, line);) {
     std::smatch words;
     if (!std::regex_search(line, words, hole)) continue;
-    const auto hundredths = [&](int word) { return std::lround(std::stod(words[word]) * scale * 100); };
+    const auto hundredths = [&](std::size_t word) { return std::lround(std::stod(words[word]) * scale * 100); };
     holes.emplace(hundredths(1), hundredths(2));
   }
   return holes;
@@ -211,6 +212,7 @@ TEST_F(FirstMachine, has_no_inputs) {
   write("probe.ngc", "G21 F100\nG38.2 Z-1\nM2\n");
   EXPECT_THAT(run("run probe.ngc" + machine).err, HasSubstr("[port.no-inputs]"));
   EXPECT_THAT(run("run probe.ngc --touch Z:-1" + machine).err, HasSubstr("has none"));
+  EXPECT_THAT(run("jog X1" + machine).err, HasSubstr("[board.one-way]"));
   EXPECT_THAT(run("run probe.ngc --anyway -m examples/machines/first-machine.toml").err, HasSubstr("sim:first_board"));
 }
 

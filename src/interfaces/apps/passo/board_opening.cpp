@@ -42,6 +42,9 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
     if (!line) return Failure{line.error()};
     return std::unique_ptr<BoardPort>(std::move(*line));
   }
+  if (address.place == "first_board") {
+    return Failure{"sim:first_board has no link back to the computer: only passo run can use it [board.one-way]"};
+  }
   if (!is_emulated_board(address.place)) {
     return Failure{fmt::format("sim:{}: unknown board; there are emulators of {}", address.place,
                                fmt::join(emulated_boards, ", "))};

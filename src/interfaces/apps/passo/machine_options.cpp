@@ -10,8 +10,9 @@ void add_machine(CLI::App& command, std::string& machine) {
 
 void add_board(CLI::App& command, std::string& board) {
   command.add_option("-b,--board", board,
-                     "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega (see passo board), or for run "
-                     "and home grbl:DEVICE, a machine with Grbl (default: the simulated machine)");
+                     "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega (see passo board), for run "
+                     "and home also grbl:DEVICE, a machine with Grbl, and for run sim:first_board, a parallel port and "
+                     "a PIC (default: the simulated machine)");
 }
 
 void add_jog_options(CLI::App& command, JogArguments& arguments) {

@@ -124,7 +124,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       "  passo run examples/drill-board.ngc -m examples/machines/forty-eight.toml -p board.svg --colour-by tool "
       "--no-rapids\n"
       "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20\n"
-      "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2");
+      "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2\n"
+      "  passo run holes.ngc -m examples/machines/first-machine.toml --board sim:first_board --true-path drilled.ngc");
 }
 
 void add_check_options(CLI::App& command, CheckArguments& arguments) {
