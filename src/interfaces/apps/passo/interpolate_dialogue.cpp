@@ -6,14 +6,19 @@
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "named_files.hpp"
+#include "program_input.hpp"
 #include "study_moves.hpp"
 #include "terminal.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "passo/interpolate/bresenham_line.hpp"
+#include "passo/report/output_file.hpp"
 #include "passo/study/measure.hpp"
 
 namespace passo {

@@ -1,11 +1,12 @@
 #include "point_after_point.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
 
-#include "named_files.hpp"
+#include "program_input.hpp"
 #include "study_moves.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -23,9 +23,9 @@ namespace passo {
 inline constexpr std::int64_t most_entries = 20'000;
 
 // Returns one move by one method, pulse by pulse: position, deviation from the ideal path in steps, the fraction of the
-// time under each SpeedRule, and the method's decisions and counters (study/pulse_details.hpp). `ideal` is the path as a
-// polyline in X and Y; `places` and `feet` have a column for each of the two to eight axes. For a faulty listing, `fault`
-// has the numbers of its wrong pulses and where it ends.
+// time under each SpeedRule, and the method's decisions and counters (study/pulse_details.hpp). `ideal` is the path as
+// a polyline in X and Y; `places` and `feet` have a column for each of the two to eight axes. For a faulty listing,
+// `fault` has the numbers of its wrong pulses and where it ends.
 std::string interpolation_answer(const Method& method, const StepMove& move);
 // Returns the figures of every method that supports the move.
 std::string comparison_answer(const StepMove& move);
