@@ -178,8 +178,8 @@ TEST_F(FirstMachine, engraves_letters_and_carves_a_relief_for_their_first_second
 TEST_F(FirstMachine, refuses_pulses_that_are_too_short_for_the_loop) {
   const std::string school = read(checkout + "/examples/machines/first-machine.toml");
   write("fast.toml",
-        std::regex_replace(std::regex_replace(school, std::regex("step_pulse_us = 75\n"), "step_pulse_us = 20\n"),
-                           std::regex("max_event_rate_hz = 6600\n"), "max_event_rate_hz = 20000\n"));
+        std::regex_replace(std::regex_replace(school, std::regex("step_pulse_us = 50\n"), "step_pulse_us = 20\n"),
+                           std::regex("max_event_rate_hz = 10_000\n"), "max_event_rate_hz = 20000\n"));
   write("holes.ngc", "G21 G90 F300\nG1 X4 Y2 Z1\nG1 X0 Y0 Z0\nM2\n");
   const auto shown = commands_of(document, "Too fast for the loop");
   ASSERT_EQ(shown.size(), 1U);

@@ -22,7 +22,7 @@ using Nanoseconds = std::int64_t;  // from the end of the reset
 
 // The shortest level, high or low, that the first board is sure to detect on a clock line: its longest turn, with three
 // motors (docs/follower.md, "How fast").
-inline constexpr Nanoseconds first_board_level = 75'000;
+inline constexpr Nanoseconds first_board_level = 48'000;
 
 // The line has this level from `at` on. Before its first change a line is low, and no key is pressed. A "reset" is a
 // short pulse.
