@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# scripts/package_test.sh: makes the Debian packages twice, compares them, and installs them in a bare Debian 12. There it
+# runs a first job, opens the web interface, upgrades, removes and purges. What each step takes is printed.
+#
+# The bare system is made by debootstrap, once, in build/packages/debian12.tar. Exit code 77, "skipped": not root, no
+# debootstrap, or no network.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+skip() {
+  echo "$1" >&2
+  exit 77
+}
+[[ $EUID == 0 ]] || skip "Only root can enter a bare system."
+for program in debootstrap dh curl; do
+  command -v "$program" >/dev/null || skip "$program is not installed."
+done
+# Mounts of a namespace of its own disappear with it.
+[[ -n ${PASSO_IN_NAMESPACE-} ]] || PASSO_IN_NAMESPACE=1 exec unshare --mount "$0"
+
+begun=$(date +%s%N)
+ends() {  # STEP
+  local now
+  now=$(date +%s%N)
+  printf '%-34s %6.1f s\n' "$1" "$(((now - begun) / 100000000))e-1"
+  begun=$(date +%s%N)
+}
+fail() {
+  echo "scripts/package_test.sh: $1" >&2
+  exit 1
+}
+
+packages=build/packages
+rm -f "$packages"/*.deb
+scripts/package.sh >/dev/null
+ends "packages made"
+first=("$packages"/passo_*.deb "$packages"/passo-emulators_*.deb)
+mkdir -p "$packages/before"
+mv "${first[@]}" "$packages/before/"
+scripts/package.sh >/dev/null
+for file in "$packages/before"/*.deb; do
+  cmp "$file" "$packages/${file##*/}" || fail "${file##*/} is another one when it is made again"
+done
+ends "made again, the same bytes"
+version=$(dpkg-deb --field "${first[0]}" Version)
+architecture=$(dpkg --print-architecture)
+scripts/package.sh --version "$version+1" >/dev/null
+ends "the next version"
+
+# --- a bare system, with the libraries that the packages ask for
+base=$packages/debian12.tar
+needed=$(for file in "$packages/before"/*.deb; do dpkg-deb --field "$file" Depends; done |
+  tr ',' '\n' | sed 's/(.*//; s/|.*//; s/ //g' | grep -vx passo | sort -u | paste -sd' ')
+root=$(mktemp -d /tmp/passo-root.XXXXXX)
+trap 'rm -rf --one-file-system "$root"' EXIT
+mount -t tmpfs tmpfs "$root"
+if [[ ! -f $base || $(cat "$base.needed" 2>/dev/null) != "$needed" ]]; then
+  debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$packages/debootstrap.log" 2>&1 ||
+    skip "debootstrap fails; is there a network? See $packages/debootstrap.log"
+  # shellcheck disable=SC2086  # a list of packages
+  chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends $needed >>"$packages/debootstrap.log" 2>&1 ||
+    skip "The libraries cannot be fetched. See $packages/debootstrap.log"
+  chroot "$root" apt-get clean
+  tar --create --one-file-system --file "$base.unfinished" --directory "$root" .
+  mv "$base.unfinished" "$base"
+  echo "$needed" >"$base.needed"
+  ends "bare Debian 12 made"
+else
+  tar --extract --file "$base" --directory "$root"
+  ends "bare Debian 12 unpacked"
+fi
+mount -t proc proc "$root/proc"
+mount --bind /dev "$root/dev"
+
+inside() {
+  chroot "$root" env HOME=/root DEBIAN_FRONTEND=noninteractive "$@"
+}
+# All files, except what dpkg itself and the C library keep.
+list_files() {
+  (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./tmp -o -path ./var/lib/dpkg -o -path ./var/log \
+    -o -path ./var/cache -o -path ./root -o -path ./etc/ld.so.cache \) -prune -o -print | sort)
+}
+list_files >"$packages/files.before"
+
+# --- install, the first job
+mkdir "$root/packages"
+cp "$packages/before"/*.deb "$packages"/*+1_"$architecture".deb "$root/packages/"
+list_files >"$packages/files.before"
+inside sh -c "dpkg --install /packages/*_${version}_$architecture.deb" >"$packages/install.log" 2>&1 ||
+  fail "the packages cannot be installed: see $packages/install.log"
+ends "installed"
+examples=/usr/share/passo/examples
+inside passo run --yes "$examples/engrave.ngc" --machine "$examples/machines/pantograph.toml" --picture /tmp/engrave.png \
+  --report /tmp/report.json -q
+[[ -s $root/tmp/engrave.png && -s $root/tmp/report.json ]] || fail "the first job wrote no picture or no report"
+ends "first job"
+printf 'G21 G90\nG1 X1 F300\nM2\n' >"$root/tmp/short.ngc"
+inside passo run /tmp/short.ngc --machine "$examples/machines/uno.toml" --board sim:uno --from-here --yes -q ||
+  fail "the emulated Uno does not run"
+ends "a job on the emulated Uno"
+
+# --- the web interface, and what a server keeps
+serve() {
+  inside passo serve --http 127.0.0.1:0 --data /var/lib/passo >"$packages/serve.log" 2>&1 &
+  server=$!
+  for _ in {1..100}; do
+    page=$(grep -oE 'http://127.0.0.1:[0-9]+' "$packages/serve.log" | head -n 1) || true
+    [[ -n $page ]] && curl --silent --fail --output "$packages/index.html" "$page/" && return
+    sleep 0.1
+  done
+  fail "passo serve does not answer: see $packages/serve.log"
+}
+end_server() {
+  # `chroot` became `env` became `passo`: it is one process.
+  kill -INT "$server"
+  wait "$server" || true
+}
+serve
+grep -q '<title>' "$packages/index.html" || fail "passo serve has no web interface"
+script=$(grep -oE '/assets/index-[^"]+\.js' "$packages/index.html" | head -n 1)
+curl --silent --fail --output /dev/null "$page$script" || fail "passo serve does not serve $script"
+end_server
+[[ -s $root/var/lib/passo/jobs.sqlite ]] || fail "passo serve kept no jobs"
+ends "passo serve with its page"
+
+# --- upgrade, remove, purge
+cp "$root$examples/machines/router.toml" "$root/etc/passo/machine.toml"
+echo '# mine' >>"$root/etc/default/passo"
+sha256sum "$root/var/lib/passo/jobs.sqlite" "$root/etc/passo/machine.toml" "$root/etc/default/passo" >"$packages/state"
+inside sh -c "dpkg --install /packages/*+1_$architecture.deb" >>"$packages/install.log" 2>&1 || fail "the upgrade fails"
+sha256sum --check --quiet "$packages/state" || fail "the upgrade changed what a user has"
+# shellcheck disable=SC2016  # the braces are dpkg-query's
+[[ $(inside dpkg-query -W -f '${Version}' passo) == "$version+1" ]] || fail "the upgrade left the version before"
+serve
+end_server
+ends "upgraded, state kept"
+inside dpkg --remove passo-emulators passo >>"$packages/install.log" 2>&1
+[[ ! -e $root/usr/bin/passo && -s $root/var/lib/passo/jobs.sqlite && -s $root/etc/passo/machine.toml ]] ||
+  fail "removal leaves the program, or takes what a user has"
+inside dpkg --purge passo-emulators passo >>"$packages/install.log" 2>&1
+list_files | diff "$packages/files.before" - || fail "the purge leaves these files"
+ends "removed and purged, nothing left"
