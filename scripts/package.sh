@@ -1,25 +1,16 @@
 #!/usr/bin/env bash
-# scripts/package.sh [--version VERSION]: makes the Debian packages passo and passo-emulators from build/release and
-# build/page, and writes them with SHA256SUMS into build/packages.
-#
-#   --version VERSION   a version other than that of CMakeLists.txt, for tests of an upgrade
+# scripts/package.sh: makes the Debian packages passo and passo-emulators from build/release and build/page, and writes
+# them with SHA256SUMS into build/packages.
 #
 # It compiles only what is missing in build/release. It needs debhelper; with lintian it checks the packages, too, unless
 # PASSO_NO_LINTIAN is set.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-version=
-case "${1-}" in
-  "") ;;
-  --version)
-    version=${2:?--version: expected a version, such as 1.2.0+test}
-    ;;
-  *)
-    sed -n '2,8s/^# \{0,1\}//p' "$0"
-    exit 2
-    ;;
-esac
+if (($# > 0)); then
+  sed -n '2,6s/^# \{0,1\}//p' "$0"
+  exit 2
+fi
 for program in dh dpkg-buildpackage; do
   command -v "$program" >/dev/null || {
     echo "scripts/package.sh: $program is not installed: apt-get install debhelper dpkg-dev" >&2
@@ -44,14 +35,6 @@ folder=$(mktemp -d build/packages/work.XXXXXX)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/passo"
 cp -r debian "$folder/passo/"
-if [[ -n $version ]]; then
-  {
-    printf 'passo (%s) unstable; urgency=medium\n\n  * A test.\n\n -- %s  %s\n\n' "$version" \
-      "$(dpkg-parsechangelog --file debian/changelog --show-field Maintainer)" \
-      "$(dpkg-parsechangelog --file debian/changelog --show-field Date)"
-    cat debian/changelog
-  } >"$folder/passo/debian/changelog"
-fi
 build=$PWD/build/release
 (
   cd "$folder/passo"
@@ -69,6 +52,7 @@ if [[ -z ${PASSO_NO_LINTIAN-} ]] && command -v lintian >/dev/null; then
   }
   cp "$folder/lintian" build/packages/lintian.txt
 fi
+rm -f build/packages/*.deb
 mv "$folder"/*.deb build/packages/
 (cd build/packages && sha256sum -- *.deb >SHA256SUMS)
 ls -l build/packages/*.deb

@@ -16,7 +16,7 @@ for program in debootstrap dh curl; do
   command -v "$program" >/dev/null || skip "$program is not installed."
 done
 # Mounts of a namespace of its own disappear with it.
-[[ -n ${PASSO_IN_NAMESPACE-} ]] || PASSO_IN_NAMESPACE=1 exec unshare --mount "$0"
+[[ -n ${PASSO_IN_NAMESPACE-} ]] || PASSO_IN_NAMESPACE=1 exec unshare --mount "$PWD/scripts/package_test.sh"
 
 begun=$(date +%s%N)
 ends() {  # STEP
@@ -31,7 +31,7 @@ fail() {
 }
 
 packages=build/packages
-rm -f "$packages"/*.deb
+rm -rf "$packages"/*.deb "$packages/before" "$packages/next"
 scripts/package.sh >/dev/null
 ends "packages made"
 first=("$packages"/passo_*.deb "$packages"/passo-emulators_*.deb)
@@ -43,8 +43,14 @@ for file in "$packages/before"/*.deb; do
 done
 ends "made again, the same bytes"
 version=$(dpkg-deb --field "${first[0]}" Version)
-architecture=$(dpkg --print-architecture)
-PASSO_NO_LINTIAN=1 scripts/package.sh --version "$version+1" >/dev/null
+# The next version: the same files.
+mkdir -p "$packages/next"
+for file in "$packages/before"/*.deb; do
+  rm -rf "$packages/raw"
+  dpkg-deb --raw-extract "$file" "$packages/raw"
+  sed -i "s/^Version: .*/&+1/; s/passo (= $version)/passo (= $version+1)/" "$packages/raw/DEBIAN/control"
+  dpkg-deb -Znone --build "$packages/raw" "$packages/next/${file##*/}" >/dev/null
+done
 ends "the next version"
 
 # --- a bare system, with the libraries that the packages ask for
@@ -52,7 +58,8 @@ base=$packages/debian12.tar
 needed=$(for file in "$packages/before"/*.deb; do dpkg-deb --field "$file" Depends; done |
   tr ',' '\n' | sed 's/(.*//; s/|.*//; s/ //g' | grep -vx passo | sort -u | paste -sd' ')
 root=$(mktemp -d /tmp/passo-root.XXXXXX)
-trap 'rm -rf --one-file-system "$root"' EXIT
+server=
+trap '[[ -z $server ]] || kill "$server"; umount -R "$root" && rmdir "$root"' EXIT
 mount -t tmpfs tmpfs "$root"
 if [[ ! -f $base || $(cat "$base.needed" 2>/dev/null) != "$needed" ]]; then
   debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$packages/debootstrap.log" 2>&1 ||
@@ -80,13 +87,12 @@ list_files() {
   (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./tmp -o -path ./var/lib/dpkg -o -path ./var/log \
     -o -path ./var/cache -o -path ./root -o -path ./etc/ld.so.cache \) -prune -o -print | sort)
 }
-list_files >"$packages/files.before"
 
 # --- install, the first job
 mkdir "$root/packages"
-cp "$packages/before"/*.deb "$packages"/*+1_"$architecture".deb "$root/packages/"
+cp -r "$packages/before" "$packages/next" "$root/packages/"
 list_files >"$packages/files.before"
-inside sh -c "dpkg --install /packages/*_${version}_$architecture.deb" >"$packages/install.log" 2>&1 ||
+inside sh -c "dpkg --install /packages/before/*.deb" >"$packages/install.log" 2>&1 ||
   fail "the packages cannot be installed: see $packages/install.log"
 ends "installed"
 examples=/usr/share/passo/examples
@@ -94,14 +100,15 @@ inside passo run --yes "$examples/engrave.ngc" --machine "$examples/machines/pan
   --report /tmp/report.json -q
 [[ -s $root/tmp/engrave.png && -s $root/tmp/report.json ]] || fail "the first job wrote no picture or no report"
 ends "first job"
-printf 'G21 G90\nG1 X1 F300\nM2\n' >"$root/tmp/short.ngc"
+printf 'G21 G90\nG0 X1\nM2\n' >"$root/tmp/short.ngc"
 inside passo run /tmp/short.ngc --machine "$examples/machines/uno.toml" --board sim:uno --from-here --yes -q ||
   fail "the emulated Uno does not run"
 ends "a job on the emulated Uno"
 
 # --- the web interface, and what a server keeps
 serve() {
-  inside passo serve --http 127.0.0.1:0 --data /var/lib/passo >"$packages/serve.log" 2>&1 &
+  # Not a function, which would run in a shell of its own: this process becomes passo.
+  chroot "$root" env HOME=/root passo serve --http 127.0.0.1:0 --data /var/lib/passo >"$packages/serve.log" 2>&1 &
   server=$!
   for _ in {1..100}; do
     page=$(grep -oE 'http://127.0.0.1:[0-9]+' "$packages/serve.log" | head -n 1) || true
@@ -111,9 +118,9 @@ serve() {
   fail "passo serve does not answer: see $packages/serve.log"
 }
 end_server() {
-  # `chroot` became `env` became `passo`: it is one process.
-  kill -INT "$server"
+  kill -TERM "$server"
   wait "$server" || true
+  server=
 }
 serve
 grep -q '<title>' "$packages/index.html" || fail "passo serve has no web interface"
@@ -127,7 +134,7 @@ ends "passo serve with its page"
 cp "$root$examples/machines/router.toml" "$root/etc/passo/machine.toml"
 echo '# mine' >>"$root/etc/default/passo"
 sha256sum "$root/var/lib/passo/jobs.sqlite" "$root/etc/passo/machine.toml" "$root/etc/default/passo" >"$packages/state"
-inside sh -c "dpkg --install /packages/*+1_$architecture.deb" >>"$packages/install.log" 2>&1 || fail "the upgrade fails"
+inside sh -c "dpkg --install /packages/next/*.deb" >>"$packages/install.log" 2>&1 || fail "the upgrade fails"
 sha256sum --check --quiet "$packages/state" || fail "the upgrade changed what a user has"
 # shellcheck disable=SC2016  # the braces are dpkg-query's
 [[ $(inside dpkg-query -W -f '${Version}' passo) == "$version+1" ]] || fail "the upgrade left the version before"

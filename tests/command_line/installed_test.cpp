@@ -99,7 +99,7 @@ class CommandDocuments : public Installed {
     static const std::regex option("\n  (-[a-zA-Z])?,?(--[a-z0-9-]+)");
     static const std::regex command("\n  ([a-z]+) {2,}");
     for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) {
-      for (const std::string name : {(*it)[1].str(), (*it)[2].str()}) {
+      for (const std::string& name : {(*it)[1].str(), (*it)[2].str()}) {
         if (!name.empty()) help.options.push_back(name);
       }
     }
