@@ -101,6 +101,7 @@ inside passo run --yes "$examples/engrave.ngc" --machine "$examples/machines/pan
 [[ -s $root/tmp/engrave.png && -s $root/tmp/report.json ]] || fail "the first job wrote no picture or no report"
 ends "first job"
 printf 'G21 G90\nG0 X1\nM2\n' >"$root/tmp/short.ngc"
+inside passo board info sim:uno >"$packages/info" || fail "there is no emulated Uno"
 inside passo run /tmp/short.ngc --machine "$examples/machines/uno.toml" --board sim:uno --from-here --yes -q ||
   fail "the emulated Uno does not run"
 ends "a job on the emulated Uno"
