@@ -12,7 +12,7 @@ constexpr int deepest_program = 5;
 
 fs::path emulator_file(std::string_view name, const fs::path& from) {
   std::error_code none;
-  const fs::path installed = (from / PASSO_LIBEXEC_FROM_PROGRAM / name).lexically_normal();
+  fs::path installed = (from / PASSO_LIBEXEC_FROM_PROGRAM / name).lexically_normal();
   if (fs::exists(installed, none)) return installed;
   fs::path folder = from;
   for (int depth = 0; depth < deepest_program; ++depth, folder = folder.parent_path()) {

@@ -20,7 +20,7 @@ fs::path built_file(const fs::path& name) {
   std::error_code none;
   const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
   for (const char* const folder : {PASSO_SHARE_FROM_PROGRAM "/firmware", PASSO_LIBEXEC_FROM_PROGRAM "/firmware"}) {
-    const fs::path installed = (program / folder / name).lexically_normal();
+    fs::path installed = (program / folder / name).lexically_normal();
     if (fs::exists(installed, none)) return installed;
   }
   return program / PASSO_IMAGES_FOLDER / name;

@@ -273,11 +273,12 @@ std::string zsh_completion(const std::vector<CommandText>& commands) {
   std::string words;
   for (const CommandText& command : commands) {
     std::vector<std::string> rows;
-    for (const auto& [name, purpose] : command.commands) rows.push_back(in_quotes(name + ":" + purpose));
+    for (const auto& [name, purpose] : command.commands) rows.push_back(in_quotes(fmt::format("{}:{}", name, purpose)));
     std::vector<std::string> options;
     for (const OptionText& option : command.options) {
       if (option.is_positional) continue;
-      for (const std::string& name : option.names) options.push_back(in_quotes(name + ":" + option.description));
+      for (const std::string& name : option.names)
+        options.push_back(in_quotes(fmt::format("{}:{}", name, option.description)));
     }
     words += fmt::format("    {})\n      commands=({})\n      options=({})\n      ;;\n", in_quotes(command.path),
                          fmt::join(rows, " "), fmt::join(options, " "));
