@@ -31,6 +31,7 @@ endif()
 set(PASSO_WASM_OPTIONS
   --target=wasm32-wasi -std=c++20 -Os -fno-exceptions -fno-rtti -fno-threadsafe-statics
   -ffunction-sections -fdata-sections -Wall -Wextra -Wconversion -Wshadow
+  "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}/="
   -DFMT_HEADER_ONLY=1 -isystem "${PROJECT_BINARY_DIR}/wasm_include")
 
 # passo_wasm_module(NAME SOURCES module/file… [MODULES module…])

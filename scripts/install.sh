@@ -41,6 +41,7 @@ test_packages=(
   jq                         # the table of scripts/motion_table.sh
   curl netcat-openbsd        # a web page's request to the sender port of passo serve
   chromium                   # the stories of the page of passo serve
+  debhelper lintian debootstrap  # Debian packages, their check, and a bare system to install them in
 )
 
 # The page of passo serve is built with node, 18 or later, and the Pico's emulator, rp2040js, runs on it. A node from

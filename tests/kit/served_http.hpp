@@ -28,12 +28,12 @@ class ServedHttp : public ServedBoard {
     server_ = fork();
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      std::vector<std::string> words = {PASSO_PROGRAM, "serve", "--http", "127.0.0.1:0"};
+      std::vector<std::string> words = {program_, "serve", "--http", "127.0.0.1:0"};
       words.insert(words.end(), more.begin(), more.end());
       std::vector<char*> arguments;
       for (std::string& word : words) arguments.push_back(word.data());
       arguments.push_back(nullptr);
-      execv(PASSO_PROGRAM, arguments.data());
+      execv(program_.c_str(), arguments.data());
       _exit(1);
     }
     for (int i = 0; i < 1000 && read(said).find("Ctrl-C") == std::string::npos; ++i) usleep(10'000);
@@ -91,6 +91,8 @@ class ServedHttp : public ServedBoard {
     for (int i = 0; i < 3000 && !condition(); ++i) usleep(10'000);
     return condition();
   }
+
+  std::string program_ = PASSO_PROGRAM;  // the program that serves
 
  private:
   int port_behind(const std::string& words) const {

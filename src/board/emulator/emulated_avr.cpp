@@ -5,17 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "passo/emulator/emulator_files.hpp"
+
 namespace passo {
 
 Result<std::string, std::string> avr_emulator() {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", none).parent_path() / "passo-emulate-avr";
-  if (fs::exists(beside, none)) return beside.string();
-  if (fs::exists(PASSO_EMULATED_AVR, none)) return std::string(PASSO_EMULATED_AVR);
+  const std::filesystem::path found = emulator_file("passo-emulate-avr");
+  if (!found.empty()) return found.string();
   return Failure<std::string>{
-      "passo-emulate-avr, which emulates the Uno and the Mega, is missing: scripts/start.sh builds it if libsimavr-dev "
-      "and libelf-dev are installed"};
+      "passo-emulate-avr, which emulates the Uno and the Mega, is missing: it is in the package passo-emulators; in a "
+      "build from source, scripts/start.sh builds it if libsimavr-dev and libelf-dev are installed"};
 }
 
 std::uint32_t PinNumbers::number(Pin pin, bool when_drawn_low) {

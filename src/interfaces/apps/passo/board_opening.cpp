@@ -14,9 +14,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// The image of an emulated chip that is not in the build folder is installed with its emulator, that of a board with
+// the program. Where neither exists, this is the place in which the build would have put it.
 fs::path built_file(const fs::path& name) {
   std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path() / PASSO_IMAGES_FOLDER / name;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const char* const folder : {PASSO_SHARE_FROM_PROGRAM "/firmware", PASSO_LIBEXEC_FROM_PROGRAM "/firmware"}) {
+    fs::path installed = (program / folder / name).lexically_normal();
+    if (fs::exists(installed, none)) return installed;
+  }
+  return program / PASSO_IMAGES_FOLDER / name;
 }
 
 }  // namespace
@@ -29,7 +36,10 @@ fs::path built_follower(std::string_view follower) {
 }
 
 std::string message_of_missing(const fs::path& image) {
-  return image.string() + " is missing: scripts/test.sh builds the firmware; docs/boards.md lists the boards";
+  return image.string() +
+         " is missing: it is in the packages passo and passo-emulators; in a build from source, scripts/start.sh "
+         "builds "
+         "it; docs/boards.md lists the boards";
 }
 
 Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant,

@@ -14,8 +14,8 @@
 
 namespace passo {
 
-// Returns the path of the firmware `motion` for `board` in the build folder, relative to the location of this program.
-// `extension`: ".hex" or ".elf".
+// Returns the path of the firmware `motion` for `board`, installed or in the build folder. Both are found by the
+// location of this program. `extension`: ".hex", ".elf" or ".uf2".
 std::filesystem::path built_image(std::string_view board, std::string_view extension);
 // Returns the same for the follower of this name.
 std::filesystem::path built_follower(std::string_view follower);

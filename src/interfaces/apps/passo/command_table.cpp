@@ -36,4 +36,12 @@ std::function<int()> add_commands(CLI::App& parent, std::span<const Command> com
   return chosen;
 }
 
+void add_all_commands(CLI::App& parent, std::span<const Command> commands) {
+  for (const Command& row : commands) {
+    CLI::App& command = *parent.add_subcommand(row.name, row.purpose);
+    if (row.add_options != nullptr) row.add_options(command);
+    add_all_commands(command, row.commands);
+  }
+}
+
 }  // namespace passo

@@ -39,4 +39,7 @@ std::function<int()> options_of(CLI::App& command) {
 std::function<int()> add_commands(CLI::App& parent, std::span<const Command> commands,
                                   const std::vector<std::string>& words);
 
+// Adds the commands to `parent`, each with all its options: for documents of the whole command line.
+void add_all_commands(CLI::App& parent, std::span<const Command> commands);
+
 }  // namespace passo

@@ -1,7 +1,7 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_table.cpp, command_words.cpp and the files *_options.cpp know CLI11, because CLI11 compiles
-// slowly. Each command is in a file of its own.
+// Only this file, command_documents.cpp, command_table.cpp, command_words.cpp and the files *_options.cpp know CLI11,
+// because CLI11 compiles slowly. Each command is in a file of its own.
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -14,6 +14,7 @@
 
 #include "board_options.hpp"
 #include "cam_options.hpp"
+#include "command_documents.hpp"
 #include "command_table.hpp"
 #include "command_words.hpp"
 #include "commands.hpp"
@@ -129,15 +130,28 @@ const std::vector<Command>& all_commands() {
   return commands;
 }
 
-int parse_and_run(int argc, char** argv) {
-  std::vector<std::string> words = command_words(argc, argv);
-  CLI::App app(description, "passo");
+void set_up(CLI::App& app) {
   app.formatter(std::make_shared<HelpFormat>());
   app.footer(examples);
   app.set_help_flag("-h,--help", "print this help");
   app.set_version_flag("--version", "passo " PASSO_VERSION, "print the version");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
+}
+
+// `passo documents FOLDER`, which is in no help: the build calls it.
+int write_documents(const std::string& folder) {
+  CLI::App app(description, "passo");
+  set_up(app);
+  add_all_commands(app, all_commands());
+  return write_command_documents(app, PASSO_VERSION, folder);
+}
+
+int parse_and_run(int argc, char** argv) {
+  std::vector<std::string> words = command_words(argc, argv);
+  if (words.size() == 2 && words.front() == "documents") return write_documents(words.back());
+  CLI::App app(description, "passo");
+  set_up(app);
   const std::function<int()> chosen = add_commands(app, all_commands(), words);
 
   if (const std::string refusal = refuse_words(app, words); !refusal.empty()) return fail(exit_bad_program, refusal);

@@ -108,7 +108,7 @@ std::string usual_page_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return {};
-  for (const char* const folder : {"page", "../page", "../share/passo/page"}) {
+  for (const char* const folder : {"page", "../page", PASSO_SHARE_FROM_PROGRAM "/page"}) {
     const fs::path page = (program.parent_path() / folder).lexically_normal();
     if (fs::is_regular_file(page / "index.html", error)) return page.string();
   }
