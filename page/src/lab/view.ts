@@ -3,14 +3,7 @@
 import { wiringField } from './board/port';
 import { axesField, tripleField } from './board/table';
 import { driveNames, type DriveName, methodNames, ruleNames, type Method, type Move, type Rule } from './core';
-
-interface Field<T> {
-  usual: T;
-  read: (text: string) => T | undefined;
-  write: (value: T) => string;
-  expects: string; // the range or the choices, for everybody
-}
-const range = (from: number, to: number): string => `${from} … ${to}`.replaceAll('-', '−');
+import { type Field, range } from './field';
 
 function choice<T extends string>(values: readonly T[], usual: T): Field<T> {
   return { usual, read: (text) => values.find((one) => one === text), write: (value) => value, expects: values.join(', ') };

@@ -62,6 +62,7 @@ export const wiringField = {
     return fits && conflictIn(wiring) === undefined ? wiring : undefined;
   },
   write: (wiring: Wiring): string => lineNames.map((line) => `${wiring[line].pin}${wiring[line].inverted ? 'i' : ''}`).join('.'),
+  expects: '2.3i.4 …',
 };
 
 // What the computer's program has written, and what the board gives back.

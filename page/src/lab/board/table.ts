@@ -1,9 +1,11 @@
 // The machine's table as the computer's program has it: the unit, steps in a unit, lengths of the axes, origin, inversion.
 
+import { type Field, range } from '../field';
+
 export const axisNames = ['X', 'Y', 'Z'] as const;
 export type Triple = readonly [number, number, number];
 
-export function tripleField(from: number, to: number, usual: Triple): { usual: Triple; read: (text: string) => Triple | undefined; write: (value: Triple) => string } {
+export function tripleField(from: number, to: number, usual: Triple): Field<Triple> {
   return {
     usual,
     read: (text) => {
@@ -13,15 +15,17 @@ export function tripleField(from: number, to: number, usual: Triple): { usual: T
       return good && x !== undefined && y !== undefined && z !== undefined ? [x, y, z] : undefined;
     },
     write: (value) => value.map((one) => String(Number(one.toPrecision(6)))).join(','),
+    expects: `x,y,z: ${range(from, to)}`,
   };
 }
 
 // A set of axes: a bit for each, as "xz" in the address.
-export function axesField(usual: number): { usual: number; read: (text: string) => number | undefined; write: (value: number) => string } {
+export function axesField(usual: number): Field<number> {
   return {
     usual,
     read: (text) => (/^(0|x?y?z?)$/.test(text) && text !== '' ? ['x', 'y', 'z'].reduce((set, name, i) => set | (text.includes(name) ? 1 << i : 0), 0) : undefined),
     write: (value) => ['x', 'y', 'z'].filter((_, i) => (value >> i) & 1).join('') || '0',
+    expects: '0, x, y, z, xy …',
   };
 }
 

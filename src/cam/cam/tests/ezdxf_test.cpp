@@ -8,6 +8,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "kit/in_full.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -30,7 +31,7 @@ std::vector<dxf_fs::path> some_drawings() {
   }
   std::sort(files.begin(), files.end());
   std::vector<dxf_fs::path> some;
-  for (std::size_t i = 0; i < files.size(); i += PASSO_ONE_IN) some.push_back(files[i]);
+  for (std::size_t i = 0; i < files.size(); i += std::size_t{test::one_in(12)}) some.push_back(files[i]);
   return some;
 }
 
@@ -86,7 +87,7 @@ TEST(Ezdxf, has_the_same_holes_and_lines) {
   dxf_fs::remove(list);
   dxf_fs::remove(told);
   fmt::print("{} drawings compared\n", compared);
-  EXPECT_GT(compared * PASSO_ONE_IN, 1'000U);
+  EXPECT_GT(compared * test::one_in(12), 1'000U);
 }
 
 }  // namespace

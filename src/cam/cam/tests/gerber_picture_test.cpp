@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "kit/in_full.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <png.h>
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double nm_per_inch = 25.4e6;
-constexpr int most_pixels = PASSO_ONE_IN == 1 ? 2500 : 1600;  // along a side
+constexpr int most_pixels = test::one_in(12) == 1 ? 2500 : 1600;  // along a side
 // gerbv moves what it draws to whole pixels, so its picture is finer, and the middle one of 5 x 5 pixels is compared.
 constexpr int finer = 5;
 
@@ -228,8 +229,8 @@ TEST(GerberPicture, is_that_of_gerbv) {
 TEST(GerberPicture, of_boards_of_other_projects_is_that_of_gerbv) {
   const fs::path peers = fs::path(PASSO_SOURCE_DIR) / "../shared/peers";
   if (!has_gerbv() || !fs::exists(peers)) GTEST_SKIP() << "no gerbv, or no " << peers;
-  EXPECT_GT(compare_folder(peers / "boards", PASSO_ONE_IN), 3U);
-  EXPECT_GT(compare_folder(peers / "gerber", PASSO_ONE_IN), 0U);
+  EXPECT_GT(compare_folder(peers / "boards", test::one_in(12)), 3U);
+  EXPECT_GT(compare_folder(peers / "gerber", test::one_in(12)), 0U);
 }
 
 // All layers and drill files of npm's @tracespace/fixtures (scripts/fixtures.sh) are read without a fault.
@@ -246,7 +247,7 @@ TEST(Fixtures, of_many_layout_programs_are_read) {
   std::sort(files.begin(), files.end());
   std::size_t layers = 0;
   std::size_t drills = 0;
-  for (std::size_t i = 0; i < files.size(); i += PASSO_ONE_IN) {
+  for (std::size_t i = 0; i < files.size(); i += std::size_t{test::one_in(12)}) {
     std::ifstream stream(files[i], std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     Diagnostics found;
@@ -261,7 +262,7 @@ TEST(Fixtures, of_many_layout_programs_are_read) {
     }
     EXPECT_FALSE(found.any_error()) << files[i] << "\n" << render(found, false);
   }
-  EXPECT_GE(layers * PASSO_ONE_IN, 80U);
+  EXPECT_GE(layers * test::one_in(12), 80U);
   fmt::print("{} layers, {} drill files\n", layers, drills);
 }
 

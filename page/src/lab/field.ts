@@ -1,0 +1,8 @@
+// A value of the address: how it is read and written.
+export interface Field<T> {
+  usual: T;
+  read: (text: string) => T | undefined;
+  write: (value: T) => string;
+  expects: string; // the range or the choices, for everybody
+}
+export const range = (from: number, to: number): string => `${from} … ${to}`.replaceAll('-', '−');
