@@ -116,7 +116,7 @@ TEST_F(Grading, plays_the_vectors_to_programs_for_the_pic) {
             "student,program,right,cases,mark_percent,first_fault,remark\n"
             "anna,Board.HEX,1,1,100.0,,\n"
             "bruno,bruno.hex,0,1,0.0,wave: it is not firmware for a PIC16F877A: it never writes to a port,\n"
-            "carla,,0,1,0.0,carla.hex is not an Intel HEX file,\n");
+            "carla,,0,1,0.0,carla.hex is not an Intel HEX file: line 1: it does not begin with ':',\n");
   const Outcome wrong = passo("grade board " + path("class/anna/Board.HEX") + " --board pic_half_step --json");
   const nlohmann::json fault = nlohmann::json::parse(wrong.out)["students"][0]["played"][0];
   EXPECT_EQ(fault["right"], false);

@@ -26,7 +26,9 @@ class FirstBoard : public testing::Test {
     if (!gpsim_is_here()) GTEST_SKIP() << "gpsim is not installed (scripts/install.sh installs it)";
   }
   static FollowerRun run(const std::string& image, const FollowerVector& vector, Turns turns = Turns::unwatched) {
-    const auto work = std::filesystem::path(PASSO_IMAGES) / ("gpsim_" + image);
+    // Tests run beside one another.
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const auto work = std::filesystem::path(PASSO_IMAGES) / ("gpsim_" + image + "_" + test);
     const PicFollower board = image.starts_with("first_board") ? PicFollower::first_board : PicFollower::at_20_mhz;
     return run_image_on_pic(board, image_of(image), vector, work, turns);
   }

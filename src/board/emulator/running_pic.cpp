@@ -14,6 +14,8 @@
 #include "pic_log.hpp"
 #include "pic_pins.hpp"
 
+#include "passo/emulator/hex_file.hpp"
+
 namespace passo {
 namespace {
 
@@ -157,6 +159,11 @@ Result<std::unique_ptr<RunningPic>, std::string> RunningPic::start(PicFollower b
   if (!gpsim_is_here())
     return Failure<std::string>{"gpsim, which emulates the PIC, is not installed: run scripts/install.sh"};
   if (!std::filesystem::exists(image)) return Failure<std::string>{"no such image: " + image.string()};
+  if (image.extension() == ".hex") {
+    if (const std::string fault = find_hex_fault(image); !fault.empty()) {
+      return Failure<std::string>{image.string() + " is not an Intel HEX file: " + fault};
+    }
+  }
   std::filesystem::create_directories(work);
   auto state = std::make_unique<State>();
   state->pins = pins_of(board);

@@ -15,6 +15,7 @@
 #include "passo/confinement/confinement.hpp"
 #include "passo/confinement/temporary_folder.hpp"
 #include "passo/emulator/emulated_follower.hpp"
+#include "passo/emulator/hex_file.hpp"
 #include "passo/grading/board_case.hpp"
 
 namespace passo {
@@ -126,13 +127,8 @@ CaseGrade judge(const BoardCase& one, const Played& played) {
 
 // A file that is no program at all would make gpsim fail in each case.
 std::string refuse_hex(const fs::path& hex) {
-  std::ifstream in(hex);
-  std::string line;
-  while (std::getline(in, line) && (line.empty() || line == "\r")) {
-  }
-  const bool is_hex =
-      line.size() >= 11 && line[0] == ':' && line.find_first_not_of("0123456789abcdefABCDEF\r", 1) == std::string::npos;
-  return is_hex ? "" : hex.filename().string() + " is not an Intel HEX file";
+  const std::string fault = find_hex_fault(hex);
+  return fault.empty() ? "" : hex.filename().string() + " is not an Intel HEX file: " + fault;
 }
 
 }  // namespace

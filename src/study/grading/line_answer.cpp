@@ -13,7 +13,7 @@
 namespace passo {
 namespace {
 
-constexpr std::size_t most_headings = 2;
+constexpr std::size_t few_lines = 2;  // a prompt may look like a position
 
 bool is_letter(char letter) {
   return std::isalpha(static_cast<unsigned char>(letter)) != 0 || letter == '_';
@@ -124,7 +124,8 @@ std::vector<PrintedPosition> printed_positions(std::string_view output, std::siz
   while (!output.empty()) {
     const std::size_t end = std::min(output.find('\n'), output.size());
     std::vector<double> numbers = last_numbers(output.substr(0, end));
-    if (numbers.size() >= motors) {
+    // A number before the position counts the pulses. What stands before the first position may be a prompt.
+    if (numbers.size() == motors || numbers.size() == motors + 1 || (numbers.size() > motors && positions.empty())) {
       positions.emplace_back(numbers.end() - static_cast<std::ptrdiff_t>(motors), numbers.end());
     }
     output.remove_prefix(std::min(end + 1, output.size()));
@@ -141,7 +142,7 @@ std::size_t count_motors(std::string_view output, const StepCounts& steps) {
   }
   // It ends elsewhere: as many as it prints.
   for (std::size_t motors = most_graded_motors; motors > 2; --motors) {
-    if (printed_positions(output, motors).size() > most_headings) return motors == most_graded_motors ? 0 : motors;
+    if (printed_positions(output, motors).size() > few_lines) return motors == most_graded_motors ? 0 : motors;
   }
   return 2;
 }
@@ -149,16 +150,12 @@ std::size_t count_motors(std::string_view output, const StepCounts& steps) {
 AnswerFault find_fault(const LineCase& asked, std::string_view output) {
   const std::vector<StepCounts> expected = line_positions(asked.steps);
   const std::vector<PrintedPosition> all = printed_positions(output, asked.steps.size());
-  // What stands above the answer may look like a position. Most pulses are right if that is left out which is none.
-  std::span<const PrintedPosition> printed;
-  std::size_t right = 0;
-  for (std::size_t headings = 0; headings == 0 || (headings <= most_headings && headings < all.size()); ++headings) {
-    const auto rest = after_start(std::span(all).subspan(headings));
-    const std::size_t equal = equal_pulses(rest, expected);
-    if (headings == 0 || equal > right) {
-      printed = rest;
-      right = equal;
-    }
+  std::span<const PrintedPosition> printed = after_start(all);
+  std::size_t right = equal_pulses(printed, expected);
+  // It may first say what it was asked for. Nothing else is left out: it would be a wrong pulse.
+  if (right == 0 && !all.empty() && equals(all[0], asked.steps)) {
+    printed = after_start(std::span(all).subspan(1));
+    right = equal_pulses(printed, expected);
   }
   const bool says_its_end_again =
       printed.size() == expected.size() + 1 && !expected.empty() && equals(printed.back(), expected.back());

@@ -56,8 +56,8 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
     return Failure{"sim:first_board has no link back to the computer: only passo run can use it [board.one-way]"};
   }
   if (!is_emulated_board(address.place)) {
-    return Failure{fmt::format("sim:{}: unknown board; there are emulators of {}", address.place,
-                               fmt::join(emulated_boards, ", "))};
+    return Failure{fmt::format("sim:{}: unknown board; there are emulators of {}, and first_board for passo run",
+                               address.place, fmt::join(emulated_boards, ", "))};
   }
   const fs::path image = built_image(address.place, is_pico(address.place) ? ".uf2" : ".elf");
   if (!fs::exists(image)) return Failure{message_of_missing(image)};

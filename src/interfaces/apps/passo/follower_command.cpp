@@ -99,7 +99,8 @@ Lines held_lines_of(const FollowerArguments& arguments, bool has_keys) {
     hold(lines, *held, "key." + held->name);
   }
   const bool waits = arguments.follower.starts_with("first_board");
-  if (waits && arguments.keys.empty() && !has_keys)
+  const auto is_mode_key = [](const std::string& key) { return key.starts_with('*') || key.starts_with('#'); };
+  if (waits && !has_keys && std::ranges::none_of(arguments.keys, is_mode_key))
     hold(lines, {.name = "*", .from = 0.05, .to = 0.05 + shortest_press}, "key.*");
   for (const std::string& text : arguments.lines) {
     auto held = held_of(text);

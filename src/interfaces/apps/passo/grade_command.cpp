@@ -125,6 +125,9 @@ int grade_all(const std::string& title, const std::string& program, const std::v
 
 int grade_lines_command(const GradeLinesArguments& arguments) {
   if (const std::string why = refuse_outputs(arguments.outputs); !why.empty()) return fail(exit_bad_program, why);
+  if (!arguments.run.empty() && arguments.run.find("{}") == std::string::npos) {
+    return fail(exit_bad_program, "--run: expected {} where the student's file stands, e.g. --run 'python3 {}'");
+  }
   const Submissions submissions = submissions_of(arguments.program, arguments.run);
   if (!submissions) return fail(exit_bad_program, submissions.error());
   const Status<std::string> can = check_confinement();

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
+
+#include "passo/emulator/hex_file.hpp"
 
 namespace passo {
 namespace {
@@ -103,6 +106,26 @@ TEST(OutputFault, is_the_first_in_time_of_all_outputs) {
   const std::vector<OutputChange> other = {
       {10, "led.0", "1"}, {1'030'000, "windings.x", "1001"}, {2'000'000, "relay", "1"}};
   EXPECT_EQ(find_output_fault(one_case(), other).output, "");
+}
+
+TEST(HexFile, has_whole_records_up_to_its_last_one) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "passo_hex_test.hex";
+  const auto fault_of = [&](const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+    return find_hex_fault(file);
+  };
+  const std::string record = ":040000008316FF0163\r\n";
+  const std::string last = ":00000001FF\n";
+  EXPECT_EQ(fault_of(record + last), "");
+  EXPECT_EQ(fault_of(record + "\n" + last + "anything"), "");
+  EXPECT_EQ(fault_of(record + ":040000008316FF0164\n" + last), "line 2: its checksum is wrong");
+  EXPECT_EQ(fault_of(record + ":0400000083"), "line 2: its length is not the one that it gives");
+  EXPECT_EQ(fault_of(record + ":0400000"), "line 2: it is no whole record");
+  EXPECT_EQ(fault_of("hello\n"), "line 1: it does not begin with ':'");
+  EXPECT_EQ(fault_of(":04000000831GFF0163\n"), "line 1: it has characters that are no hexadecimal digits");
+  EXPECT_EQ(fault_of(record), "it ends after line 1 without a last record (:00000001FF)");
+  EXPECT_EQ(fault_of(""), "it ends after line 0 without a last record (:00000001FF)");
+  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -73,9 +73,9 @@ TEST(LineAnswer, is_right_in_many_forms) {
            "[" + replaced(replaced(plain, " ", ", "), "\n", "]\n["),
            "0 0\n" + plain,                 // with the start
            "2 motors, 10 steps\n" + plain,  // a heading
-           "motor 0 1\n-----\n" + plain,    // one that looks like a position
-           "10 4\n0 0\n" + plain,           // the input again, and the start
-           plain + "End: 10 4\n",           // the end again
+           "motor x motor y\n-----\n" + plain,
+           "10 4\n0 0\n" + plain,  // the input again, and the start
+           plain + "End: 10 4\n",  // the end again
            plain + "Goodbye\n",
            replaced(plain, "\n", "\n\n"),
            numbered,
@@ -95,6 +95,17 @@ TEST(LineAnswer, names_the_first_wrong_pulse) {
   EXPECT_EQ(find_fault(ten_four, "0 0\n1 0\n1 0\n").words,
             "move (10, 4), pulse 2: expected 2 1, found 1 0; motor 1 is a master and steps every time");
   EXPECT_EQ(find_fault(ten_four, "1 0\n2 0.8\n").found, "2 0.8");
+}
+
+// A position above the right ones is a pulse too many, whatever it is.
+TEST(LineAnswer, that_begins_with_a_false_pulse_is_wrong) {
+  const std::string plain = table;
+  EXPECT_EQ(find_fault(ten_four, "0 1\n" + plain).found, "0 1");
+  EXPECT_EQ(find_fault(ten_four, "-3 -10\n10 4\n" + plain).found, "-3 -10");
+  EXPECT_EQ(find_fault(ten_four, "10 4\n10 4\n" + plain).found, "10 4");
+  EXPECT_EQ(find_fault(ten_four, "Steps of motor 1: Steps of motor 2: 7 7\n" + plain).pulse, 1);
+  // Two positions in each line are none.
+  EXPECT_NE(find_fault(ten_four, "9 9 " + replaced(plain, "\n", "\n9 9 ")).words, "");
 }
 
 TEST(LineAnswer, that_is_too_short_or_too_long_or_none_is_wrong) {

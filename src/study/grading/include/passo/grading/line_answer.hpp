@@ -2,8 +2,9 @@
 //
 // The expected form is a line for each pulse with the positions of all motors. How they are separated does not matter,
 // nor what stands before them: an answer begins behind the prompts, because input from a pipe has no line ends on the
-// screen. Accepted are also the start as the first line, the end as a second last one, up to two lines of headings, the
-// number of the pulse before the positions, names ("x=3 y=1"), brackets, decimals (3.0) and CRLF.
+// screen. Accepted are also the steps that were asked for as the first line, the start, the end as a second last line,
+// headings that do not end with numbers, the number of the pulse before the positions, names ("x=3 y=1"), brackets,
+// decimals (3.0) and CRLF.
 #pragma once
 
 #include <cstdint>
