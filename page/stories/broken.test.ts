@@ -77,7 +77,7 @@ describe('a job that was interrupted', () => {
     await page.getByText('Job part.ngc was interrupted.').waitFor();
     await click(page, 'Show details');
     await click(page, 'Resume here');
-    await page.getByRole('dialog').getByText('The spindle starts with the tool where it is now').waitFor();
+    await page.getByRole('dialog').getByText('The spindle starts with the tool at its current position').waitFor();
     await agree(page, 'Resume here');
     const resumed = await endOf(second);
     await card.waitFor({ state: 'detached' });
