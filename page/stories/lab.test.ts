@@ -138,6 +138,14 @@ describe('the lab', () => {
     await context.close();
   });
 
+  it('begins the integration with the register as it is loaded', async () => {
+    for (const [method, start] of [['dda', 'a[j] = 0;'], ['dda-half', 'a[j] = (1 << bits)/2;']] as const) {
+      const { page, context } = await visit(browser, daemon, `lab?to=7,3&a=${method}&beat=0`);
+      await expect.poll(() => page.locator('.lab-code code').first().innerText()).toBe(start);
+      await context.close();
+    }
+  });
+
   it('refuses two lines on one pin, and reproduces another assignment by a link', async () => {
     const { page, context } = await visit(browser, daemon, 'lab?part=board&mode=automatic&unit=inch&perunit=1270,1270,1270');
     const clockY = page.getByRole('combobox', { name: 'Clock Y' });
@@ -187,6 +195,10 @@ describe('the lab', () => {
     const leave = [
       () => page.locator('.lab-key').first().focus(),
       () => page.evaluate(() => dispatchEvent(new Event('blur'))),
+      () => page.evaluate(() => {
+        Object.defineProperty(document, 'hidden', { value: true, configurable: true });
+        document.dispatchEvent(new Event('visibilitychange'));
+      }),
     ];
     for (const go of leave) {
       await jog.focus();
