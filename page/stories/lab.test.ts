@@ -138,6 +138,14 @@ describe('the lab', () => {
     await context.close();
   });
 
+  it('begins the integration with the register as it is loaded', async () => {
+    for (const [method, start] of [['dda', 'a[j] = 0;'], ['dda-half', 'a[j] = (1 << bits)/2;']] as const) {
+      const { page, context } = await visit(browser, daemon, `lab?to=7,3&a=${method}&beat=0`);
+      await expect.poll(() => page.locator('.lab-code code').first().innerText()).toBe(start);
+      await context.close();
+    }
+  });
+
   it('refuses two lines on one pin, and reproduces another assignment by a link', async () => {
     const { page, context } = await visit(browser, daemon, 'lab?part=board&mode=automatic&unit=inch&perunit=1270,1270,1270');
     const clockY = page.getByRole('combobox', { name: 'Clock Y' });
@@ -161,6 +169,84 @@ describe('the lab', () => {
     const counted = await page.locator('[data-axis=X] [data-counted]').innerText();
     expect(await page.locator('[data-axis=X] [data-place]').innerText()).toBe(counted);
     await context.close();
+  });
+
+  it('moves only motors whose clock has a pin, stops on its way, and jogs no longer than the key is down', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'lab?part=board&mode=automatic&lpt=0.3.4.5.6.7.8.10.12.13.15.11&hz=5000');
+    const place = (axis: string) => page.locator(`[data-axis=${axis}] [data-place]`).innerText();
+    const counted = (axis: string) => page.locator(`[data-axis=${axis}] [data-counted]`).innerText();
+    await expect.poll(() => page.locator('.lab-mode').getAttribute('data-mode')).toBe('automatic');
+    expect(await page.locator('.lab > .lab-refused').innerText()).toContain('hz=5000');
+    const clock = page.locator('.lab-clock > button');
+    await clock.click();
+    await expect.poll(() => counted('X')).not.toBe('0.00 mm');
+    expect(await place('X')).toBe('0.00 mm');
+    await clock.click();
+    // Z to its height is a clock that stops.
+    await page.getByRole('button', { name: 'Z to clearance height' }).click();
+    await expect.poll(() => clock.innerText()).toBe('Stop the clock');
+    await expect.poll(() => place('Z')).not.toBe('0.00 mm');
+    await clock.click();
+    await expect.poll(() => clock.innerText()).toBe('Start the clock');
+    const stopped = await place('Z');
+    expect(stopped).not.toBe('2.00 mm');
+    // Each way to leave a key that is down ends the jogging.
+    const jog = page.getByRole('button', { name: 'Y+' }).last();
+    const leave = [
+      () => page.locator('.lab-key').first().focus(),
+      () => page.evaluate(() => dispatchEvent(new Event('blur'))),
+      () => page.evaluate(() => {
+        Object.defineProperty(document, 'hidden', { value: true, configurable: true });
+        document.dispatchEvent(new Event('visibilitychange'));
+      }),
+    ];
+    for (const go of leave) {
+      await jog.focus();
+      const before = await place('Y');
+      await page.keyboard.down('ArrowUp');
+      await expect.poll(() => place('Y')).not.toBe(before);
+      await go();
+      await expect.poll(() => jog.getAttribute('aria-pressed')).toBe('false');
+      const left = await place('Y');
+      await page.waitForTimeout(200);
+      expect(await place('Y')).toBe(left);
+      await page.keyboard.up('ArrowUp');
+    }
+    expect(await place('Z')).toBe(stopped);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+
+  it('obeys another link in the same window', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?part=board');
+    const mode = page.locator('.lab-mode');
+    await expect.poll(() => mode.getAttribute('data-mode')).toBe('waiting');
+    await page.evaluate(() => {
+      location.hash = '#/lab?part=board&mode=automatic&run=1';
+    });
+    await expect.poll(() => mode.getAttribute('data-mode')).toBe('automatic');
+    await expect.poll(() => page.locator('[data-axis=X] [data-place]').innerText()).not.toBe('0.00 mm');
+    await context.close();
+  });
+
+  it('keeps its fields where an answer is refused', async () => {
+    const { page, context } = await visit(browser, daemon, 'lab?part=driver', { language: 'fr' });
+    const logic = page.locator('.lab-base input').nth(1);
+    await logic.fill('1');
+    await expect.poll(() => page.locator('.lab-refused').innerText()).toBe('Le niveau logique haut doit dépasser la tension base-émetteur.');
+    await page.keyboard.type('2');
+    await expect.poll(() => page.locator('[data-largest]').count()).toBe(1);
+    expect(await logic.inputValue()).toBe('12');
+    await context.close();
+    const steps = await visit(browser, daemon, 'lab?to=9,1&a=listing:slope-blocks');
+    const end = steps.page.locator('.lab-end');
+    await end.focus();
+    await steps.page.keyboard.press('ArrowDown');
+    await expect.poll(() => steps.page.locator('.lab-stage .lab-refused').first().innerText()).toContain('divides by zero');
+    await steps.page.keyboard.press('ArrowUp');
+    await expect.poll(() => steps.page.locator('.lab-player output').innerText()).toMatch(/^(\d+) \/ \1$/);
+    expect(steps.errors).toEqual([]);
+    await steps.context.close();
   });
 
   it('shows why the base resistor is ample', async () => {

@@ -1,12 +1,14 @@
 import { describe, expect, it } from 'vitest';
+import { language } from '../src/core/language';
 import { nearest, niceStep, ticksOf } from '../src/lab/Chart';
 import { boardLines, conflictIn, restingRegisters, wiringField, withBoardLines, withLine } from '../src/lab/board/port';
 import { atEnd, inUnit, placeOf, stepsTo, type Table } from '../src/lab/board/table';
 import { beatAt, shareOf } from '../src/lab/play';
 import { fields, methodCodes, methodsFor, moveOf, onCircle, readView, refusedIn, rightOf, writeView } from '../src/lab/view';
-import { labTables } from '../src/lab/words';
+import { labTables, refusal } from '../src/lab/words';
 
 const read = (text: string) => readView(new URLSearchParams(text));
+const pickTable = ({ unit, perunit, lengths, origin, flip, zclear, zwork }: Table): Table => ({ unit, perunit, lengths, origin, flip, zclear, zwork });
 const names = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
 
 describe('the lab in the address', () => {
@@ -127,7 +129,20 @@ describe('the machine’s table', () => {
     const inches = inUnit(table, 'inch');
     expect(inches.perunit[0]).toBe(1270);
     expect(placeOf(inches, 0, 1270)).toBeCloseTo(1, 9);
-    expect(inUnit(inches, 'mm').lengths[0]).toBeCloseTo(110, 3);
+    expect(inUnit(inches, 'mm')).toEqual(table);
+  });
+  it('keeps its values after a time in the other unit, also through an address', () => {
+    for (const perunit of [50, 47.5, 133.333]) {
+      for (const length of [60, 110, 0.5, 123.45, 99.999, 1e5]) {
+        const before: Table = { ...table, perunit: [perunit, 50, 50], lengths: [length, 1, 2], zclear: -2.375 };
+        const there = inUnit(before, 'inch');
+        const link = writeView({ ...read(''), ...there });
+        expect(inUnit(there, 'mm')).toEqual(before);
+        expect(inUnit(pickTable(readView(link)), 'mm')).toEqual(before);
+      }
+    }
+    const inches: Table = { ...table, unit: 'inch', lengths: [4.3307, 2.5, 0.125], zwork: -0.118 };
+    expect(inUnit(inUnit(inches, 'mm'), 'inch')).toEqual(inches);
   });
   it('counts a flipped axis the other way, and knows its ends', () => {
     expect(placeOf(table, 2, -150)).toBe(3);
@@ -141,6 +156,16 @@ describe('the machine’s table', () => {
 });
 
 describe('words', () => {
+  it('gives the usual reasons of the program in each language, and of the others that the values do not fit', () => {
+    const before = language.value;
+    for (const one of ['it', 'fr', 'zh'] as const) {
+      language.value = one;
+      expect(refusal("the logic's voltage must be above the base's")).toBe(labTables[one].reasonLogic);
+      expect(refusal('slope in blocks divides by zero if an axis does not move')).toBe(labTables[one].reasonAxisStill);
+      expect(refusal('another reason')).toBe(labTables[one].refused);
+    }
+    language.value = before;
+  });
   it('has the same places for values in each translation', () => {
     for (const table of Object.values(labTables)) {
       for (const key of Object.keys(labTables.en) as (keyof typeof labTables.en)[]) {

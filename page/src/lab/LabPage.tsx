@@ -6,7 +6,7 @@ import { BoardLab } from './board/BoardLab';
 import { DriverLab } from './driver/DriverLab';
 import { LoopLab } from './LoopLab';
 import { RampsLab } from './RampsLab';
-import { change, core, coreFailed, followAddress, linkToView, loadCore, refused, view } from './state';
+import { arrivals, change, core, coreFailed, followAddress, linkToView, loadCore, refused, view } from './state';
 import { StepsLab } from './steps/StepsLab';
 import { TorqueLab } from './TorqueLab';
 import { parts } from './view';
@@ -56,7 +56,7 @@ export function LabPage(): JSX.Element {
         {loaded && part === 'ramps' && <RampsLab core={loaded} />}
         {loaded && part === 'torque' && <TorqueLab core={loaded} />}
         {loaded && part === 'loop' && <LoopLab core={loaded} />}
-        {loaded && part === 'board' && <BoardLab core={loaded} />}
+        {loaded && part === 'board' && <BoardLab key={arrivals.value} core={loaded} />}
         {loaded && part === 'driver' && <DriverLab core={loaded} />}
       </div>
     </div>

@@ -27,7 +27,7 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
   const take = (rule: 'p' | 'pi' | 'pid'): void => {
     const found = core.ultimate(motor, request);
     if (isFailed(found)) {
-      setSwing(found.error);
+      setSwing(refusal(found.error));
       return;
     }
     setSwing(say('swingsAt', { gain: short(found.gain), ms: short(found.period_s * 1000) }));

@@ -311,8 +311,8 @@ export class LabCore {
   boardRestart(): void {
     (this.#exports.lab_board_restart as Question)();
   }
-  boardClock(axes: number, halfMicroseconds: number, pulses: number, idle: number): void {
-    (this.#exports.lab_board_clock as Question)(axes, halfMicroseconds, pulses, idle);
+  boardClock(axes: number, halfMicroseconds: number, pulses: number, idle: number, wired: number): void {
+    (this.#exports.lab_board_clock as Question)(axes, halfMicroseconds, pulses, idle, wired);
   }
 
   #setMotor(motor: Motor): void {

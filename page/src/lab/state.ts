@@ -10,8 +10,15 @@ export const core = signal<LabCore | undefined>(undefined);
 export const coreFailed = signal(false);
 export const refused = signal<RefusedValue[]>([]); // what the address asked for and cannot be
 
+// How often an address has been read: a link that comes while its part is shown begins that part anew.
+export const arrivals = signal(0);
+
 export function change(what: Partial<LabView>): void {
   refused.value = [];
+  follow(what);
+}
+// What changes by itself, e.g. the board's mode: what was refused of the link is still to be read.
+export function follow(what: Partial<LabView>): void {
   view.value = sound({ ...view.value, ...what });
 }
 
@@ -36,6 +43,7 @@ export function followAddress(): () => void {
     written = text;
     refused.value = refusedIn(query.value);
     view.value = readView(query.value);
+    arrivals.value = arrivals.peek() + 1;
   });
   const endWriting = effect(() => {
     const wanted = writeView(view.value);

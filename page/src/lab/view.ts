@@ -20,7 +20,7 @@ function real(from: number, to: number, usual: number): Field<number> {
     const value = Number(text);
     return text !== '' && Number.isFinite(value) && value >= from && value <= to ? value : undefined;
   };
-  return { usual, read, write: (value) => String(Number(value.toPrecision(6))), expects: range(from, to) };
+  return { usual, read, write: (value) => String(Number(value.toPrecision(8))), expects: range(from, to) };
 }
 function pair(limit: number, usual: [number, number]): Field<[number, number]> {
   const one = whole(-limit, limit, 0);

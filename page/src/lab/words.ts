@@ -28,8 +28,22 @@ export function say(key: LabKey, values: Record<string, string | number> = {}): 
   return fill(labTables[language.value][key], values);
 }
 
-// The program gives its reasons in English; in another language only that the values do not fit.
-export const refusal = (reason: string): string => (language.value === 'en' ? reason : say('refused'));
+// The program gives its reasons in English. The usual ones have words in each language; of another reason, the other
+// languages say only that the values do not fit.
+const reasons: readonly (readonly [string, LabKey])[] = [
+  ['divides by zero if an axis does not move', 'reasonAxisStill'],
+  ["the supply must be above the transistor's drop", 'reasonDrop'],
+  ['the supply voltage minus the drop must be above 0', 'reasonDrop'],
+  ["the logic's voltage must be above the base's", 'reasonLogic'],
+  ["more than a table method's 16 bits hold", 'reasonTable'],
+  ['above the start rate of', 'reasonStart'],
+  ['the loop does not oscillate at any gain', 'reasonNoSwing'],
+];
+export function refusal(reason: string): string {
+  if (language.value === 'en') return reason;
+  const known = reasons.find(([part]) => reason.includes(part));
+  return say(known ? known[1] : 'refused');
+}
 
 // The columns of the program's tables: "sum_x" is the sum of X.
 const columns = [

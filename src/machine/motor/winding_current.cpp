@@ -70,6 +70,15 @@ WindingCurrent::Piece WindingCurrent::piece() const {
   return {.end = -circuit_.diode.value / circuit_.winding.value, .tau = tau, .stop = lower};
 }
 
+double WindingCurrent::ripple_period() const {
+  const double rests = -circuit_.diode.value / circuit_.winding.value;
+  const double final = circuit_.final().value;
+  const double lower = limit() * (1 - circuit_.ripple);
+  const double fall =
+      circuit_.inductance.value / circuit_.winding.value * std::log((limit() - rests) / (lower - rests));
+  return fall + circuit_.time_constant().value() * std::log((final - lower) / (final - limit()));
+}
+
 void WindingCurrent::run(Seconds time) {
   for (double left = time.value(); left > 0 && !is_held();) {
     const auto [end, tau, stop] = piece();
@@ -82,7 +91,11 @@ void WindingCurrent::run(Seconds time) {
     }
     left -= until;
     current_ = *stop;
+    const bool is_at_limit = share_ > 0 && pushes_;
     if (share_ > 0) pushes_ = !pushes_ && circuit_.ripple > 0;
+    // From the limit on, each period of the ripple is as the one before. Whole periods end where they began, so a
+    // chopper that switches millions of times costs no more than one that switches twice.
+    if (is_at_limit && circuit_.ripple > 0) left = std::fmod(left, ripple_period());
   }
 }
 

@@ -47,14 +47,20 @@ void BoardPlay::reset(bool pressed) {
   if (!pressed) follower_.emplace(pins_).begin();
 }
 
-void BoardPlay::set_clock(std::uint8_t axes, std::int64_t half_us, std::int64_t pulses, std::uint8_t idle) {
-  const auto rest = [&](std::uint8_t of) {
-    pins_.levels = static_cast<std::uint8_t>((pins_.levels & ~of) | (idle_ & of));
-  };
+void BoardPlay::drive_clock(unsigned axes, bool high) {
+  const unsigned driven = axes & wired_;
+  const unsigned levels = high ? ~idle_ : idle_;
+  pins_.levels = static_cast<std::uint8_t>((pins_.levels & ~driven) | (levels & driven));
+}
+
+void BoardPlay::set_clock(std::uint8_t axes, std::int64_t half_us, std::int64_t pulses, std::uint8_t idle,
+                          std::uint8_t wired) {
   const bool is_on = clock_axes_ != 0;
-  rest(static_cast<std::uint8_t>(clock_axes_ & ~axes));
+  drive_clock(clock_axes_ & ~static_cast<unsigned>(axes), false);
+  if ((clock_axes_ & axes) == 0) is_high_ = false;
   clock_axes_ = axes & 7;
   idle_ = idle & 7;
+  wired_ = wired & 7;
   half_us_ = std::max(half_us, 2 * turn_us);
   pulses_left_ = pulses;
   // Another rate takes effect at once, even where the old one was very slow.
@@ -63,16 +69,14 @@ void BoardPlay::set_clock(std::uint8_t axes, std::int64_t half_us, std::int64_t 
 
 void BoardPlay::advance_clock() {
   if (clock_axes_ == 0 || pins_.now_us < next_edge_us_) return;
-  const bool rests = ((pins_.levels ^ idle_) & clock_axes_) == 0;
-  if (rests && pulses_left_ == 0) {
+  if (!is_high_ && pulses_left_ == 0) {
     clock_axes_ = 0;
     return;
   }
   next_edge_us_ += half_us_;
-  const unsigned others = pins_.levels & ~clock_axes_;
-  const unsigned levels = rests ? ~idle_ : idle_;
-  pins_.levels = static_cast<std::uint8_t>(others | (levels & clock_axes_));
-  if (!rests) return;
+  is_high_ = !is_high_;
+  drive_clock(clock_axes_, is_high_);
+  if (!is_high_) return;
   ++pulses_made_;
   if (pulses_left_ > 0) --pulses_left_;
 }

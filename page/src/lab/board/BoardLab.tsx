@@ -5,7 +5,7 @@ import type { JSX } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { LabCore, Windings } from '../core';
 import { Lesson, NumberField, Select, Tick } from '../shared';
-import { change, view } from '../state';
+import { change, follow, view } from '../state';
 import { MotorView } from '../steps/MotorView';
 import { rotors } from '../view';
 import { say } from '../words';
@@ -49,7 +49,8 @@ export function BoardLab({ core }: { core: LabCore }): JSX.Element {
   const { mode } = played.answer;
   // A link reproduces the mode; what a reset leaves is waiting.
   useEffect(() => {
-    if (mode !== 'reset' && view.value.mode !== mode) change({ mode });
+    const is = bench.answer.mode; // a key that has just been typed has changed it
+    if (is !== 'reset' && view.value.mode !== is) follow({ mode: is });
   }, [mode]);
   const registers = withStatus(played.registers, wiring, played, probe);
   return (
@@ -97,11 +98,43 @@ const moveOfKey: Partial<Record<string, readonly [number, boolean]>> = {
   ArrowLeft: [0, false], ArrowRight: [0, true], ArrowDown: [1, false], ArrowUp: [1, true], PageDown: [2, false], PageUp: [2, true],
 };
 
+const nameOf = (axis: number, up: boolean): string => `${axis}${up ? '+' : '-'}`;
+
+// Jogging ends wherever its key is released, and where that would not be heard: another element or window has the focus,
+// or the page is hidden.
+function useRelease(release: () => void): { current: string | undefined } {
+  const key = useRef<string | undefined>(undefined); // of the keyboard, that jogs
+  const ends = useRef(release);
+  ends.current = release;
+  useEffect(() => {
+    const end = (): void => {
+      key.current = undefined;
+      ends.current();
+    };
+    const released = (event: KeyboardEvent): void => {
+      if (event.key === key.current) end();
+    };
+    const hidden = (): void => {
+      if (document.hidden) end();
+    };
+    addEventListener('keyup', released);
+    addEventListener('blur', end);
+    document.addEventListener('visibilitychange', hidden);
+    return () => {
+      removeEventListener('keyup', released);
+      removeEventListener('blur', end);
+      document.removeEventListener('visibilitychange', hidden);
+    };
+  }, []);
+  return key;
+}
+
 // The program's control window: a clock on some axes, jogging, and the two heights of Z.
 function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
   const now = view.value;
   const table = tableOf();
   const [jogged, setJogged] = useState<string | undefined>();
+  const jogs = useRef<string | undefined>(undefined); // at once, where `jogged` is of the last picture
   const start = (axes: number, pulses: number): void => bench.clock({ axes, hertz: now.hz, pulses });
   const stop = (): void => start(0, 0);
   const turn = (axis: number, down: boolean): void => {
@@ -115,18 +148,29 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
     if (isShown.current && view.value.run) start(now.axes, -1);
     isShown.current = true;
   }, [now.hz, now.axes]);
+  const showJogged = (name: string | undefined): void => {
+    jogs.current = name;
+    setJogged(name);
+  };
+  const endJogging = (): void => {
+    if (jogs.current === undefined) return;
+    stop();
+    showJogged(undefined);
+  };
   const jog = (axis: number, up: boolean, held: boolean): void => {
-    const name = `${axis}${up ? '+' : '-'}`;
+    const name = nameOf(axis, up);
     if (held) {
       turn(axis, up === (((now.flip >> axis) & 1) === 1));
       start(1 << axis, -1);
-      setJogged(name);
+      showJogged(name);
       change({ run: false });
-    } else if (jogged === name) {
-      stop();
-      setJogged(undefined);
+    } else if (jogs.current === name) {
+      endJogging();
     }
   };
+  const heldKey = useRelease(endJogging);
+  // Z on its way to a height is a clock too.
+  const runs = now.run || (bench.answer.clock_runs && jogged === undefined);
   const moveZ = (to: number): void => {
     const steps = stepsTo(table, 2, to) - (bench.counted[2] ?? 0);
     change({ run: false });
@@ -147,14 +191,14 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
         ))}
       </div>
       <button
-        type="button" class={now.run ? 'button' : 'button accent'} disabled={now.axes === 0 && !now.run}
+        type="button" class={runs ? 'button' : 'button accent'} disabled={now.axes === 0 && !runs}
         onClick={() => {
-          change({ run: !now.run });
-          if (now.run) stop();
+          change({ run: !runs });
+          if (runs) stop();
           else start(now.axes, -1);
         }}
       >
-        {say(now.run ? 'clockStop' : 'clockStart')}
+        {say(runs ? 'clockStop' : 'clockStart')}
       </button>
       <div
         class="lab-jog" role="group" aria-label={say('jogTitle')}
@@ -162,17 +206,20 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
           const move = moveOfKey[event.key];
           if (move === undefined) return;
           event.preventDefault();
-          if (!event.repeat) jog(move[0], move[1], true);
+          if (event.repeat) return;
+          heldKey.current = event.key;
+          jog(move[0], move[1], true);
         }}
-        onKeyUp={(event) => {
-          const move = moveOfKey[event.key];
-          if (move !== undefined) jog(move[0], move[1], false);
+        onFocusOut={() => {
+          if (heldKey.current === undefined) return;
+          heldKey.current = undefined;
+          endJogging();
         }}
       >
         <span>{say('jogTitle')}</span>
         {axisNames.flatMap((axis, i) =>
           [false, true].map((up) => (
-            <Held key={`${axis}${up}`} class="button" pressed={jogged === `${i}${up ? '+' : '-'}`} onHold={(held) => jog(i, up, held)}>
+            <Held key={`${axis}${up}`} class="button" pressed={jogged === nameOf(i, up)} onHold={(held) => jog(i, up, held)}>
               {axis}{up ? '+' : '−'}
             </Held>
           )),

@@ -80,11 +80,13 @@ function useKeys(bench: Bench, area: RefObject<HTMLElement | null>): [number, (k
     here.addEventListener('keydown', pressed);
     addEventListener('keyup', released);
     addEventListener('blur', release);
+    document.addEventListener('visibilitychange', release);
     return () => {
       release();
       here.removeEventListener('keydown', pressed);
       removeEventListener('keyup', released);
       removeEventListener('blur', release);
+      document.removeEventListener('visibilitychange', release);
     };
   }, [bench]);
   return [keys, hold];

@@ -1,7 +1,7 @@
 // The first board while it is shown: time passes for it as on the screen, and what is pressed and written reaches it.
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { type BoardAnswer, isFailed, type LabCore } from '../core';
-import { boardLines, type Registers, restingRegisters, withBoardLines, withLine, type Wiring } from './port';
+import { boardLines, type Registers, restingRegisters, withBoardLines, withLine, type Wire, type Wiring } from './port';
 
 export const keyNames = ['1', '2', '3', '4', '5', '6', '7', '8', '9', '*', '0', '#'] as const;
 export type KeyName = (typeof keyNames)[number];
@@ -9,6 +9,7 @@ export type KeyName = (typeof keyNames)[number];
 const longestPicture = 0.05; // s; a page that was hidden does not catch up
 const press = 60_000; // µs
 const directionLines = ['directionX', 'directionY', 'directionZ'] as const;
+const clockLines = ['clockX', 'clockY', 'clockZ'] as const;
 
 export interface Clock {
   axes: number; // a bit for each
@@ -33,6 +34,7 @@ export class Bench {
   readonly #core: LabCore;
   #wiring: Wiring;
   #clockAxes = 0;
+  #down = 0; // what the program wants of each direction, also where the line has no pin
 
   constructor(core: LabCore, wiring: Wiring) {
     this.#core = core;
@@ -71,18 +73,21 @@ export class Bench {
   // The program's direction of an axis: down is 1 on its line.
   isDown(axis: number): boolean {
     const line = directionLines[axis] ?? 'directionX';
+    if (this.#wiring[line].pin === 0) return ((this.#down >> axis) & 1) === 1;
     const level = (boardLines(this.#wiring, this.registers) >> (3 + axis)) & 1;
     return (level ^ (this.#wiring[line].inverted ? 1 : 0)) === 1;
   }
   turn(axis: number, down: boolean): void {
+    this.#down = down ? this.#down | (1 << axis) : this.#down & ~(1 << axis);
     this.registers = withLine(this.#wiring, this.registers, directionLines[axis] ?? 'directionX', down);
   }
 
   // The direction is stable before the first edge: the clock begins half a period later.
   clock({ axes, hertz, pulses }: Clock): void {
     this.run(1000);
-    const idle = (['clockX', 'clockY', 'clockZ'] as const).reduce((set, line, i) => set | (this.#wiring[line].inverted ? 1 << i : 0), 0);
-    this.#core.boardClock(axes, 5e5 / hertz, pulses, idle);
+    const those = (test: (wire: Wire) => boolean): number =>
+      clockLines.reduce((set, line, i) => set | (test(this.#wiring[line]) ? 1 << i : 0), 0);
+    this.#core.boardClock(axes, 5e5 / hertz, pulses, those((wire) => wire.inverted), those((wire) => wire.pin !== 0));
     if (axes !== 0) this.#clockAxes = axes;
     this.run(1000);
   }

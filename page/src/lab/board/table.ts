@@ -14,7 +14,7 @@ export function tripleField(from: number, to: number, usual: Triple): Field<Trip
       const good = values.length === 3 && values.every((value) => Number.isFinite(value) && value >= from && value <= to);
       return good && x !== undefined && y !== undefined && z !== undefined ? [x, y, z] : undefined;
     },
-    write: (value) => value.map((one) => String(Number(one.toPrecision(6)))).join(','),
+    write: (value) => value.map((one) => String(Number(one.toPrecision(8)))).join(','),
     expects: `x,y,z: ${range(from, to)}`,
   };
 }
@@ -42,7 +42,15 @@ export interface Table {
   zwork: number;
 }
 
-const rounded = (value: number): number => Number(value.toPrecision(6));
+// The shortest number within a ten-millionth: what was 60 mm is so again after a time in inches, and after an address of
+// eight digits.
+function rounded(value: number): number {
+  for (let digits = 1; digits < 9; ++digits) {
+    const short = Number(value.toPrecision(digits));
+    if (Math.abs(short - value) <= 1e-7 * Math.abs(value)) return short;
+  }
+  return value;
+}
 
 // The same table in another unit.
 export function inUnit(table: Table, unit: Unit): Table {

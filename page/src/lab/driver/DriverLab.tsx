@@ -2,11 +2,11 @@
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Chart } from '../Chart';
-import { type DriverRequest, isFailed, type LabCore, type Motor, stageNames } from '../core';
+import { type Driver, type DriverRequest, isFailed, type LabCore, type Motor, stageNames } from '../core';
 import { Figure, Lesson, NumberField, Refused, short } from '../shared';
 import { change, view } from '../state';
 import type { LabView } from '../view';
-import { say } from '../words';
+import { refusal, say } from '../words';
 
 type NumberName = { [K in keyof LabView]: LabView[K] extends number ? K : never }[keyof LabView];
 
@@ -56,7 +56,7 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
       </div>
       <div class="panel lab-charts">
         {isFailed(answer) ? (
-          <Refused words={answer.error} />
+          <Refused words={refusal(answer.error)} />
         ) : (
           <>
             <Chart
@@ -102,32 +102,41 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
               title={say('torqueOverRate')} xTitle={`${say('rate')}, ${say('fullStepsPerSecond')}`} yTitle="N·m" from={0} height={280}
               lines={stageNames.map((name) => ({ name: say(`stage_${name}`), mark: marks[name], x: answer[name].rate_hz, y: answer[name].pull_out_nm }))}
             />
-            <h2>{say('baseTitle')}</h2>
-            <Lesson>{say('baseLesson')}</Lesson>
-            <div class="lab-pair lab-base">
-              {number('gain', say('gainTitle'), '', 50, 1, 1e5)}
-              {number('logic', say('logicVolts'), 'V', 0.1, 1, 50)}
-              {number('vbe', say('baseEmitter'), 'V', 0.1, 0, 5)}
-              {number('reserve', say('reserveTitle'), '', 0.05, 0, 5)}
-              {number('base', say('baseResistor'), 'Ω', 10, 1, 1e6)}
-            </div>
-            <ol class="lab-sums">
-              <li>I<sub>B</sub> ≥ I<sub>C</sub>/h<sub>FE</sub> = {now.damps} A / {now.gain} = <b>{short(ma(answer.base.needed_a))} mA</b></li>
-              <li>{say('withReserve', { percent: Number((100 * now.reserve).toPrecision(4)) })}: <b>{short(ma(answer.base.wanted_a))} mA</b></li>
-              <li>R<sub>B</sub> ≤ ({now.logic} V − {now.vbe} V) / {short(ma(answer.base.wanted_a))} mA = <b data-largest>{short(answer.base.largest_ohm, 4)} Ω</b></li>
-              <li>
-                {now.base} Ω: I<sub>B</sub> = <b>{short(ma(answer.base.given_a))} mA</b>,{' '}
-                <span data-overdrive>{say(answer.base.given_a >= answer.base.wanted_a ? 'baseAmple' : 'baseTooLittle', { times: short(answer.base.overdrive) })}</span>
-              </li>
-            </ol>
-            <dl class="lab-figures">
-              <Figure name={say('heatWhileOn')} value={short(answer.base.heat_w)} unit="W" />
-              <Figure name={say('warmerBy')} value={short(answer.base.warmer_k)} unit="K" />
-            </dl>
           </>
         )}
+        <h2>{say('baseTitle')}</h2>
+        <Lesson>{say('baseLesson')}</Lesson>
+        <div class="lab-pair lab-base">
+          {number('gain', say('gainTitle'), '', 50, 1, 1e5)}
+          {number('logic', say('logicVolts'), 'V', 0.1, 1, 50)}
+          {number('vbe', say('baseEmitter'), 'V', 0.1, 0, 5)}
+          {number('reserve', say('reserveTitle'), '', 0.05, 0, 5)}
+          {number('base', say('baseResistor'), 'Ω', 10, 1, 1e6)}
+        </div>
+        {!isFailed(answer) && <BaseSums base={answer.base} />}
       </div>
     </div>
+  );
+}
+
+function BaseSums({ base }: { base: Driver['base'] }): JSX.Element {
+  const now = view.value;
+  return (
+    <>
+      <ol class="lab-sums">
+        <li>I<sub>B</sub> ≥ I<sub>C</sub>/h<sub>FE</sub> = {now.damps} A / {now.gain} = <b>{short(ma(base.needed_a))} mA</b></li>
+        <li>{say('withReserve', { percent: Number((100 * now.reserve).toPrecision(4)) })}: <b>{short(ma(base.wanted_a))} mA</b></li>
+        <li>R<sub>B</sub> ≤ ({now.logic} V − {now.vbe} V) / {short(ma(base.wanted_a))} mA = <b data-largest>{short(base.largest_ohm, 4)} Ω</b></li>
+        <li>
+          {now.base} Ω: I<sub>B</sub> = <b>{short(ma(base.given_a))} mA</b>,{' '}
+          <span data-overdrive>{say(base.given_a >= base.wanted_a ? 'baseAmple' : 'baseTooLittle', { times: short(base.overdrive) })}</span>
+        </li>
+      </ol>
+      <dl class="lab-figures">
+        <Figure name={say('heatWhileOn')} value={short(base.heat_w)} unit="W" />
+        <Figure name={say('warmerBy')} value={short(base.warmer_k)} unit="K" />
+      </dl>
+    </>
   );
 }
 

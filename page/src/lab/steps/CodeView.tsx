@@ -1,7 +1,7 @@
 // The method as a few lines of code: those that the present pulse ran through are marked, with the axes that stepped.
 import type { JSX } from 'preact';
 import type { Interpolation } from '../core';
-import { axisNames } from '../view';
+import { axisNames, codeOf, type MethodCode } from '../view';
 import { say } from '../words';
 
 interface Line {
@@ -27,8 +27,14 @@ const comparison = (left: string): Line[] => [
   { code: '  else', runs: 'y' },
   { code: '    ++y, f += xe;', runs: 'y' },
 ];
+const integration = (start: string): Line[] => [
+  { code: `a[j] = ${start};`, runs: 'start' },
+  ...loop('1 << bits'),
+  { code: '    a[j] += s[j];', runs: 'each', shows: 'sum' },
+  ...stepOf('a[j] >= 1 << bits', 'a[j] -= 1 << bits'),
+];
 // In C, as the sources have them: s[j] are the steps of an axis, m those of the master, p[j] its place.
-const listings: Partial<Record<string, Line[]>> = {
+const listings: Partial<Record<MethodCode, Line[]>> = {
   'master-slave': [
     ...loop('m'),
     { code: '    if (2*k*s[j] >= (2*p[j] + 1)*m)', runs: 'each', shows: 'ideal' },
@@ -40,12 +46,8 @@ const listings: Partial<Record<string, Line[]>> = {
     { code: '    d[j] += 2*s[j];', runs: 'each', shows: 'sum' },
     ...stepOf('d[j] >= 0', 'd[j] -= 2*m'),
   ],
-  dda: [
-    { code: 'a[j] = 0;', runs: 'start' },
-    ...loop('1 << bits'),
-    { code: '    a[j] += s[j];', runs: 'each', shows: 'sum' },
-    ...stepOf('a[j] >= 1 << bits', 'a[j] -= 1 << bits'),
-  ],
+  dda: integration('0'),
+  'dda-half': integration('(1 << bits)/2'),
   'slope-recalculated': [
     { code: 'for (k = 1; k <= dx; ++k)', runs: 'each' },
     { code: '  if (k > 1 && (dy - y)/(dx - x) >= dy/dx)', runs: 'each', shows: 'slope_left' },
@@ -68,10 +70,11 @@ const listings: Partial<Record<string, Line[]>> = {
   ],
   'listing:projection': comparison('n'),
 };
-export const hasCode = (answer: Interpolation): boolean => listings[answer.name] !== undefined;
+const linesOf = (answer: Interpolation): Line[] | undefined => listings[codeOf(answer)];
+export const hasCode = (answer: Interpolation): boolean => linesOf(answer) !== undefined;
 
 export function CodeView({ answer, beat }: { answer: Interpolation; beat: number }): JSX.Element | null {
-  const lines = listings[answer.name];
+  const lines = linesOf(answer);
   if (!lines) return null;
   const steps = beat > 0 ? (answer.steps[beat - 1] ?? 0) : 0;
   const stepped = axisNames.filter((_, axis) => ((steps >> axis) & 1) === 1).map((name) => name.toUpperCase());

@@ -1,11 +1,11 @@
 // Which axis steps next: one move on the grid, by one method or by two, beat by beat, with its motors.
 import type { JSX } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { type Interpolation, isFailed, type LabCore, type Windings } from '../core';
+import { type Interpolation, isFailed, type LabCore, type Rule, type Windings } from '../core';
 import { beatAt, secondsFor, shareOf, usePlaying } from '../play';
 import { Figure, Lesson, NumberField, Refused, Segments, Select, short } from '../shared';
 import { change, view } from '../state';
-import { type AxisName, axisNames, farthest, type MethodCode, methodOf, methodsFor, mostMotors, moveOf, rightOf, rotors, wholeMove } from '../view';
+import { type AxisName, axisNames, farthest, type LabView, type MethodCode, methodOf, methodsFor, mostMotors, moveOf, rightOf, rotors, wholeMove } from '../view';
 import { cellText, columnWords, driveWords, methodLesson, methodWords, refusal, ruleWords, say } from '../words';
 import { driveNames, ruleNames } from '../core';
 import { CodeView, hasCode, Quadrants } from './CodeView';
@@ -42,8 +42,8 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
   const goBy = useRef<(by: number) => void>(() => undefined);
   useKeys(goBy);
 
-  if (isFailed(answers.a)) return <Refused words={refusal(answers.a.error)} />;
-  const a = answers.a;
+  // A refused move has no pulses; its grid and its fields stay, so that another end can be chosen.
+  const a = isFailed(answers.a) ? withoutPulses(now) : answers.a;
   const beat = beatAt(clock, share);
   const goTo = (to: number): void => {
     setPlaying(false);
@@ -91,7 +91,8 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
           />
           <output>{`${beat} / ${a.pulses}`}</output>
         </div>
-        <JudgementLine played={played} beat={beat} quiet={playing} />
+        {isFailed(answers.a) ? <Refused words={refusal(answers.a.error)} /> : <JudgementLine played={played} beat={beat} quiet={playing} />}
+        {answers.b && isFailed(answers.b) && <Refused words={`B · ${refusal(answers.b.error)}`} />}
         {a.fault && <FaultLine code={now.a} answer={a} />}
         <Grid
           played={seen}
@@ -156,7 +157,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
         <MethodChoice label={`B · ${say('beside')}`} value={now.b} shape={now.shape} motors={now.to.length} none onChange={(b) => change({ b })} />
         <Select label={say('duration')} value={now.rule} options={ruleNames.map((value) => ({ value, words: ruleWords(value) }))} onChange={(rule) => change({ rule })} />
         <dl class="lab-figures">
-          {played.map(({ answer, mark }) => (
+          {played.filter(({ answer }) => answer.pulses > 0).map(({ answer, mark }) => (
             <>
               <Figure name={say('largestError')} value={answer.largest.toFixed(3)} unit={say('steps')} mark={mark} />
               <Figure name={say('meanError')} value={answer.mean.toFixed(3)} unit={say('steps')} mark={mark} />
@@ -241,6 +242,21 @@ function useKeys(goBy: { current: (by: number) => void }): void {
     addEventListener('keydown', pressed);
     return () => removeEventListener('keydown', pressed);
   }, []);
+}
+
+// What is shown of a move that the method refuses: its ideal path.
+function withoutPulses(now: LabView): Interpolation {
+  const { from, to } = moveOf(now);
+  const axes = now.shape === 'arc' ? 2 : now.to.length;
+  const byRule = <T,>(make: () => T): Record<Rule, T> => ({ beats: make(), roots: make(), exact: make() });
+  const lists = (): number[][] => Array.from({ length: axes }, () => []);
+  return {
+    ...methodOf(now.a), title: '', pulses: 0, together: 0, idle: 0, largest: 0, mean: 0, length: 0,
+    lag: byRule(() => 0), ratio: byRule(() => 1), clock: byRule(() => []),
+    ideal: { x: [from.x, to.x], y: [from.y, to.y] },
+    steps: [], directions: [], x: [], y: [], foot_x: [], foot_y: [], deviation: [],
+    judge: {}, decisions: {}, end: {}, places: lists(), feet: lists(),
+  };
 }
 
 // The answer as the grid sees it: two of the axes.

@@ -80,6 +80,24 @@ TEST(WindingCurrent, of_a_chopper_rises_with_the_whole_voltage_and_stays_in_its_
   EXPECT_EQ(after(chopper, 1, 0.5), 0.5);
 }
 
+// A hundred million switchings: whole periods of the ripple are passed over, and the rest of the time counts.
+TEST(WindingCurrent, of_a_fast_chopper_is_known_at_once_after_a_long_time) {
+  WindingCircuit chopper = first_stage();
+  chopper.supply.value = 400;
+  chopper.inductance.value = 1e-5;
+  chopper.limit = Amperes{1};
+  chopper.ripple = 0.01;
+  EXPECT_GE(after(chopper, 4), 0.99 - 1e-12);
+  EXPECT_LE(after(chopper, 4), 1 + 1e-12);
+  chopper.inductance.value = 10e-3;
+  WindingCurrent at_once(chopper);
+  WindingCurrent in_parts(chopper);
+  for (WindingCurrent* current : {&at_once, &in_parts}) current->switch_to(1);
+  at_once.run(Seconds(0.02));
+  for (int i = 0; i < 20'000; ++i) in_parts.run(Seconds(1e-6));
+  EXPECT_NEAR(at_once.now().value, in_parts.now().value, 1e-6);
+}
+
 TEST(WindingCurrent, of_a_chopper_with_too_little_voltage_is_that_of_the_resistance) {
   WindingCircuit chopper = first_stage();
   chopper.limit = Amperes{2};

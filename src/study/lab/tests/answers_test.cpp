@@ -1,5 +1,7 @@
 #include "passo/lab/answers.hpp"
 
+#include <chrono>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -131,6 +133,26 @@ TEST(DriverAnswer, ComparesThreeStages) {
   EXPECT_THAT(driver_answer(question), HasSubstr("the supply must be above the transistor's drop"));
   question.base = {0};
   EXPECT_THAT(driver_answer(question), HasSubstr("base resistor"));
+}
+
+// A small inductance at a low rate: half a billion switchings in the two periods that are shown.
+TEST(DriverAnswer, OfAFastChopperIsGivenAtOnce) {
+  MotorData motor = small_motor();
+  motor.rated_current = {1};
+  motor.resistance = {12.8};
+  motor.inductance = {1e-5};
+  DriverQuestion question{.motor = motor,
+                          .supply = {13.8},
+                          .raised = {400},
+                          .series = {22.2},
+                          .ripple = 0.01,
+                          .rate = Hertz(1),
+                          .logic = {5},
+                          .reserve = 0.3,
+                          .base = {470}};
+  const auto before = std::chrono::steady_clock::now();
+  EXPECT_THAT(driver_answer(question), HasSubstr(R"("chopper":{"final_a")"));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(2));
 }
 
 TEST(LoopAnswer, HasTheResponseAndItsFigures) {

@@ -67,6 +67,21 @@ TEST_F(BoardPlayed, follows_an_inverted_clock) {
   EXPECT_THAT(board.answer(), HasSubstr(R"("rotors":[0,5,0])"));
 }
 
+// X has no pin: the computer counts its pulses, and only Y turns.
+TEST_F(BoardPlayed, moves_no_motor_whose_clock_has_no_wire) {
+  press('*');
+  board.set_clock(0b011, 2'000, 5, 0, 0b110);
+  board.run(100'000);
+  EXPECT_THAT(board.answer(), HasSubstr(R"({"lines":0,"clock_runs":false,"pulses":5)"));
+  EXPECT_THAT(board.answer(), HasSubstr(R"("rotors":[0,5,0])"));
+  board.set_clock(0b001, 2'000, 3, 0, 0b110);
+  board.run(3'000);
+  EXPECT_THAT(board.answer(), HasSubstr(R"({"lines":0,"clock_runs":true,"pulses":6)"));
+  board.run(100'000);
+  EXPECT_THAT(board.answer(), HasSubstr(R"({"lines":0,"clock_runs":false,"pulses":8)"));
+  EXPECT_THAT(board.answer(), HasSubstr(R"("rotors":[0,5,0])"));
+}
+
 TEST_F(BoardPlayed, raises_z_backwards_with_key_5_every_20_ms) {
   press('#');
   EXPECT_THAT(board.answer(), HasSubstr(R"("mode":"manual","leds":[0,0,0,0])"));

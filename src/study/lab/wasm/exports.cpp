@@ -197,10 +197,11 @@ void PASSO_EXPORT(lab_board_restart)() {
 void PASSO_EXPORT(lab_board_reset)(int pressed) {
   board().reset(pressed != 0);
 }
-// `pulses` -1: without an end. `axes` 0: the clock stops.
-void PASSO_EXPORT(lab_board_clock)(int axes, double half_us, double pulses, int idle) {
+// `pulses` -1: without an end. `axes` 0: the clock stops. `wired`: the clock lines that have a pin.
+void PASSO_EXPORT(lab_board_clock)(int axes, double half_us, double pulses, int idle, int wired) {
   board().set_clock(static_cast<std::uint8_t>(axes), static_cast<std::int64_t>(half_us),
-                    static_cast<std::int64_t>(pulses), static_cast<std::uint8_t>(idle));
+                    static_cast<std::int64_t>(pulses), static_cast<std::uint8_t>(idle),
+                    static_cast<std::uint8_t>(wired));
 }
 
 // `controlled`: Controlled. The inner gains are those of the speed loop inside a position loop.

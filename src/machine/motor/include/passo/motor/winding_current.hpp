@@ -65,6 +65,8 @@ class WindingCurrent {
 
   double limit() const { return circuit_.limit->value * share_; }
   bool is_held() const;
+  // Of a chopper with a ripple that reaches its limit: from the limit down the band, and up again.
+  double ripple_period() const;
   Piece piece() const;
 
   WindingCircuit circuit_;

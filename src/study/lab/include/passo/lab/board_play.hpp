@@ -73,8 +73,10 @@ class BoardPlay {
   void set_button(bool pushed) { pins_.pushed = pushed; }
   // A square wave on the clock lines of `axes` (bits 0 to 2), as the computer makes it: each level lasts `half_us`, at
   // least two turns of the loop. `idle`: the lines that are high between pulses, because they are inverted. The clock
-  // ends after `pulses`, or never if they are negative. 0 axes: it ends at once, and its lines return to idle.
-  void set_clock(std::uint8_t axes, std::int64_t half_us, std::int64_t pulses, std::uint8_t idle = 0);
+  // ends after `pulses`, or never if they are negative. 0 axes: it ends at once, and its lines return to idle. A line
+  // that is not `wired` never changes: its pulses are counted, and no motor steps.
+  void set_clock(std::uint8_t axes, std::int64_t half_us, std::int64_t pulses, std::uint8_t idle = 0,
+                 std::uint8_t wired = 0b111);
   // Lets time pass, at most longest_run_us.
   void run(std::int64_t microseconds);
 
@@ -83,11 +85,15 @@ class BoardPlay {
 
  private:
   void advance_clock();
+  // The level of a pulse, or of the time between pulses, on the wired clock lines of `axes`.
+  void drive_clock(unsigned axes, bool high);
 
   BoardPins pins_;
   std::optional<Follower<BoardPins, FirstBoardCustoms>> follower_;  // none while the emergency button is pressed
   std::uint8_t clock_axes_ = 0;
   std::uint8_t idle_ = 0;
+  std::uint8_t wired_ = 0b111;
+  bool is_high_ = false;  // within a pulse
   std::int64_t half_us_ = 0;
   std::int64_t next_edge_us_ = 0;
   std::int64_t pulses_left_ = 0;
