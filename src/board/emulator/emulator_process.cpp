@@ -7,9 +7,6 @@
 #include <cstring>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace passo {
@@ -34,16 +31,6 @@ Number get(const std::vector<std::uint8_t>& from, std::size_t at) {
   return number;
 }
 
-bool write_all(int to, const std::vector<std::uint8_t>& bytes) {
-  for (std::size_t sent = 0; sent < bytes.size();) {
-    // A socket instead of a pipe, because only that can be told not to raise a signal when the other side is gone.
-    const ssize_t wrote = ::send(to, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-    if (wrote < 0 && errno == EINTR) continue;
-    if (wrote <= 0) return false;
-    sent += static_cast<std::size_t>(wrote);
-  }
-  return true;
-}
 bool read_all(int from, std::vector<std::uint8_t>& bytes) {
   for (std::size_t have = 0; have < bytes.size();) {
     const ssize_t got = ::read(from, bytes.data() + have, bytes.size() - have);
@@ -54,42 +41,22 @@ bool read_all(int from, std::vector<std::uint8_t>& bytes) {
   return true;
 }
 
-[[noreturn]] void become(const std::vector<char*>& words, int in, int out) {
+[[noreturn]] void become(const std::vector<std::string>& words, int in, int out) {
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   // Ctrl-C in the terminal is for Passo, which brakes; the board must go on meanwhile.
   std::signal(SIGINT, SIG_IGN);
-  ::execvp(words.front(), words.data());
+  ::execvp(pointers.front(), pointers.data());
   ::_exit(127);
 }
 
 }  // namespace
 
-EmulatorProcess::EmulatorProcess(const std::vector<std::string>& words, std::string died) : died_(std::move(died)) {
-  int to[2];
-  int from[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, to) != 0) return;
-  if (::pipe2(from, O_CLOEXEC) != 0) {
-    ::close(to[0]);
-    ::close(to[1]);
-    return;
-  }
-  std::vector<char*> pointers;
-  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
-  pointers.push_back(nullptr);
-  process_ = ::fork();
-  if (process_ == 0) become(pointers, to[1], from[1]);
-  ::close(to[1]);
-  ::close(from[1]);
-  to_ = to[0];
-  from_ = from[0];
-}
-
-EmulatorProcess::~EmulatorProcess() {
-  if (to_ >= 0) ::close(to_);
-  if (from_ >= 0) ::close(from_);
-  if (process_ > 0) ::waitpid(process_, nullptr, 0);
-}
+EmulatorProcess::EmulatorProcess(const std::vector<std::string>& words, std::string died)
+    : child_([&](int in, int out) { become(words, in, out); }), died_(std::move(died)) {}
 
 bool EmulatorProcess::run(std::uint64_t cycle, const Stops& stops) {
   const std::vector<std::uint8_t> bytes = std::exchange(to_send_, {});
@@ -112,16 +79,16 @@ bool EmulatorProcess::request(std::uint64_t cycle, const Stops& stops, std::uint
   put(request, encoder_.to);
   put(request, encoder_.pulses_per_turn);
   request.insert(request.end(), bytes.begin(), bytes.end());
-  if (write_all(to_, request) && read_answer()) return true;
+  if (child_.send({reinterpret_cast<const char*>(request.data()), request.size()}) && read_answer()) return true;
   error_ = died_;
   return false;
 }
 
 bool EmulatorProcess::read_answer() {
   std::vector<std::uint8_t> answer(4);
-  if (!read_all(from_, answer)) return false;
+  if (!read_all(child_.output(), answer)) return false;
   answer.resize(get<std::uint32_t>(answer, 0));
-  if (answer.size() < answer_head + answer_tail || !read_all(from_, answer)) return false;
+  if (answer.size() < answer_head + answer_tail || !read_all(child_.output(), answer)) return false;
   const std::size_t changes = get<std::uint32_t>(answer, 8);
   const std::size_t tail = answer_head + changes * change_size;
   if (tail + answer_tail > answer.size()) return false;

@@ -4,11 +4,8 @@
 #include <cerrno>
 #include <csignal>
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace passo {
@@ -33,54 +30,30 @@ constexpr std::size_t kept_output = 4096;
 
 }  // namespace
 
-GpsimProcess::GpsimProcess(const std::filesystem::path& work, const std::string& image) {
-  int to[2];
-  int from[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, to) != 0) return;
-  if (::pipe2(from, O_CLOEXEC) != 0) {
-    ::close(to[0]);
-    ::close(to[1]);
-    return;
-  }
-  process_ = ::fork();
-  if (process_ == 0) become_gpsim(work, image, to[1], from[1]);
-  ::close(to[1]);
-  ::close(from[1]);
-  to_ = to[0];
-  from_ = from[0];
-}
+GpsimProcess::GpsimProcess(const std::filesystem::path& work, const std::string& image)
+    : child_([&](int in, int out) { become_gpsim(work, image, in, out); }) {}
 
+// It waits for commands, or hangs: there is nothing that it would have to finish.
 GpsimProcess::~GpsimProcess() {
-  if (to_ >= 0) ::close(to_);
-  if (from_ >= 0) ::close(from_);
-  if (process_ <= 0) return;
-  // It waits for commands, or hangs: there is nothing that it would have to finish.
-  ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
+  child_.kill();
 }
 
 bool GpsimProcess::execute(const std::string& commands) {
-  if (process_ <= 0) return false;
+  if (!child_.is_running()) return false;
   const std::string name = "done-" + std::to_string(++executed_);
-  const std::string text = commands + "echo " + name + "\n";
-  for (std::size_t sent = 0; sent < text.size();) {
-    const ssize_t wrote = ::send(to_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (wrote < 0 && errno == EINTR) continue;
-    if (wrote <= 0) return false;
-    sent += static_cast<std::size_t>(wrote);
-  }
+  if (!child_.send(commands + "echo " + name + "\n")) return false;
   // gpsim also repeats the command, after its prompt on the same line.
   return wait_for("\n" + name + "\n");
 }
 
 bool GpsimProcess::wait_for(const std::string& mark) {
   while (said_.find(mark) == std::string::npos) {
-    pollfd ready{.fd = from_, .events = POLLIN, .revents = 0};
+    pollfd ready{.fd = child_.output(), .events = POLLIN, .revents = 0};
     const int came = ::poll(&ready, 1, longest_wait_ms);
     if (came < 0 && errno == EINTR) continue;
     if (came <= 0) return false;
     std::array<char, 4096> piece;
-    const ssize_t got = ::read(from_, piece.data(), piece.size());
+    const ssize_t got = ::read(child_.output(), piece.data(), piece.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return false;
     said_.append(piece.data(), static_cast<std::size_t>(got));

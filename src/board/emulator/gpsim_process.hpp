@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include <sys/types.h>
+#include "passo/emulator/child_process.hpp"
 
 namespace passo {
 
@@ -24,9 +24,7 @@ class GpsimProcess {
  private:
   bool wait_for(const std::string& mark);
 
-  pid_t process_ = -1;
-  int to_ = -1;
-  int from_ = -1;
+  ChildProcess child_;
   unsigned executed_ = 0;  // number of calls
   std::string said_;       // the end of the output
 };

@@ -38,8 +38,8 @@ fs::path built_follower(std::string_view follower) {
 std::string message_of_missing(const fs::path& image) {
   return image.string() +
          " is missing: it is in the packages passo and passo-emulators; in a build from source, scripts/start.sh "
-         "builds "
-         "it; docs/boards.md lists the boards";
+         "builds it; "
+         "docs/boards.md lists the boards";
 }
 
 Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant,

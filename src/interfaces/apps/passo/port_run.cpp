@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "board_opening.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "passo/activity/stage_options.hpp"
 
@@ -41,7 +41,7 @@ bool suits_the_port(const MachineDescription& machine, const std::string& file, 
   return false;
 }
 
-PortRun::PortRun(const MachineDescription& machine, MachineConnection& opened, std::filesystem::path folder,
+PortRun::PortRun(const MachineDescription& machine, MachineConnection& opened, std::unique_ptr<TemporaryFolder> folder,
                  std::unique_ptr<FollowerOnPort> board)
     : description_(machine),
       opened_(opened),
@@ -72,21 +72,19 @@ void PortRun::write_place(Seconds time) {
   path_->write(words + "\n");
 }
 
-PortRun::~PortRun() {
-  board_.reset();
-  std::error_code none;
-  std::filesystem::remove_all(folder_, none);
-}
-
 std::unique_ptr<PortRun> PortRun::start(const MachineDescription& machine, MachineConnection& opened, int& code) {
   const std::filesystem::path image = built_follower("first_board");
   if (!std::filesystem::exists(image)) {
     code = fail(exit_failed, message_of_missing(image));
     return nullptr;
   }
-  std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("passo-port-{}", ::getpid());
+  auto folder = std::make_unique<TemporaryFolder>();
+  if (!folder->make()) {
+    code = fail(exit_failed, "cannot create a temporary folder");
+    return nullptr;
+  }
   const auto pulse = std::llround(machine.board.step_pulse.value() * nanoseconds_a_second);
-  auto board = FollowerOnPort::start(image, folder, pulse, opened.plant());
+  auto board = FollowerOnPort::start(image, folder->name(), pulse, opened.plant());
   if (!board) {
     code = fail(exit_failed, fmt::format("{}: {}", address, board.error()));
     return nullptr;

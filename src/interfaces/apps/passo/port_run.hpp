@@ -3,13 +3,13 @@
 // plant.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "machine_connection.hpp"
 
+#include "passo/confinement/temporary_folder.hpp"
 #include "passo/emulator/follower_on_port.hpp"
 #include "passo/job/motion_lines.hpp"
 #include "passo/kinematics/kinematics.hpp"
@@ -31,7 +31,6 @@ class PortRun final : public MachineObserver {
   // Starts the PIC. `machine` and `opened`, whose plant the port drives (MachineWish::plant_apart), must outlive the
   // run. Null, with a message and the exit code in `code`: the emulator did not start.
   static std::unique_ptr<PortRun> start(const MachineDescription& machine, MachineConnection& opened, int& code);
-  ~PortRun() override;
   PortRun(const PortRun&) = delete;
   PortRun& operator=(const PortRun&) = delete;
 
@@ -54,7 +53,7 @@ class PortRun final : public MachineObserver {
   PortSummary summary();
 
  private:
-  PortRun(const MachineDescription& machine, MachineConnection& opened, std::filesystem::path folder,
+  PortRun(const MachineDescription& machine, MachineConnection& opened, std::unique_ptr<TemporaryFolder> folder,
           std::unique_ptr<FollowerOnPort> board);
   Nanoseconds time_of(Ticks time) const;
   void find_lines();
@@ -63,7 +62,7 @@ class PortRun final : public MachineObserver {
   const MachineDescription& description_;
   MachineConnection& opened_;
   Kinematics kinematics_;
-  std::filesystem::path folder_;
+  std::unique_ptr<TemporaryFolder> folder_;  // outlives the board, which writes there
   std::unique_ptr<FollowerOnPort> board_;
   PlannedLines lines_;
   std::vector<std::uint32_t> lines_of_lost_;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
+#include "passo/emulator/child_process.hpp"
 
 namespace passo {
 
@@ -29,7 +29,6 @@ class EmulatorProcess {
   // Starts the program with its arguments. `died`: the error message if the program ends unexpectedly.
   EmulatorProcess(const std::vector<std::string>& words, std::string died);
   EmulatorProcess(const EmulatorProcess&) = delete;
-  ~EmulatorProcess();
 
   // Conditions that end a run before its time.
   struct Stops {
@@ -71,9 +70,7 @@ class EmulatorProcess {
   bool request(std::uint64_t cycle, const Stops& stops, std::uint8_t flags, std::span<const std::uint8_t> bytes);
   bool read_answer();
 
-  pid_t process_ = -1;
-  int to_ = -1;
-  int from_ = -1;
+  ChildProcess child_;
   std::string died_;
   std::string error_;
   std::uint64_t cycle_ = 0;
