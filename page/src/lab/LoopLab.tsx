@@ -4,8 +4,9 @@ import { useMemo, useState } from 'preact/hooks';
 import { Chart } from './Chart';
 import { type Gains, isFailed, type LabCore, type LoopRequest } from './core';
 import { MotorFields, motorOf } from './motor_fields';
-import { Figure, Lesson, NumberField, Refused, Segments, short } from './shared';
+import { Figure, Lesson, Refused, Segments, short } from './shared';
 import { change, view } from './state';
+import { ViewNumber } from './ViewNumber';
 import { refusal, say } from './words';
 
 const period = 1e-4; // s, of the control
@@ -38,9 +39,6 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
     setSwing(undefined);
     change(of === 'position' ? { of, jump: 90, kp: 200, ki: 0, kd: 0 } : { of, jump: 30, kp: 0.02, ki: 2, kd: 0 });
   };
-  const number = (name: 'jump' | 'load' | 'loadat' | 'time' | 'ikp' | 'iki', label: string, of: string, step: number, from: number, to: number): JSX.Element => (
-    <NumberField label={label} unit={of} value={now[name]} step={step} from={from} to={to} onChange={(value) => change({ [name]: value })} />
-  );
   const tops = places ? { kp: 3000, ki: 1e6, kd: 1 } : { kp: 0.2, ki: 100, kd: 1e-4 };
   return (
     <div class="lab-study">
@@ -61,12 +59,12 @@ export function LoopLab({ core }: { core: LabCore }): JSX.Element {
         </div>
         {swing !== undefined && <p class="lab-lesson" role="status">{swing}</p>}
         <div class="lab-pair">
-          {number('jump', say('jump'), unit, 1, 0.1, 1000)}
-          {number('time', say('time'), 's', 0.01, 0.01, 0.5)}
-          {number('load', say('loadTorque'), 'N·m', 0.01, 0, 100)}
-          {number('loadat', say('loadAt'), 's', 0.01, 0, 1)}
-          {places && number('ikp', say('innerKp'), '', 0.01, 0, 1000)}
-          {places && number('iki', say('innerKi'), '', 0.5, 0, 1e5)}
+          <ViewNumber name="jump" label={say('jump')} unit={unit} step={1} />
+          <ViewNumber name="time" label={say('time')} unit="s" step={0.01} />
+          <ViewNumber name="load" label={say('loadTorque')} unit="N·m" step={0.01} />
+          <ViewNumber name="loadat" label={say('loadAt')} unit="s" step={0.01} />
+          {places && <ViewNumber name="ikp" label={say('innerKp')} unit="" step={0.01} />}
+          {places && <ViewNumber name="iki" label={say('innerKi')} unit="" step={0.5} />}
         </div>
         <details>
           <summary>{say('theMotor')}</summary>

@@ -3,8 +3,9 @@ import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Chart, type ChartLine } from './Chart';
 import { type Answer, isFailed, type LabCore, type Ramp, type RampRequest } from './core';
-import { Lesson, NumberField, Refused, short, Tick } from './shared';
+import { Lesson, Refused, short, Tick } from './shared';
 import { change, view } from './state';
+import { ViewNumber } from './ViewNumber';
 import { refusal, say } from './words';
 
 interface Shown {
@@ -35,12 +36,6 @@ export function RampsLab({ core }: { core: LabCore }): JSX.Element {
   if (first) {
     rates.push({ name: say('idealLine'), mark: 'mark-ideal', x: first.ideal_time_s.map((time) => time * 1000), y: first.ideal_rate_hz });
   }
-  const number = (name: 'clock' | 'turn' | 'accel' | 'steps' | 'rate' | 'start' | 'jerk' | 'table', label: string, unit: string, step: number, from: number, to: number): JSX.Element => (
-    <NumberField
-      label={label} unit={unit} value={now[name]} step={step} from={from} to={to}
-      onChange={(value) => change({ [name]: name === 'turn' || name === 'steps' || name === 'table' ? Math.round(value) : value })}
-    />
-  );
   return (
     <div class="lab-study">
       <div class="panel lab-controls">
@@ -52,14 +47,14 @@ export function RampsLab({ core }: { core: LabCore }): JSX.Element {
         </div>
         <Tick label={say('toRestAgain')} checked={now.move} onChange={(checked) => change({ move: checked })} />
         <div class="lab-pair">
-          {number('accel', say('acceleration'), 'rad/s²', 5, 0.1, 1e6)}
-          {number('rate', say('rate'), say('perSecond'), 50, 0, 1e6)}
-          {number('start', say('startRate'), say('perSecond'), 10, 0, 1e6)}
-          {number('steps', say('count'), '', 10, 1, 4000)}
-          {number('turn', say('stepsATurn'), '', 4, 4, 100_000)}
-          {number('clock', say('timerClock'), 'Hz', 10_000, 1000, 2e8)}
-          {number('table', say('tableSize'), '', 64, 0, 65_535)}
-          {number('jerk', say('jerk'), 'rad/s³', 100, 0, 1e9)}
+          <ViewNumber name="accel" label={say('acceleration')} unit="rad/s²" step={5} />
+          <ViewNumber name="rate" label={say('rate')} unit={say('perSecond')} step={50} />
+          <ViewNumber name="start" label={say('startRate')} unit={say('perSecond')} step={10} />
+          <ViewNumber name="steps" label={say('count')} unit="" step={10} />
+          <ViewNumber name="turn" label={say('stepsATurn')} unit="" step={4} />
+          <ViewNumber name="clock" label={say('timerClock')} unit="Hz" step={10_000} />
+          <ViewNumber name="table" label={say('tableSize')} unit="" step={64} />
+          <ViewNumber name="jerk" label={say('jerk')} unit="rad/s³" step={100} />
         </div>
       </div>
       <div class="panel lab-charts">

@@ -4,8 +4,9 @@ import { useMemo } from 'preact/hooks';
 import { Chart } from './Chart';
 import { isFailed, type LabCore } from './core';
 import { MotorFields, motorOf } from './motor_fields';
-import { Figure, Lesson, NumberField, Refused, short } from './shared';
-import { change, view } from './state';
+import { Figure, Lesson, Refused, short } from './shared';
+import { view } from './state';
+import { ViewNumber } from './ViewNumber';
 import { refusal, say } from './words';
 
 const rows = 240;
@@ -19,8 +20,8 @@ export function TorqueLab({ core }: { core: LabCore }): JSX.Element {
       <div class="panel lab-controls">
         <Lesson>{say('torqueLesson')}</Lesson>
         <MotorFields friction="friction" />
-        <NumberField label={say('wantedAcceleration')} unit="rad/s²" value={now.wants} step={500} from={0} to={1e6} onChange={(wants) => change({ wants })} />
-        <NumberField label={say('margin')} value={now.margin} step={0.05} from={0.05} to={1} onChange={(margin) => change({ margin })} />
+        <ViewNumber name="wants" label={say('wantedAcceleration')} unit="rad/s²" step={500} />
+        <ViewNumber name="margin" label={say('margin')} step={0.05} />
       </div>
       <div class="panel lab-charts">
         {isFailed(answer) ? (

@@ -5,4 +5,9 @@ export interface Field<T> {
   write: (value: T) => string;
   expects: string; // the range or the choices, for everybody
 }
+export interface NumericField extends Field<number> {
+  from: number;
+  to: number;
+  whole: boolean;
+}
 export const range = (from: number, to: number): string => `${from} … ${to}`.replaceAll('-', '−');

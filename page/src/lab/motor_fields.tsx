@@ -1,9 +1,10 @@
 // The motor, its drive and its load, for the pages of torque and loops.
 import type { JSX } from 'preact';
 import type { Motor } from './core';
-import { NumberField, Segments } from './shared';
+import { Segments } from './shared';
 import { change, view } from './state';
 import type { LabView } from './view';
+import { ViewNumber } from './ViewNumber';
 import { say } from './words';
 
 const kgM2PerGCm2 = 1e-7;
@@ -28,9 +29,6 @@ export function motorOf(now: LabView, friction: FrictionField): Motor {
 
 export function MotorFields({ friction }: { friction: FrictionField }): JSX.Element {
   const now = view.value;
-  const number = (name: 'hold' | 'amps' | 'ohms' | 'mh' | 'gcm2' | 'volts' | 'loadgcm2' | FrictionField, label: string, unit: string, step: number, from: number, to: number): JSX.Element => (
-    <NumberField label={label} unit={unit} value={now[name]} step={step} from={from} to={to} onChange={(value) => change({ [name]: value })} />
-  );
   return (
     <>
       <Segments
@@ -40,14 +38,14 @@ export function MotorFields({ friction }: { friction: FrictionField }): JSX.Elem
         onChange={(value) => change({ resistive: value === 'resistive' })}
       />
       <div class="lab-pair">
-        {number('hold', say('holdingTorque'), 'N·m', 0.05, 0.001, 100)}
-        {number('amps', say('current'), 'A', 0.1, 0.01, 50)}
-        {number('ohms', say('resistance'), 'Ω', 0.1, 0.01, 500)}
-        {number('mh', say('inductance'), 'mH', 0.1, 0.01, 500)}
-        {number('volts', say('supply'), 'V', 1, 1, 400)}
-        {number('gcm2', say('rotorInertia'), 'g·cm²', 1, 0.1, 1e5)}
-        {number('loadgcm2', say('loadInertia'), 'g·cm²', 1, 0, 1e6)}
-        {number(friction, say('friction'), 'N·m', 0.01, 0, 100)}
+        <ViewNumber name="hold" label={say('holdingTorque')} unit="N·m" step={0.05} />
+        <ViewNumber name="amps" label={say('current')} unit="A" step={0.1} />
+        <ViewNumber name="ohms" label={say('resistance')} unit="Ω" step={0.1} />
+        <ViewNumber name="mh" label={say('inductance')} unit="mH" step={0.1} />
+        <ViewNumber name="volts" label={say('supply')} unit="V" step={1} />
+        <ViewNumber name="gcm2" label={say('rotorInertia')} unit="g·cm²" step={1} />
+        <ViewNumber name="loadgcm2" label={say('loadInertia')} unit="g·cm²" step={1} />
+        <ViewNumber name={friction} label={say('friction')} unit="N·m" step={0.01} />
       </div>
     </>
   );

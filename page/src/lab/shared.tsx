@@ -32,7 +32,7 @@ export function useSize<E extends Element>(): [RefObject<E | null>, Size] {
 
 interface NumberFieldProps {
   label: string;
-  unit?: string;
+  unit?: string | undefined;
   value: number;
   step: number;
   from: number;

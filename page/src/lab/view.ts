@@ -3,24 +3,24 @@
 import { wiringField } from './board/port';
 import { axesField, tripleField } from './board/table';
 import { driveNames, type DriveName, methodNames, ruleNames, type Method, type Move, type Rule } from './core';
-import { type Field, range } from './field';
+import { type Field, type NumericField, range } from './field';
 
 function choice<T extends string>(values: readonly T[], usual: T): Field<T> {
   return { usual, read: (text) => values.find((one) => one === text), write: (value) => value, expects: values.join(', ') };
 }
-function whole(from: number, to: number, usual: number): Field<number> {
+function whole(from: number, to: number, usual: number): NumericField {
   const read = (text: string): number | undefined => {
     const value = Number(text);
     return Number.isInteger(value) && value >= from && value <= to ? value : undefined;
   };
-  return { usual, read: (text) => (text === '' ? undefined : read(text)), write: String, expects: range(from, to) };
+  return { usual, read: (text) => (text === '' ? undefined : read(text)), write: String, expects: range(from, to), from, to, whole: true };
 }
-function real(from: number, to: number, usual: number): Field<number> {
+function real(from: number, to: number, usual: number): NumericField {
   const read = (text: string): number | undefined => {
     const value = Number(text);
     return text !== '' && Number.isFinite(value) && value >= from && value <= to ? value : undefined;
   };
-  return { usual, read, write: (value) => String(Number(value.toPrecision(8))), expects: range(from, to) };
+  return { usual, read, write: (value) => String(Number(value.toPrecision(8))), expects: range(from, to), from, to, whole: false };
 }
 function pair(limit: number, usual: [number, number]): Field<[number, number]> {
   const one = whole(-limit, limit, 0);

@@ -4,10 +4,11 @@ import './board.css';
 import type { JSX } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { LabCore, Windings } from '../core';
-import { Lesson, NumberField, Select, Tick } from '../shared';
+import { Lesson, Select, Tick } from '../shared';
 import { change, follow, view } from '../state';
 import { MotorView } from '../steps/MotorView';
 import { rotors } from '../view';
+import { ViewNumber } from '../ViewNumber';
 import { say } from '../words';
 import { Held, Panel } from './Panel';
 import { type Bench, type Played, useBench } from './play';
@@ -181,7 +182,7 @@ function ClockPanel({ bench }: { bench: Bench }): JSX.Element {
   return (
     <section class="panel lab-controls lab-clock" aria-label={say('clockTitle')}>
       <h2>{say('clockTitle')}</h2>
-      <NumberField label={say('clockRate')} unit="Hz" value={now.hz} step={5} from={0.5} to={2000} onChange={(hz) => change({ hz })} />
+      <ViewNumber name="hz" label={say('clockRate')} unit="Hz" step={5} />
       <div class="lab-axes">
         {axisNames.map((axis, i) => (
           <Tick key={axis} label={say('clockOn', { axis })} checked={((now.axes >> i) & 1) === 1} onChange={() => change({ axes: now.axes ^ (1 << i) })} />

@@ -3,6 +3,7 @@ import type { JSX } from 'preact';
 import { useState } from 'preact/hooks';
 import { Lesson, NumberField, Segments, Tick } from '../shared';
 import { change, view } from '../state';
+import { ViewNumber } from '../ViewNumber';
 import { say } from '../words';
 import { lineWords } from './PortView';
 import { conflictIn, lineNames, lineOn, type LineName, pinsFor, type Wire } from './port';
@@ -109,8 +110,8 @@ export function TableSetup(): JSX.Element {
         ))}
       </div>
       <div class="lab-pair">
-        <NumberField label={say('zClear')} unit={unit} value={now.zclear} step={0.5} from={-1e5} to={1e5} onChange={(zclear) => change({ zclear })} />
-        <NumberField label={say('zWork')} unit={unit} value={now.zwork} step={0.5} from={-1e5} to={1e5} onChange={(zwork) => change({ zwork })} />
+        <ViewNumber name="zclear" label={say('zClear')} unit={unit} step={0.5} />
+        <ViewNumber name="zwork" label={say('zWork')} unit={unit} step={0.5} />
       </div>
     </section>
   );

@@ -3,12 +3,11 @@ import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import { Chart } from '../Chart';
 import { type Driver, type DriverRequest, isFailed, type LabCore, type Motor, stageNames } from '../core';
-import { Figure, Lesson, NumberField, Refused, short } from '../shared';
+import { Figure, Lesson, Refused, short } from '../shared';
 import { change, view } from '../state';
 import type { LabView } from '../view';
+import { ViewNumber } from '../ViewNumber';
 import { refusal, say } from '../words';
-
-type NumberName = { [K in keyof LabView]: LabView[K] extends number ? K : never }[keyof LabView];
 
 const marks = { plain: 'mark-a', series: 'mark-b', chopper: 'mark-c' } as const;
 // Neither has a part in a current or in pull-out torque.
@@ -29,25 +28,22 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
     baseEmitter: now.vbe, logic: now.logic, reserve: now.reserve, base: now.base,
   };
   const answer = useMemo(() => core.driver(motor, request), [core, JSON.stringify([motor, request])]);
-  const number = (name: NumberName, label: string, unit: string, step: number, from: number, to: number): JSX.Element => (
-    <NumberField label={label} unit={unit} value={now[name]} step={step} from={from} to={to} onChange={(value) => change({ [name]: value })} />
-  );
   const fitting = (now.raised - now.dsat) / now.damps - now.dohms;
   return (
     <div class="lab-study">
       <div class="panel lab-controls">
         <Lesson>{say('driverLesson')}</Lesson>
         <div class="lab-pair">
-          {number('damps', say('current'), 'A', 0.1, 0.01, 50)}
-          {number('dohms', say('resistance'), 'Ω', 0.1, 0.01, 500)}
-          {number('dmh', say('inductance'), 'mH', 1, 0.01, 500)}
-          {number('dhold', say('holdingTorque'), 'N·m', 0.05, 0.001, 100)}
-          {number('dvolts', say('supply'), 'V', 0.1, 1, 400)}
-          {number('dsat', say('saturation'), 'V', 0.1, 0, 10)}
-          {number('raised', say('raisedSupply'), 'V', 1, 1, 400)}
-          {number('series', say('seriesResistor'), 'Ω', 1, 0, 1e4)}
-          {number('ripple', say('chopperBand'), '', 0.01, 0.01, 0.5)}
-          {number('drate', say('rate'), say('perSecond'), 50, 1, 20_000)}
+          <ViewNumber name="damps" label={say('current')} unit="A" step={0.1} />
+          <ViewNumber name="dohms" label={say('resistance')} unit="Ω" step={0.1} />
+          <ViewNumber name="dmh" label={say('inductance')} unit="mH" step={1} />
+          <ViewNumber name="dhold" label={say('holdingTorque')} unit="N·m" step={0.05} />
+          <ViewNumber name="dvolts" label={say('supply')} unit="V" step={0.1} />
+          <ViewNumber name="dsat" label={say('saturation')} unit="V" step={0.1} />
+          <ViewNumber name="raised" label={say('raisedSupply')} unit="V" step={1} />
+          <ViewNumber name="series" label={say('seriesResistor')} unit="Ω" step={1} />
+          <ViewNumber name="ripple" label={say('chopperBand')} unit="" step={0.01} />
+          <ViewNumber name="drate" label={say('rate')} unit={say('perSecond')} step={50} />
         </div>
         <button type="button" class="button" disabled={!(fitting >= 0)} onClick={() => change({ series: Number(fitting.toPrecision(4)) })}>
           {say('fitSeries')}
@@ -107,11 +103,11 @@ export function DriverLab({ core }: { core: LabCore }): JSX.Element {
         <h2>{say('baseTitle')}</h2>
         <Lesson>{say('baseLesson')}</Lesson>
         <div class="lab-pair lab-base">
-          {number('gain', say('gainTitle'), '', 50, 1, 1e5)}
-          {number('logic', say('logicVolts'), 'V', 0.1, 1, 50)}
-          {number('vbe', say('baseEmitter'), 'V', 0.1, 0, 5)}
-          {number('reserve', say('reserveTitle'), '', 0.05, 0, 5)}
-          {number('base', say('baseResistor'), 'Ω', 10, 1, 1e6)}
+          <ViewNumber name="gain" label={say('gainTitle')} unit="" step={50} />
+          <ViewNumber name="logic" label={say('logicVolts')} unit="V" step={0.1} />
+          <ViewNumber name="vbe" label={say('baseEmitter')} unit="V" step={0.1} />
+          <ViewNumber name="reserve" label={say('reserveTitle')} unit="" step={0.05} />
+          <ViewNumber name="base" label={say('baseResistor')} unit="Ω" step={10} />
         </div>
         {!isFailed(answer) && <BaseSums base={answer.base} />}
       </div>

@@ -8,6 +8,7 @@ import { change, view } from '../state';
 import { type AxisName, axisNames, farthest, type LabView, type MethodCode, methodOf, methodsFor, mostMotors, moveOf, rightOf, rotors, wholeMove } from '../view';
 import { cellText, columnWords, driveWords, methodLesson, methodWords, refusal, ruleWords, say } from '../words';
 import { driveNames, ruleNames } from '../core';
+import { ViewNumber } from '../ViewNumber';
 import { CodeView, hasCode, Quadrants } from './CodeView';
 import { Grid, type Played } from './Grid';
 import { MotorView } from './MotorView';
@@ -124,7 +125,7 @@ export function StepsLab({ core }: { core: LabCore }): JSX.Element {
               options={[{ value: 'ccw', words: '↺ G3' }, { value: 'cw', words: '↻ G2' }]}
               onChange={(sense) => change({ cw: sense === 'cw' })}
             />
-            <NumberField label={say('radius')} unit={say('steps')} value={now.radius} step={1} from={1} to={farthest} onChange={(radius) => change({ radius: Math.round(radius) })} />
+            <ViewNumber name="radius" label={say('radius')} unit={say('steps')} step={1} />
           </>
         ) : (
           <>
