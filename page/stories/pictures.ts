@@ -73,6 +73,21 @@ async function pulses(page: import('playwright-core').Page, daemon: Daemon): Pro
   await strip.screenshot({ path: join(folder, 'page-pulses.png'), timeout: patience });
 }
 
+// The first board in the lab, while a clock turns two motors.
+async function firstBoard(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
+  await page.goto(`${daemon.address}#/lab?part=board&mode=automatic&axes=xy&run=1`);
+  await page.locator('.lab-mode[data-mode=automatic]').waitFor({ timeout: patience });
+  await sleep(3000);
+  // Its front, motors, port and control window, as if the window were high enough.
+  await page.setViewportSize({ width: 1440, height: 2400 });
+  const part = await page.locator('.lab-bench').boundingBox();
+  const below = await page.locator('.lab-bench .lab-halves').last().boundingBox();
+  if (part === null || below === null) throw new Error('the first board is not on the page');
+  const clip = { ...part, height: below.y - part.y };
+  await page.screenshot({ path: join(folder, 'page-lab-board.png'), clip, timeout: patience });
+  await page.setViewportSize(sizes[0]);
+}
+
 // Some lines of a person, and what came of them.
 async function typeLines(page: import('playwright-core').Page, daemon: Daemon): Promise<void> {
   const field = page.getByPlaceholder('A line of G-code');
@@ -146,6 +161,7 @@ for (const theme of ['dark', 'light'] as const) {
       await page.locator('.frame:not(.not-live)').waitFor({ timeout: patience });
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
+    if (size.name === 'wide' && theme === 'dark' && pages.includes('lab')) await firstBoard(page, daemon);
     if (size.name === 'wide' && pages.includes('run')) {
       await choose(page, daemon, 'engrave.ngc');
       await page.goto(`${daemon.address}#/run`);
