@@ -36,7 +36,7 @@ set(PASSO_AVR_OPTIONS
 # avrdude.
 function(passo_avr_program name)
   cmake_parse_arguments(ARG "" "MCU;DATA" "SOURCES;MODULES;INCLUDES;OPTIONS;LINK_OPTIONS" ${ARGN})
-  set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU} ${ARG_OPTIONS})
+  set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU} -DPASSO_FIRMWARE_VERSION=${PASSO_FIRMWARE_VERSION} ${ARG_OPTIONS})
   set(link_options -mmcu=${ARG_MCU} ${ARG_LINK_OPTIONS})
   if(ARG_DATA)
     list(APPEND link_options "-Wl,--section-start=.data=${ARG_DATA}")

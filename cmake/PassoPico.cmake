@@ -31,7 +31,7 @@ set(PASSO_PICO_CXX_OPTIONS -std=c++20 -fno-exceptions -fno-rtti -fno-threadsafe-
 # property PASSO_UF2. MODULES are the portable modules whose headers the sources include.
 function(passo_pico_program name)
   cmake_parse_arguments(ARG "" "SCRIPT" "SOURCES;MODULES;OPTIONS" ${ARGN})
-  set(options ${PASSO_PICO_OPTIONS} ${ARG_OPTIONS})
+  set(options ${PASSO_PICO_OPTIONS} -DPASSO_FIRMWARE_VERSION=${PASSO_FIRMWARE_VERSION} ${ARG_OPTIONS})
   foreach(module IN LISTS ARG_MODULES)
     list(APPEND options "-I${PASSO_FOLDER_${module}}/include")
   endforeach()

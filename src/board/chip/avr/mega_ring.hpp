@@ -16,7 +16,7 @@ inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr StepTimes step_times = {
     .shortest_pulse = 18, .first_padding = 27, .event_ticks = 145, .first_turn = 23, .last_turn = 39, .beside_wait = 0};
-inline constexpr About about = {.firmware = 105,
+inline constexpr About about = {.firmware = PASSO_FIRMWARE_VERSION,
                                 .highest_event_rate = 110'000,
                                 .baud = 500'000,
                                 .name = "mega ramps 1.4",

@@ -20,7 +20,7 @@ inline constexpr StepTimes step_times = {.shortest_pulse = 18,
                                          .first_turn = 22,
                                          .last_turn = 38,
                                          .beside_wait = 200};
-inline constexpr About about = {.firmware = 107,
+inline constexpr About about = {.firmware = PASSO_FIRMWARE_VERSION,
                                 .highest_event_rate = 150'000,
                                 .baud = 500'000,
                                 .name = "uno cnc shield3",

@@ -20,12 +20,13 @@ using enum DriveMode;
 #ifdef __AVR_ATmega2560__
 inline constexpr PinMap<4> pins = driven(mega_windings, {PASSO_WINDINGS});
 inline constexpr About about = {
-    .firmware = 103, .highest_event_rate = 30'000, .baud = 500'000, .name = "mega windings"};
+    .firmware = PASSO_FIRMWARE_VERSION, .highest_event_rate = 30'000, .baud = 500'000, .name = "mega windings"};
 inline constexpr uint8_t queue_capacity = 160;
 inline constexpr uint16_t ram_address = 0x200;
 #else
 inline constexpr PinMap<3> pins = driven(uno_windings, {PASSO_WINDINGS});
-inline constexpr About about = {.firmware = 103, .highest_event_rate = 35'000, .baud = 500'000, .name = "uno windings"};
+inline constexpr About about = {
+    .firmware = PASSO_FIRMWARE_VERSION, .highest_event_rate = 35'000, .baud = 500'000, .name = "uno windings"};
 inline constexpr uint8_t queue_capacity = 37;
 inline constexpr uint16_t ram_address = 0x100;
 #endif

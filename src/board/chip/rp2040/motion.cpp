@@ -15,7 +15,8 @@ constexpr uint32_t cycles_a_second = 128'000'000;
 constexpr uint32_t clock = cycles_a_second / StepStream::cycles_of_tick;
 constexpr uint32_t baud = 1'000'000;
 constexpr uint8_t queue_capacity = 250;
-constexpr About about = {.firmware = 103, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
+constexpr About about = {
+    .firmware = PASSO_FIRMWARE_VERSION, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
