@@ -138,19 +138,21 @@ TEST(ApiRoutes, know_how_long_a_body_may_be) {
   EXPECT_EQ(longest("GET", "/programs"), std::size_t{1} << 16);
 }
 
-// As CAM was called before: for one version.
-TEST(ApiRoutes, of_make_are_those_of_cam) {
-  int aliases = 0;
-  for (const ApiRoute& route : api_routes()) {
-    if (!route.path.starts_with("/make")) continue;
-    const std::string path = "/cam" + std::string(route.path.substr(5));
-    const ApiRoute* const cam = find_route(route.method, std::string(api_root) + path).route;
-    ASSERT_NE(cam, nullptr) << path;
-    EXPECT_TRUE(cam->handler == route.handler && cam->body == route.body && cam->moves == route.moves) << path;
-    EXPECT_TRUE(openapi()["paths"][std::string(route.path)][lower(route.method)].value("deprecated", false)) << path;
-    ++aliases;
+// A client that was written for another version learns which one it has met.
+TEST(ApiRoutes, of_other_versions_are_refused_by_name) {
+  ApiRun run;
+  for (const char* path : {"/api/", "/api/status", "/api/v2/status", "/api/v10/status", "/api/v0/hold"}) {
+    for (const char* method : {"GET", "POST"}) {
+      const WebAnswer answer = run.api.answer({.method = method, .path = path});
+      EXPECT_EQ(answer.status, 404U) << path;
+      EXPECT_EQ(Json::parse(answer.body)["error"]["code"], "http.other-version") << path;
+      EXPECT_THAT(answer.body, testing::HasSubstr("the API of this server is /api/v1")) << path;
+    }
   }
-  EXPECT_EQ(aliases, 6);
+  for (const char* path : {"/api/v1", "/api/v1/", "/api/v1/statuses", "/api/v1/make", "/apis/v2"}) {
+    const WebAnswer answer = run.api.answer({.method = "POST", .path = path});
+    EXPECT_EQ(Json::parse(answer.body)["error"]["code"], "http.not-found") << path;
+  }
 }
 
 }  // namespace

@@ -40,13 +40,6 @@ constexpr ApiRoute routes[] = {
     {"GET", "/cam/operations", "getCamOperations", anybody, none, &CamApi::operations},
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
-    // As these were called before; for one version.
-    {"GET", "/make", "getMake", anybody, none, &CamApi::get, Needs::maker},
-    {"POST", "/make", "make", anybody, json, &CamApi::begin},
-    {"POST", "/make/files", "sendMakeFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
-    {"DELETE", "/make/files", "clearMakeFiles", anybody, none, &CamApi::clear_files, Needs::maker},
-    {"GET", "/make/page", "getMadePage", anybody, none, &CamApi::page, Needs::maker},
-    {"GET", "/make/picture", "getMadePicture", anybody, none, &CamApi::picture, Needs::maker},
 
     {"GET", "/interrupted", "getInterrupted", anybody, none, &JobsApi::get_interrupted, Needs::history},
     {"DELETE", "/interrupted", "dropInterrupted", owner, none, &JobsApi::drop_interrupted, Needs::history},

@@ -11,6 +11,7 @@
 #include "owner_api.hpp"
 #include "programs_api.hpp"
 #include "studies_api.hpp"
+#include <fmt/format.h>
 
 #include "passo/api/api_routes.hpp"
 
@@ -32,6 +33,13 @@ std::optional<WebAnswer> what_lacks(Needs needs, const ApiOptions& options) {
   if (needs == Needs::maker && options.maker == nullptr) return no_maker();
   if (needs == Needs::studies && options.studies == nullptr) return no_studies();
   return {};
+}
+
+// What is written for another version of the API: its path has another number, or none.
+bool is_of_another_version(std::string_view path) {
+  constexpr std::string_view any_version = "/api/";
+  if (!path.starts_with(any_version) || !path.starts_with(api_root)) return path.starts_with(any_version);
+  return path.size() > api_root.size() && path[api_root.size()] != '/';
 }
 
 std::size_t longest_of(BodyKind kind) {
@@ -103,6 +111,10 @@ class WebApi::Parts {
       WebAnswer refused = refusal_answer(405);
       refused.allow = found.allowed;
       return refused;
+    }
+    if (is_of_another_version(request.path)) {
+      return error_answer(404, "http.other-version",
+                          fmt::format("the API of this server is {0}, described in {0}/openapi.json", api_root));
     }
     const bool looks = request.method == "GET" && options.page;
     auto page = looks ? options.page(request) : std::nullopt;

@@ -44,6 +44,7 @@ export const faults = {
   'http.token': 'a token is required',
   'http.foreign-page': 'the server does not accept requests from a web page that was loaded from another address',
   'http.not-found': 'this address does not exist on the server',
+  'http.other-version': 'the server has another version of the interface: load the page again',
   'http.method': 'the server does not accept this request at this address',
   'http.too-large': 'the file is too large',
   'http.busy': 'other clients or large uploads occupy the server: try again later',

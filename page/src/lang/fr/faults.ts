@@ -46,6 +46,7 @@ export const faults: Same<typeof en> = {
   'http.token': 'un jeton est requis',
   'http.foreign-page': 'le serveur refuse les requêtes d’une page ouverte à une autre adresse',
   'http.not-found': 'le serveur n’a rien à cette adresse',
+  'http.other-version': 'le serveur a une autre version de l’interface : rechargez la page',
   'http.method': 'le serveur n’accepte pas cette requête à cette adresse',
   'http.too-large': 'le fichier est trop volumineux',
   'http.busy': 'd’autres postes ou de gros envois occupent toutes les ressources : réessayez',

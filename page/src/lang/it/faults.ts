@@ -46,6 +46,7 @@ export const faults: Same<typeof en> = {
   'http.token': 'serve un token',
   'http.foreign-page': 'il server rifiuta le richieste di una pagina caricata da un altro indirizzo',
   'http.not-found': 'il server non ha nulla a questo indirizzo',
+  'http.other-version': 'il server ha un’altra versione dell’interfaccia: ricaricare la pagina',
   'http.method': 'il server non accetta questa richiesta a questo indirizzo',
   'http.too-large': 'il file è troppo grande',
   'http.busy': 'altri client o caricamenti di grandi file occupano tutte le risorse: riprova',

@@ -46,6 +46,7 @@ export const faults: Same<typeof en> = {
   'http.token': '需要令牌',
   'http.foreign-page': '服务器不接受从其他地址加载的页面的请求',
   'http.not-found': '服务器上没有此地址的内容',
+  'http.other-version': '服务器使用另一个接口版本：请重新加载页面',
   'http.method': '服务器在此地址不接受该请求',
   'http.too-large': '文件太大',
   'http.busy': '其他客户端或大文件上传占用了全部资源：请重试',
