@@ -4,13 +4,17 @@ Links lead from page to page as in the checkout. A link to a source file leads t
 a running server leads to the Lab of the site. Pages that lie elsewhere in the checkout are listed in `elsewhere`.
 """
 import html
+import json
 import os
 import posixpath
 import re
 from pathlib import Path
 from urllib.parse import unquote
 
+import jieba
 from markdown_it import MarkdownIt
+from mkdocs.exceptions import PluginError
+from mkdocs.plugins import event_priority
 from mkdocs.structure.files import File
 from mkdocs.structure.nav import Link
 from mkdocs.structure.toc import get_toc
@@ -27,12 +31,14 @@ elsewhere = {  # the page's name: its file in the checkout
     "security.md": "SECURITY.md",
     "conduct.md": "CODE_OF_CONDUCT.md",
     "site.css": "site/site.css",
+    "site.js": "site/site.js",
     "icon.svg": "page/public/icon.svg",
 }
 name_of = {path: name for name, path in elsewhere.items()} | {"README.md": "index.md"}
 local_lab = re.compile(r"http://127\.0\.0\.1:7080/?#/lab")
 built_pages = Path(os.environ.get("PASSO_SITE_PAGES", root / "build/site-pages"))
 pages_of_their_own = {"lab": "Lab", "check": "Check a program"}
+longest_term = 4  # characters of a Chinese term that is a heading
 sources = set()  # source files that a page links to
 
 
@@ -113,11 +119,24 @@ def fence(self, tokens, index, options, env):
     words = tokens[index].info.split()
     language = words[0] if words else ""
     inner = coloured(tokens[index].content, language, "") or html.escape(tokens[index].content)
-    return f'<div class="highlight"><pre tabindex="0"><code>{inner}</code></pre></div>\n'
+    return f'<div class="highlight"><pre><code tabindex="0">{inner}</code></pre></div>\n'
 
 
 parser = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 parser.add_render_rule("fence", fence)
+parser.add_render_rule("code_block", fence)
+
+
+def without_gaps(children):
+    """A line break between two Chinese characters is no blank."""
+    def is_chinese(text, at):
+        return text != "" and "\u2e80" <= text[at] <= "\uffef"
+
+    return [
+        token
+        for i, token in enumerate(children)
+        if not (token.type == "softbreak" and is_chinese(children[i - 1].content, -1) and is_chinese(children[i + 1].content, 0))
+    ]
 
 
 def plain_text(inline):
@@ -132,6 +151,10 @@ def on_page_markdown(markdown, page, config, files):
             heading = plain_text(tokens[i + 1])
             token.attrSet("id", anchor_of(heading, used))
             entries.append({"level": int(token.tag[1]), "id": token.attrGet("id"), "name": html.escape(heading), "children": []})
+        if token.children:
+            token.children = without_gaps(token.children)
+        if token.type in ("th_open", "th_close") and not tokens[i + 1 if token.nesting == 1 else i - 1].content:
+            token.tag = "td"  # an empty cell is no heading
         for child in token.children or []:
             for attribute in ("href", "src"):
                 if child.attrGet(attribute) is not None:
@@ -159,11 +182,48 @@ def on_page_content(_, page, config, files):
     return page.rendered
 
 
+accessible = {  # what the theme lacks
+    'role="dialog">': 'role="dialog" aria-label="Search">',
+    'class="md-search__scrollwrap"': 'class="md-search__scrollwrap" tabindex="0"',
+    '"search.config.pipeline": "trimmer, stopWordFilter"': '"search.config.pipeline": "stopWordFilter"',  # it drops Chinese
+    '"select.version.title": "Select version"': '"select.version.title": ""',  # the button is named by its text
+}
+
+
 def on_post_page(output, page, config):
+    for was, becomes in accessible.items():
+        if was not in output:
+            raise PluginError(f"hooks.py: the theme no longer has {was}")
+        output = output.replace(was, becomes, 1)
     return output.replace('<html lang="en"', f'<html lang="{language_of(page)}"', 1)
 
 
+mark_at_end = re.compile(r"([.,:;!?)\]}\"”’»…]+)(?=\s|$)")
+mark_at_start = re.compile(r"(^|\s)([(\[{\"“‘«]+)")
+
+
+def divide_words(index_file):
+    """The search knows words between blanks. U+200B, which is not seen, divides Chinese words, and marks from words: "Z." has
+    the word Z, and G38.2 stays whole.
+    """
+    jieba.setLogLevel("WARNING")
+    jieba.dt.tmp_dir = str(built_pages)  # not one that others can write
+    index = json.loads(index_file.read_text(encoding="utf-8"))
+    for entry in index["docs"]:
+        if entry["location"].startswith("zh/") and len(entry["title"]) <= longest_term:
+            jieba.add_word(entry["title"])
+    for entry in index["docs"]:
+        for field in ("title", "text"):
+            text = entry[field]
+            if entry["location"].startswith("zh/"):
+                text = "\u200b".join(jieba.cut(text))
+            entry[field] = mark_at_start.sub("\\1\\2\u200b", mark_at_end.sub("\u200b\\1", text))
+    index_file.write_text(json.dumps(index, ensure_ascii=False, separators=(",", ":")), encoding="utf-8")
+
+
+@event_priority(-100)  # the plugin for the search has written its index
 def on_post_build(config):
+    divide_words(Path(config["site_dir"], "search/search_index.json"))
     for source in sorted(sources):
         copy = Path(config["site_dir"], "source", source + ".txt")
         copy.parent.mkdir(parents=True, exist_ok=True)

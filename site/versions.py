@@ -28,6 +28,7 @@ listing = """<!doctype html>
     <meta name="viewport" content="width=device-width" />
     <meta name="color-scheme" content="light dark" />
     <title>Versions of Passo</title>
+    <link rel="icon" href="{newest}/icon.svg" type="image/svg+xml" />
   </head>
   <body style="font: 1.1rem/1.6 system-ui, sans-serif; max-width: 40rem; margin: 2rem auto; padding: 0 1rem">
     <main>
@@ -67,7 +68,7 @@ def main(folder):
         f'<a href="{one}/lab/index.html">Lab</a></li>'
         for one in versions
     )
-    (folder / "versions.html").write_text(listing.format(items=items), encoding="utf-8")
+    (folder / "versions.html").write_text(listing.format(items=items, newest=newest), encoding="utf-8")
     (folder / "index.html").write_text(leading_to(newest, f"{newest}/index.html"), encoding="utf-8")
 
 
