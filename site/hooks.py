@@ -52,6 +52,10 @@ def on_files(files, config):
 
 
 def on_nav(nav, config, files):
+    in_nav = {page.file.src_uri for page in nav.pages}
+    for file in files.documentation_pages():
+        if file.src_uri not in in_nav and not file.src_uri.startswith("decisions/"):
+            raise PluginError(f"docs/{file.src_uri} is not in the navigation of site/mkdocs.yml")
     for name, title in pages_of_their_own.items():
         if (built_pages / name).is_dir():
             nav.items.insert(1, Link(title, f"{name}/index.html"))
