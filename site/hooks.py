@@ -59,6 +59,7 @@ def on_nav(nav, config, files):
     for name, title in pages_of_their_own.items():
         if (built_pages / name).is_dir():
             nav.items.insert(1, Link(title, f"{name}/index.html"))
+    nav.items[-1].children.append(Link("All versions", "versions.html"))
     return nav
 
 
@@ -200,6 +201,7 @@ def on_post_page(output, page, config):
         if was not in output:
             raise PluginError(f"hooks.py: the theme no longer has {was}")
         output = output.replace(was, becomes, 1)
+    output = re.sub(r'href="((?:\.\./)*)versions\.html"', r'href="\1../versions.html"', output)  # it is beside the version's folder
     to_top = posixpath.relpath("site.js", posixpath.dirname(page.file.dest_uri) or ".")
     output = output.replace("</head>", f'<script src="{to_top}"></script></head>', 1)
     return output.replace('<html lang="en"', f'<html lang="{language_of(page)}"', 1)
@@ -214,7 +216,7 @@ def divide_words(index_file):
     the word Z, and G38.2 stays whole.
     """
     jieba.setLogLevel("WARNING")
-    jieba.dt.tmp_dir = str(built_pages)  # not one that others can write
+    jieba.dt.tmp_dir = str(built_pages.parent)  # not one that others can write
     index = json.loads(index_file.read_text(encoding="utf-8"))
     # A decision is found by its title and its first words, so that the manual comes first.
     index["docs"] = [entry for entry in index["docs"] if not re.match(r"decisions/\d.*#", entry["location"])]

@@ -47,6 +47,12 @@ def leading_to(version, address):
     return leads.format(version=version, address=html.escape(address), target=json.dumps(address))
 
 
+def item_of(folder, version):
+    pages = {"manual/installing.html": "manual", "lab/index.html": "Lab", "check/index.html": "check of programs"}
+    links = [f'<a href="{version}/{page}">{words}</a>' for page, words in pages.items() if (folder / version / page).is_file()]
+    return f'        <li><a href="{version}/index.html">{version}</a>: {", ".join(links)}</li>'
+
+
 def main(folder):
     names = [one.name for one in folder.iterdir() if re.fullmatch(r"\d+\.\d+", one.name)]
     versions = sorted(names, key=lambda name: [int(part) for part in name.split(".")], reverse=True)
@@ -63,11 +69,7 @@ def main(folder):
         stub.write_text(leading_to(newest, f"{up}{newest}/{name.as_posix()}"), encoding="utf-8")
     list_of = [{"version": one, "title": one, "aliases": ["latest"] if one == newest else []} for one in versions]
     (folder / "versions.json").write_text(json.dumps(list_of) + "\n", encoding="utf-8")
-    items = "\n".join(
-        f'        <li><a href="{one}/index.html">{one}</a>: <a href="{one}/manual/installing.html">manual</a>, '
-        f'<a href="{one}/lab/index.html">Lab</a></li>'
-        for one in versions
-    )
+    items = "\n".join(item_of(folder, one) for one in versions)
     (folder / "versions.html").write_text(listing.format(items=items, newest=newest), encoding="utf-8")
     (folder / "index.html").write_text(leading_to(newest, f"{newest}/index.html"), encoding="utf-8")
 
