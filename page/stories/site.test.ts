@@ -76,9 +76,8 @@ describe.skipIf(!existsSync(join(folder, 'versions.json')))('the site', () => {
   it.each([
     ['latest/index.html', {}],
     ['latest/index.html', { width: 390, theme: 'dark' }],
-    ['latest/manual/machine-file.html', { theme: 'dark' }],
     ['latest/ramps/index.html', { width: 390 }],
-    ['latest/it/rampe.html', {}],
+    ['latest/it/rampe.html', { theme: 'dark' }],
     ['versions.html', { width: 390 }],
   ] as const)('shows %s, %j', async (path, look) => {
     const { context, page, wrong } = await open(path, look);
