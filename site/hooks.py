@@ -40,6 +40,12 @@ built_pages = Path(os.environ.get("PASSO_SITE_PAGES", root / "build/site-pages")
 pages_of_their_own = {"lab": "Lab", "check": "Check a program"}
 longest_term = 4  # characters of a Chinese term that is a heading
 longest_summary = 300  # characters
+corrections = {  # of the theme's pages
+    'role="dialog">': 'role="dialog" aria-label="Search">',
+    'class="md-search__scrollwrap"': 'class="md-search__scrollwrap" tabindex="0"',
+    '"search.config.pipeline": "trimmer, stopWordFilter"': '"search.config.pipeline": "stopWordFilter"',  # it drops Chinese
+    '"select.version.title": "Select version"': '"select.version.title": ""',  # the button is named by its text
+}
 sources = set()  # source files that a page links to
 
 
@@ -88,6 +94,8 @@ def target_on_site(page, link):
         name = html_name(name_of[target])
     elif target.startswith("docs/"):
         name = html_name(target[len("docs/") :])
+    elif re.fullmatch(r"page/(?!index)\w+\.html", target):  # a page of its own
+        name = target[len("page/") : -len(".html")] + "/index.html"
     elif (root / target).is_file():
         sources.add(target)
         name = f"source/{target}.txt"
@@ -113,7 +121,7 @@ def anchor_of(heading, used):
     return anchor
 
 
-def coloured(code, language, _):
+def coloured(code, language):
     try:
         lexer = get_lexer_by_name(language)
     except ClassNotFound:
@@ -124,7 +132,7 @@ def coloured(code, language, _):
 def fence(self, tokens, index, options, env):
     words = tokens[index].info.split()
     language = words[0] if words else ""
-    inner = coloured(tokens[index].content, language, "") or html.escape(tokens[index].content)
+    inner = coloured(tokens[index].content, language) or html.escape(tokens[index].content)
     return f'<div class="highlight"><pre><code tabindex="0">{inner}</code></pre></div>\n'
 
 
@@ -188,16 +196,8 @@ def on_page_content(_, page, config, files):
     return page.rendered
 
 
-accessible = {  # what the theme lacks
-    'role="dialog">': 'role="dialog" aria-label="Search">',
-    'class="md-search__scrollwrap"': 'class="md-search__scrollwrap" tabindex="0"',
-    '"search.config.pipeline": "trimmer, stopWordFilter"': '"search.config.pipeline": "stopWordFilter"',  # it drops Chinese
-    '"select.version.title": "Select version"': '"select.version.title": ""',  # the button is named by its text
-}
-
-
 def on_post_page(output, page, config):
-    for was, becomes in accessible.items():
+    for was, becomes in corrections.items():
         if was not in output:
             raise PluginError(f"hooks.py: the theme no longer has {was}")
         output = output.replace(was, becomes, 1)
