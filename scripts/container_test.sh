@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
-# scripts/container_test.sh [--chroot]: builds the container of Containerfile on a bare Debian 12, and tries it: not root, on a
-# read-only file system, with a volume. It runs a first job, then the server, whose health, token and page are checked.
+# scripts/container_test.sh [--chroot | --save FILE]: builds the container of Containerfile on a bare Debian 12, and tries it:
+# not root, on a read-only file system, with a volume. It runs a first job, then the server, whose health, token and page
+# are checked.
 #
 #   --chroot   without podman, which need not be here: the steps of the Containerfile are done in a chroot
+#   --save     then writes the image into FILE, a tar.gz for `podman load` and `docker load`
 #
+# PASSO_PODMAN is the command instead of podman, such as "podman --runtime /usr/sbin/runc"; PASSO_PODMAN_RUN has further
+# options of its command run, such as "--ulimit nproc=20000:20000", for computers that are containers themselves.
 # Exit code 77, "skipped": not root, no podman, no bare Debian (scripts/bare_debian.sh), no packages, or no namespaces.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -18,10 +22,10 @@ fail() {
 }
 way=podman
 case "${1-}" in
-  "") command -v podman >/dev/null || skip "podman is not installed." ;;
+  "" | --save) command -v podman >/dev/null || skip "podman is not installed." ;;
   --chroot) way=chroot ;;
   *)
-    sed -n '2,7s/^# \{0,1\}//p' "$0"
+    sed -n '2,11s/^# \{0,1\}//p' "$0"
     exit 2
     ;;
 esac
@@ -42,18 +46,25 @@ mapfile -t needed < <(scripts/package_needs.sh build/packages/passo_*.deb build/
 scripts/bare_debian.sh bookworm "$arch" "$root" "${needed[@]}" || exit
 # As in the images of Debian: without documents and translations.
 rm -rf "$root"/usr/share/{doc,man,locale}/* "$root"/var/lib/apt/lists/* "$root"/var/cache/apt/* "$root"/var/log/*
-image=passo-test
+image=passo-test name=
+read -ra podman <<<"${PASSO_PODMAN:-podman}"
+read -ra run_options <<<"${PASSO_PODMAN_RUN-}"
 port=$((20000 + RANDOM % 10000))
 
+# The same packages give the same files, with the same times.
+epoch=$(dpkg-parsechangelog --file debian/changelog --show-field Timestamp)
 build_by_podman() {
-  tar --create --one-file-system --directory "$root" . | podman import --quiet - passo-bare >/dev/null
-  podman build --quiet --isolation chroot --format docker --pull=never --build-arg BASE=localhost/passo-bare \
-    --tag "$image" . >/dev/null
-  size=$(podman image inspect --format '{{.Size}}' "$image")
+  tar --create --one-file-system --sort=name --mtime="@$epoch" --directory "$root" . | "${podman[@]}" import --quiet - passo-bare >/dev/null
+  "${podman[@]}" build --quiet --isolation chroot --format docker --pull=never --build-arg BASE=localhost/passo-bare \
+    --timestamp "$epoch" --tag "$image" . >/dev/null
+  size=$("${podman[@]}" image inspect --format '{{.Size}}' "$image")
 }
 run_by_podman() {  # ARGUMENT...
-  podman run --rm --network host --read-only --read-only-tmpfs=false --security-opt no-new-privileges --cap-drop all \
-    --volume "$volume:/var/lib/passo:U" --env "PASSO_PORT=$port" "$image" "$@"
+  exec "${podman[@]}" run --rm --network host --read-only --read-only-tmpfs=false --security-opt no-new-privileges --cap-drop all \
+    --volume "$volume:/var/lib/passo:U" --env "PASSO_PORT=$port" "${run_options[@]}" ${name:+--name "$name"} "$image" "$@"
+}
+health_by_podman() {
+  "${podman[@]}" healthcheck run "$name" >/dev/null
 }
 
 # The second stage of the Containerfile, instruction by instruction.
@@ -85,6 +96,10 @@ run_by_chroot() {  # ARGUMENT...; it becomes the program
     env --ignore-environment "${environment[@]}" "PASSO_PORT=$port" "$entry" "$@"
 }
 
+health_by_chroot() {
+  (run_by_chroot health)
+}
+
 begun=$(date +%s%N)
 ends() {  # STEP
   local now
@@ -102,13 +117,14 @@ examples=/usr/share/passo/examples
 [[ -s $volume/engrave.png ]] || fail "the first job wrote no picture"
 ends "first job"
 
+name=$image
 "run_by_$way" >build/packages/container.log 2>&1 &
 server=$!
 for _ in {1..100}; do
-  ("run_by_$way" health) 2>/dev/null && break
+  "health_by_$way" 2>/dev/null && break
   sleep 0.1
 done
-("run_by_$way" health) || fail "the server is not healthy: see build/packages/container.log"
+"health_by_$way" || fail "the server is not healthy: see build/packages/container.log"
 page=http://127.0.0.1:$port
 token=$(cat "$volume/token")
 answers() {  # STATUS PATH [OPTION...]
@@ -127,3 +143,8 @@ wait "$server" || true
 server=
 [[ -s $volume/jobs.sqlite ]] || fail "the server kept no jobs"
 ends "server: health, token, page"
+if [[ ${1-} == --save ]]; then
+  "${podman[@]}" save --quiet "$image" | gzip -9n >"${2:?the file}.unfinished"
+  mv "$2.unfinished" "$2"
+  ls -l "$2"
+fi

@@ -2,8 +2,8 @@
 # scripts/package.sh [--all]: makes the Debian packages passo and passo-emulators from build/release and build/page, and
 # writes them with SHA256SUMS into build/packages.
 #
-#   --all   also the packages for Debian 12 and 13 on amd64 and for Debian 12 on arm64 (scripts/package_elsewhere.sh), and
-#           the container (scripts/container.sh); each compilation takes 10 to 15 minutes of one processor
+#   --all   also those for Debian 12 and 13 on amd64 and for Debian 12 on arm64, each in a folder of its own, and with podman
+#           the container; each compilation takes 10 to 15 minutes of one processor (scripts/package_elsewhere.sh)
 #
 # It compiles only what is missing in build/release. It needs debhelper; with lintian it checks the packages, too, unless
 # PASSO_NO_LINTIAN is set. scripts/package_elsewhere.sh sets PASSO_BUILD, PASSO_PACKAGES and PASSO_ARCHITECTURE.
@@ -55,6 +55,10 @@ if [[ $of_system != debian12 ]]; then sed -i "1s/)/+${of_system/debian/deb})/" "
   tail -n 30 "$folder/log" >&2
   exit 1
 }
+if grep --recursive --files-with-matches --fixed-strings "$PWD" "$folder"/passo/debian/*/usr >&2; then
+  echo "scripts/package.sh: these files name the folder in which they were built, $PWD" >&2
+  exit 1
+fi
 if [[ -z ${PASSO_NO_LINTIAN-} ]] && command -v lintian >/dev/null; then
   # Errors and warnings end it. What it says else is in lintian.txt.
   lintian -EviI --fail-on error,warning --allow-root "$folder"/*.changes >"$folder/lintian" || {
@@ -63,7 +67,18 @@ if [[ -z ${PASSO_NO_LINTIAN-} ]] && command -v lintian >/dev/null; then
   }
   cp "$folder/lintian" "$packages/lintian.txt"
 fi
-rm -f "$packages"/*.deb
+rm -f "$packages"/*.deb "$packages"/*.tar.gz
 mv "$folder"/*.deb "$packages/"
-(cd "$packages" && sha256sum -- *.deb >SHA256SUMS)
+if [[ ${1-} == --all ]]; then
+  for target in bookworm-amd64 trixie-amd64 bookworm-arm64; do
+    [[ $target != "$(. /etc/os-release && echo "${VERSION_CODENAME-}")-$architecture" ]] || continue
+    scripts/package_elsewhere.sh "${target%-*}" "${target#*-}"
+  done
+  if command -v podman >/dev/null; then
+    scripts/container_test.sh --save "$packages/passo_${of_changelog}_container_$architecture.tar.gz"
+  else
+    echo "scripts/package.sh: podman is not installed: the container is not made" >&2
+  fi
+fi
+(cd "$packages" && shopt -s nullglob && sha256sum -- *.deb {bookworm,trixie}-*/*.deb *.tar.gz >SHA256SUMS)
 ls -l "$packages"/*.deb
