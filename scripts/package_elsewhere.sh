@@ -59,7 +59,7 @@ fi
 # --- build and packages, in there
 options=(-DPASSO_BUILD_TESTS=OFF -DPASSO_BUILD_BENCHMARKS=OFF)
 if [[ $arch != "$native" ]]; then
-  processor=$(inside dpkg-architecture -a "$arch" -q DEB_HOST_GNU_CPU)
+  processor=$(inside dpkg-architecture -a "$arch" -q DEB_HOST_GNU_CPU 2>/dev/null)
   # Outside of the bare system the kernel may start programs for other processors by itself. Where it does not, qemu does.
   cp "$(command -v "qemu-$processor-static")" "$root/usr/bin/" || fail "qemu-user-static is not installed"
   options+=(-DCMAKE_SYSTEM_NAME=Linux "-DCMAKE_SYSTEM_PROCESSOR=$processor" "-DCMAKE_CXX_COMPILER=$processor-linux-gnu-g++"
