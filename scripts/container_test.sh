@@ -54,7 +54,11 @@ port=$((20000 + RANDOM % 10000))
 # The same packages give the same files, with the same times.
 epoch=$(dpkg-parsechangelog --file debian/changelog --show-field Timestamp)
 build_by_podman() {
-  tar --create --one-file-system --sort=name --mtime="@$epoch" --directory "$root" . | "${podman[@]}" import --quiet - passo-bare >/dev/null
+  # Not by `podman import`, which writes the time into the image.
+  tar --create --one-file-system --sort=name --mtime="@$epoch" --directory "$root" --file "$volume/bare.tar" .
+  printf 'FROM scratch\nADD bare.tar /\n' >"$volume/Containerfile"
+  "${podman[@]}" build --quiet --timestamp "$epoch" --tag passo-bare "$volume" >/dev/null
+  rm "$volume/bare.tar" "$volume/Containerfile"
   "${podman[@]}" build --quiet --isolation chroot --format docker --pull=never --build-arg BASE=localhost/passo-bare \
     --timestamp "$epoch" --tag "$image" . >/dev/null
   size=$("${podman[@]}" image inspect --format '{{.Size}}' "$image")

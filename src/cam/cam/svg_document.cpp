@@ -19,11 +19,19 @@ std::string_view without_prefix(std::string_view name) {
 
 // Where the parser is. From version 2.9 on expat counts in 64 bits and has other names for it.
 #if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
-std::uint32_t line_of(XML_Parser parser) { return static_cast<std::uint32_t>(XML_GetCurrentLineNumber64(parser)); }
-std::uint32_t column_of(XML_Parser parser) { return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber64(parser)); }
+std::uint32_t line_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentLineNumber64(parser));
+}
+std::uint32_t column_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber64(parser));
+}
 #else
-std::uint32_t line_of(XML_Parser parser) { return static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser)); }
-std::uint32_t column_of(XML_Parser parser) { return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser)); }
+std::uint32_t line_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser));
+}
+std::uint32_t column_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser));
+}
 #endif
 
 class SvgTreeReader {
