@@ -51,7 +51,7 @@ read -ra podman <<<"${PASSO_PODMAN:-podman}"
 read -ra run_options <<<"${PASSO_PODMAN_RUN-}"
 port=$((20000 + RANDOM % 10000))
 
-# The same packages give the same files, with the same times.
+# The same packages give the same layers of the image.
 epoch=$(dpkg-parsechangelog --file debian/changelog --show-field Timestamp)
 build_by_podman() {
   # Not by `podman import`, which writes the time into the image.
