@@ -49,8 +49,8 @@ if(PASSO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# lld, which is here for WebAssembly, links three times as fast as ld.
+# lld, which is here for WebAssembly, links three times as fast as ld. A cross compiler does not find it.
 find_program(PASSO_LLD NAMES ld.lld ld.lld-14)
-if(PASSO_LLD)
+if(PASSO_LLD AND NOT CMAKE_CROSSCOMPILING)
   add_link_options(-fuse-ld=lld)
 endif()

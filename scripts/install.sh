@@ -6,6 +6,19 @@
 # It says what it does, does nothing else, and uses the network only where something is missing.
 set -euo pipefail
 
+# Debian 12 has a libc++ for WebAssembly that suits its clang only in version 16. Later releases have one of clang's version.
+release=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}") || release=
+case "$release" in
+  bookworm)
+    wasm_packages=(libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 libclang-rt-14-dev-wasm32)
+    sanitizers=libclang-rt-14-dev
+    ;;
+  *)
+    wasm_packages=(libc++-dev-wasm32 libclang-rt-dev-wasm32)
+    sanitizers=libclang-rt-dev
+    ;;
+esac
+
 build_packages=(
   g++ cmake ninja-build      # compiler and build
   libfmt-dev                 # text
@@ -15,7 +28,7 @@ build_packages=(
   libcairo2-dev libpng-dev   # pictures
   zlib1g-dev                 # packed TIFF pictures
   libsqlite3-dev             # jobs and history of passo serve
-  libboost1.74-dev           # HTTP and WebSocket of passo serve
+  libboost-dev               # HTTP and WebSocket of passo serve
   libmosquitto-dev           # status of passo serve for an MQTT broker
   libpolyclipping-dev        # unions and offsets of copper in passo cam
   libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
@@ -23,13 +36,13 @@ build_packages=(
   libminizip-dev             # zip archives of board files
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
-  lld libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc libclang-rt-14-dev-wasm32  # the lab of the page, as WebAssembly
+  lld wasi-libc "${wasm_packages[@]}"  # the lab of the page, as WebAssembly
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(
   libgtest-dev libgmock-dev  # tests
   libbenchmark-dev           # benchmarks
-  libclang-rt-14-dev         # sanitizers and fuzzers of clang
+  "$sanitizers"              # sanitizers and fuzzers of clang
   avrdude arduino-core-avr   # writes to a chip; the Uno's boot loader, which the tests put on the emulated chip
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style

@@ -8,7 +8,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-compiled_in=(libcli11-dev nlohmann-json3-dev libboost1.74-dev)  # headers only
+boost=$(dpkg-query -W -f '${Package}\n' 'libboost*-dev' 2>/dev/null | grep -E '^libboost[0-9.]+-dev$' | tail -n 1)
+compiled_in=(libcli11-dev nlohmann-json3-dev "${boost:-libboost-dev}")  # headers only
 # By what needs them, not at the start: docs/decisions/0128
 loaded_late=(libmosquitto.so.1 libcairo.so.2 libfreetype.so.6 libharfbuzz.so.0 libsqlite3.so.0)
 programs=("$@")

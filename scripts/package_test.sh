@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# scripts/package_test.sh: makes the Debian packages twice, compares them, and installs them in a bare Debian 12. There it
-# runs a first job, opens the web interface, upgrades, removes and purges. What each step takes is printed.
+# scripts/package_test.sh [RELEASE ARCHITECTURE]: makes the Debian packages twice, compares them, and installs them in a
+# bare Debian 12. There it runs a first job, opens the web interface, upgrades, removes and purges. What each step takes is
+# printed.
 #
-# The bare system is made by debootstrap, once, in build/packages/debian12.tar. Exit code 77, "skipped": not root, no
-# debootstrap, no network, no namespaces, or no web interface.
+#   RELEASE ARCHITECTURE   takes the packages that scripts/package_elsewhere.sh has made for them, and installs them there
+#
+# The bare system is made by debootstrap, once, in build/packages/bookworm-amd64.tar. Exit code 77, "skipped": not root,
+# no debootstrap, no network, no namespaces, or no web interface.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,7 +21,7 @@ done
 [[ -f build/page/index.html ]] || skip "There is no web interface: run scripts/page.sh."
 unshare --mount true 2>/dev/null || skip "Namespaces are not allowed here."
 # Mounts of a namespace of its own disappear with it.
-[[ -n ${PASSO_IN_NAMESPACE-} ]] || PASSO_IN_NAMESPACE=1 exec unshare --mount "$PWD/scripts/package_test.sh"
+[[ -n ${PASSO_IN_NAMESPACE-} ]] || PASSO_IN_NAMESPACE=1 exec unshare --mount "$PWD/scripts/package_test.sh" "$@"
 
 begun=$(date +%s%N)
 ends() {  # STEP
@@ -33,13 +36,20 @@ fail() {
 }
 
 packages=build/packages
+make_packages=(scripts/package.sh)
+release=bookworm arch=$(dpkg --print-architecture)
+if (($# > 0)); then
+  release=$1 arch=$2
+  packages=build/packages/$release-$arch
+  make_packages=(scripts/package_elsewhere.sh "$release" "$arch")
+fi
 rm -rf "$packages"/*.deb "$packages/before" "$packages/next"
-scripts/package.sh >/dev/null
+"${make_packages[@]}" >/dev/null
 ends "packages made"
 first=("$packages"/passo_*.deb "$packages"/passo-emulators_*.deb)
 mkdir -p "$packages/before"
 mv "${first[@]}" "$packages/before/"
-PASSO_NO_LINTIAN=1 scripts/package.sh >/dev/null
+PASSO_NO_LINTIAN=1 "${make_packages[@]}" >/dev/null
 for file in "$packages/before"/*.deb; do
   cmp "$file" "$packages/${file##*/}" || fail "${file##*/} is another one when it is made again"
 done
@@ -56,28 +66,13 @@ done
 ends "the next version"
 
 # --- a bare system, with the libraries that the packages ask for
-base=$packages/debian12.tar
-needed=$(for file in "$packages/before"/*.deb; do dpkg-deb --field "$file" Depends; done |
-  tr ',' '\n' | sed 's/(.*//; s/|.*//; s/ //g' | grep -vx passo | sort -u | paste -sd' ')
+mapfile -t needed < <(scripts/package_needs.sh "$packages/before"/*.deb)
 root=$(mktemp -d /tmp/passo-root.XXXXXX)
 server=
 trap '[[ -z $server ]] || kill "$server"; umount -R "$root" && rmdir "$root"' EXIT
 mount -t tmpfs tmpfs "$root" || skip "Nothing can be mounted here."
-if [[ ! -f $base || $(cat "$base.needed" 2>/dev/null) != "$needed" ]]; then
-  debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$packages/debootstrap.log" 2>&1 ||
-    skip "debootstrap fails; is there a network? See $packages/debootstrap.log"
-  # shellcheck disable=SC2086  # a list of packages
-  chroot "$root" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends $needed >>"$packages/debootstrap.log" 2>&1 ||
-    skip "The libraries cannot be fetched. See $packages/debootstrap.log"
-  chroot "$root" apt-get clean
-  tar --create --one-file-system --file "$base.unfinished" --directory "$root" .
-  mv "$base.unfinished" "$base"
-  echo "$needed" >"$base.needed"
-  ends "bare Debian 12 made"
-else
-  tar --extract --file "$base" --directory "$root"
-  ends "bare Debian 12 unpacked"
-fi
+scripts/bare_debian.sh "$release" "$arch" "$root" "${needed[@]}" || exit
+ends "bare $release"
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
 

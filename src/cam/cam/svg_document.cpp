@@ -17,6 +17,23 @@ std::string_view without_prefix(std::string_view name) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
+// Where the parser is. From version 2.9 on expat counts in 64 bits and has other names for it.
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+std::uint32_t line_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentLineNumber64(parser));
+}
+std::uint32_t column_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber64(parser));
+}
+#else
+std::uint32_t line_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser));
+}
+std::uint32_t column_of(XML_Parser parser) {
+  return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser));
+}
+#endif
+
 class SvgTreeReader {
  public:
   SvgTreeReader(const std::string& name, Diagnostics& diagnostics) : name_(name), diagnostics_(diagnostics) {}
@@ -68,7 +85,7 @@ class SvgTreeReader {
     const auto index = static_cast<std::uint32_t>(document_.elements.size());
     SvgElement& element = document_.elements.emplace_back();
     element.name = without_prefix(name);
-    element.line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser_));
+    element.line = line_of(parser_);
     for (const char** at = attributes; at[0] != nullptr; at += 2) {
       // A label of Inkscape keeps its prefix; of the others only the link has one.
       const std::string_view key = std::string_view(at[0]) == "xlink:href" ? "href" : std::string_view(at[0]);
@@ -82,8 +99,7 @@ class SvgTreeReader {
   void refuse(std::string code, std::string message, std::string expected) {
     diagnostics_.add({.code = std::move(code),
                       .file = name_,
-                      .place = {static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser_)),
-                                static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser_)) + 1, 1},
+                      .place = {line_of(parser_), column_of(parser_) + 1, 1},
                       .message = std::move(message),
                       .expected = std::move(expected),
                       .text = ""});
