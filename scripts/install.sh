@@ -24,6 +24,7 @@ build_packages=(
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
   lld libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc libclang-rt-14-dev-wasm32  # the lab of the page, as WebAssembly
+  pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(
@@ -41,7 +42,8 @@ test_packages=(
   jq                         # the table of scripts/motion_table.sh
   curl netcat-openbsd        # a web page's request to the sender port of passo serve
   chromium                   # the stories of the page of passo serve
-  debhelper lintian debootstrap  # Debian packages, their check, and a bare system to install them in
+  mypy python3-build python3-setuptools python3-wheel  # types and wheel of the Python package
+  debhelper dh-python lintian debootstrap  # Debian packages, their check, and a bare system to install them in
 )
 
 # The page of passo serve is built with node, 18 or later, and the Pico's emulator, rp2040js, runs on it. A node from
