@@ -40,8 +40,15 @@ endfunction()
 
 # passo_python_module(): build/…/python/passo, the package; PYTHONPATH=build/release/python finds it.
 function(passo_python_module)
-  find_package(pybind11 2.10 QUIET)
-  if(NOT PASSO_SHARED_LIBRARY OR NOT pybind11_FOUND)
+  # Debian's pybind11 and numpy belong to Debian's Python, whatever other one comes first in the PATH.
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  if(PASSO_SHARED_LIBRARY)
+    find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+    find_package(pybind11 2.10 QUIET)
+  endif()
+  if(NOT pybind11_FOUND OR NOT Python_FOUND)
     message(STATUS "No pybind11, or no libpasso: no Python module")
     return()
   endif()

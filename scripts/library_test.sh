@@ -5,6 +5,7 @@
 # PASSO_BUILD_FOLDER: another build. Exit code 77, "skipped": the build has no libpasso.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+python=/usr/bin/python3  # Debian's, to which the module belongs
 build=${PASSO_BUILD_FOLDER-build/release}
 
 fail() {
@@ -46,19 +47,19 @@ code=0
 # --- Python
 [[ -d $prefix/lib/python3/dist-packages/passo ]] || exit 0
 export PYTHONPATH=$prefix/lib/python3/dist-packages LD_LIBRARY_PATH=$prefix/lib PYTHONDONTWRITEBYTECODE=1
-python3 examples/python/plan_path.py >"$folder/planned.py"
+"$python" examples/python/plan_path.py >"$folder/planned.py"
 grep --quiet ' steps; the first of X at ' "$folder/planned.py" || fail "plan_path.py prints $(cat "$folder/planned.py")"
-python3 examples/python/check_and_draw.py "$program" "$machine" "$folder" >"$folder/checked.py"
+"$python" examples/python/check_and_draw.py "$program" "$machine" "$folder" >"$folder/checked.py"
 [[ $(head -c 4 "$folder/toolpath.png") == $'\x89PNG' && $(head -c 4 "$folder/stock.png") == $'\x89PNG' ]] || fail "there are no pictures"
-python3 src/interfaces/library/python/tests/package_test.py "$program" "$machine"
-if command -v mypy >/dev/null; then
-  MYPYPATH=$PYTHONPATH mypy --strict --cache-dir "$folder/mypy" --package passo >"$folder/types" &&
-    MYPYPATH=$PYTHONPATH mypy --strict --cache-dir "$folder/mypy" examples/python/*.py >"$folder/types" ||
+"$python" src/interfaces/library/python/tests/package_test.py "$program" "$machine"
+if "$python" -c 'import mypy' 2>/dev/null; then
+  MYPYPATH=$PYTHONPATH "$python" -m mypy --strict --cache-dir "$folder/mypy" --package passo >"$folder/types" &&
+    MYPYPATH=$PYTHONPATH "$python" -m mypy --strict --cache-dir "$folder/mypy" examples/python/*.py >"$folder/types" ||
     { cat "$folder/types" >&2 && fail "types are wrong"; }
 fi
-if python3 -c 'import build' 2>/dev/null; then
+if "$python" -c 'import build' 2>/dev/null; then
   unset PYTHONPATH LD_LIBRARY_PATH
   PASSO_BUILD_FOLDER=$build scripts/wheel.sh "$folder/wheel" >/dev/null
-  python3 -m zipfile -e "$folder"/wheel/passo-*.whl "$folder/unpacked"
-  PYTHONPATH=$folder/unpacked python3 -c 'import passo; print(passo.__version__)' >"$folder/version"
+  "$python" -m zipfile -e "$folder"/wheel/passo-*.whl "$folder/unpacked"
+  PYTHONPATH=$folder/unpacked "$python" -c 'import passo; print(passo.__version__)' >"$folder/version"
 fi

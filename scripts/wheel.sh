@@ -5,6 +5,7 @@
 # PASSO_BUILD_FOLDER: another build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+python=/usr/bin/python3  # Debian's, to which the module belongs
 build=${PASSO_BUILD_FOLDER-build/release}
 to=${1-build/packages}
 
@@ -22,4 +23,4 @@ cp "$folder"/installed/lib/python3/dist-packages/passo/_core*.so "$folder"/insta
 rm -r "$folder/installed"
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 mkdir -p "$to"
-PASSO_VERSION=$version python3 -m build --no-isolation --wheel --outdir "$to" "$folder"
+PASSO_VERSION=$version "$python" -m build --no-isolation --wheel --outdir "$to" "$folder"

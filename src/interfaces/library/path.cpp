@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "inner_types.hpp"
@@ -120,7 +119,7 @@ class PathErrors {
   }
 
   void check_arc(const PathPiece& piece, const Position& from) {
-    if (piece.turns == 0 || std::abs(piece.turns) > most_turns) {
+    if (piece.turns == 0 || piece.turns < -most_turns || piece.turns > most_turns) {
       add("plan.turns", fmt::format("the arc has {} turns", piece.turns),
           fmt::format("1 to {}, or -1 to -{}", most_turns, most_turns));
     }

@@ -272,7 +272,7 @@ py::tuple read_steps(passo::StepTrain& train, std::size_t most) {
 }
 
 py::array_t<std::uint8_t> array_of(const passo::Picture& picture) {
-  return {std::array<std::size_t, 3>{picture.height, picture.width, 3}, picture.rgb.data()};
+  return py::array_t<std::uint8_t>(std::array<std::size_t, 3>{picture.height, picture.width, 3}, picture.rgb.data());
 }
 
 passo::PictureOptions picture_options(std::string title, const std::string& tint, bool rapids, int width, int height) {

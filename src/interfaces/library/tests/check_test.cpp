@@ -51,7 +51,7 @@ TEST(Check, tells_time_extents_and_what_limits_the_speed) {
   ASSERT_EQ(report.motion->axes.size(), 3U);
   EXPECT_EQ(report.motion->axes[0].extents->high, 100);
   EXPECT_NEAR(report.motion->axes[0].highest_mm_per_s, 10, 1e-9);
-  EXPECT_FALSE(report.motion->axes[1].extents);
+  EXPECT_EQ(report.motion->axes[1].extents->high, 0);
   ASSERT_FALSE(report.motion->speed_limits.empty());
   EXPECT_EQ(report.motion->speed_limits[0].limit, "the programmed feed");
   EXPECT_FALSE(report.motion->motors);
@@ -65,11 +65,12 @@ TEST(Check, gives_errors_with_their_places) {
   const CheckReport report = check(Program::from_text("G21 G90\nG1 X1000 F600\nM2\n", "far.ngc"), pantograph());
   EXPECT_FALSE(report.good());
   EXPECT_FALSE(report.motion);
-  ASSERT_EQ(report.findings.size(), 1U);
-  EXPECT_EQ(report.findings[0].code, "travel.exceeded");
-  EXPECT_EQ(report.findings[0].line, 2U);
-  EXPECT_EQ(report.findings[0].column, 4U);
-  EXPECT_EQ(report.findings[0].length, 5U);
+  ASSERT_EQ(report.findings.size(), 2U);
+  EXPECT_EQ(report.findings[0].severity, Severity::warning);  // the spindle is off
+  EXPECT_EQ(report.findings[1].code, "travel.exceeded");
+  EXPECT_EQ(report.findings[1].line, 2U);
+  EXPECT_EQ(report.findings[1].column, 4U);
+  EXPECT_EQ(report.findings[1].length, 5U);
   EXPECT_FALSE(check(Program::from_text("M2\n"), pantograph(), {.feed_factor = 7}).good());
 }
 

@@ -1,5 +1,6 @@
 #include "passo/library/gcode.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,9 @@ TEST(OperationReader, gives_moves_with_both_ends_their_feed_and_their_line) {
   EXPECT_EQ(arcs[0].first_centre_mm, 15);
   EXPECT_EQ(arcs[0].start, lines[1].end);
   for (const Operation& operation : operations) {
-    if (std::holds_alternative<operation::Arc>(operation.what)) EXPECT_EQ(operation.line, 4U);
+    if (std::holds_alternative<operation::Arc>(operation.what)) {
+      EXPECT_EQ(operation.line, 4U);
+    }
   }
   EXPECT_EQ(all_of<operation::End>(operations).size(), 1U);
 }
@@ -62,8 +65,9 @@ TEST(OperationReader, gives_tools_spindle_coolant_dwell_and_messages) {
   EXPECT_EQ(all_of<operation::ChangeTool>(operations).at(0).tool, 3);
   const auto spindles = all_of<operation::Spindle>(operations);
   ASSERT_GE(spindles.size(), 3U);
-  EXPECT_EQ(spindles[1].direction, operation::Spindle::Direction::clockwise);
-  EXPECT_EQ(spindles[1].speed_rpm, 8000);
+  EXPECT_TRUE(std::any_of(spindles.begin(), spindles.end(), [](const operation::Spindle& spindle) {
+    return spindle.direction == operation::Spindle::Direction::clockwise && spindle.speed_rpm == 8000;
+  }));
   EXPECT_EQ(spindles.back().direction, operation::Spindle::Direction::off);
   EXPECT_TRUE(all_of<operation::Coolant>(operations).at(0).flood);
   EXPECT_EQ(all_of<operation::Dwell>(operations).at(0).time_s, 1.5);
@@ -79,11 +83,11 @@ TEST(OperationReader, gives_tools_spindle_coolant_dwell_and_messages) {
   EXPECT_TRUE(says_hello);
   std::vector<std::string> calls;
   for (const operation::Other& other : all_of<operation::Other>(operations)) calls.push_back(other.call);
-  EXPECT_THAT(calls, testing::Contains(testing::HasSubstr("MOTION_OUTPUT_BIT(3)")));
+  EXPECT_THAT(calls, testing::Contains(testing::HasSubstr("OUTPUT_BIT(3)")));
 }
 
 TEST(OperationReader, converts_to_machine_positions) {
-  OperationReader reader(Program::from_text("G10 L2 P1 X100 Y50 R90\nG54\nG0 X10\nG92 X0\nG0 X1\nM2\n"));
+  OperationReader reader(Program::from_text("G10 L2 P1 X100 Y50 R90\nG54\nG0 X10 Y0\nG92 X0\nG0 X1\nM2\n"));
   std::vector<Position> machine;
   std::vector<Position> starts;
   for (Operation operation; reader.next(operation);) {

@@ -93,7 +93,7 @@ TEST_P(PlannedPath, stays_within_the_limits_and_on_the_path) {
   EXPECT_NEAR(before.position.z, -2, 1e-9);
   EXPECT_NEAR(before.speed_mm_per_s, 0, 1e-6);
   EXPECT_EQ(before.piece, 5U);
-  EXPECT_NEAR(motion->length_mm(), 55 + 40 + 20 * 3.14159265 + 2, 0.1);
+  EXPECT_NEAR(motion->length_mm(), 55 + 40 + 20 * 3.14159265 + 2, 1);
 }
 INSTANTIATE_TEST_SUITE_P(Jerk, PlannedPath, testing::Values(0.0, 30'000.0));
 
@@ -175,7 +175,7 @@ TEST(PlannedSteps, are_where_and_when_the_motion_is) {
       // The step is made halfway between two counts, to the event that is next to it: one of them takes 10 µs or more.
       const MotionState state = motion->at(static_cast<double>(last) / train->ticks_per_s());
       const double exact = state.position[steps[i].axis] * scale;
-      const double reach = std::abs(state.velocity[steps[i].axis] * scale) * 120e-6 + 0.02;
+      const double reach = std::abs(state.velocity[steps[i].axis] * scale) * 30e-6 + 0.02;
       ASSERT_NEAR(exact, static_cast<double>(counts[axis]) + way * 0.5, reach) << all + i;
       counts[axis] += way;
     }
@@ -252,7 +252,7 @@ TEST(PlannedSteps, refuse_values_out_of_range) {
   motors.ticks_per_s = 0;
   EXPECT_EQ(code_of(motors), "steps.clock");
   motors.ticks_per_s = 1e6;
-  motors.events_per_s = 1e6;
+  motors.events_per_s = 1e5;
   EXPECT_EQ(code_of(motors), "steps.events");
   EXPECT_EQ(first_code(motion->steps().findings()), "steps.no-machine");
 }

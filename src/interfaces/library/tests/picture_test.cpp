@@ -9,7 +9,7 @@
 namespace passo::v1 {
 namespace {
 
-Machine pantograph() {
+Machine drawn_machine() {
   return Machine::open(std::string(PASSO_SOURCE_DIR) + "/examples/machines/pantograph.toml").value();
 }
 
@@ -24,7 +24,7 @@ std::size_t pixels_that_are_not_white(const Picture& picture) {
 TEST(ToolpathPicture, has_its_size_and_shows_the_path) {
   const Program program = Program::from_text("G21 G90\nG1 X50 F600\nG1 Y40\nM2\n");
   const PictureOptions options{.title = "Corner", .width = 600, .height = 400};
-  const Outcome<Picture> picture = draw_toolpath(program, pantograph(), options);
+  const Outcome<Picture> picture = draw_toolpath(program, drawn_machine(), options);
   ASSERT_TRUE(picture) << describe(picture.findings().front());
   EXPECT_EQ(picture->width, 600U);
   EXPECT_EQ(picture->height, 400U);
@@ -36,8 +36,8 @@ TEST(ToolpathPicture, has_its_size_and_shows_the_path) {
 
 TEST(ToolpathPicture, refuses_what_is_wrong) {
   const Program program = Program::from_text("G0 X1\nM2\n");
-  EXPECT_EQ(draw_toolpath(program, pantograph(), {.width = 100'000}).findings().front().code, "picture.size");
-  EXPECT_FALSE(draw_toolpath(Program::from_text("G1 X1\nM2\n"), pantograph()));
+  EXPECT_EQ(draw_toolpath(program, drawn_machine(), {.width = 100'000}).findings().front().code, "picture.size");
+  EXPECT_FALSE(draw_toolpath(Program::from_text("G1 X1\nM2\n"), drawn_machine()));
   EXPECT_EQ(png_of({.width = 10, .height = 10, .rgb = {}}), "");
 }
 

@@ -98,7 +98,7 @@ class AxisMotion:
 
     axis: str
     extents: Optional[Range]
-    """machine coordinates; None: the axis does not move"""
+    """machine coordinates; None: nothing moves"""
     cutting_extents: Optional[Range]
     """of the feed moves"""
     highest_velocity: float
@@ -287,8 +287,8 @@ class Motion:
     def steps(
         self,
         steps_per_mm: Optional[Mapping[str, float]] = None,
-        ticks_per_s: float = 1e6,
-        events_per_s: float = 50e3,
+        ticks_per_s: float = 16e6,
+        events_per_s: float = 100e3,
         most: int = 100_000_000,
     ) -> Steps:
         """Returns the first steps, at most `most`, of motors with so many steps per mm or degree (negative: the other
@@ -299,8 +299,8 @@ class Motion:
     def step_blocks(
         self,
         steps_per_mm: Optional[Mapping[str, float]] = None,
-        ticks_per_s: float = 1e6,
-        events_per_s: float = 50e3,
+        ticks_per_s: float = 16e6,
+        events_per_s: float = 100e3,
         size: int = 1_000_000,
     ) -> Iterator[Steps]:
         """Yields all steps, in blocks of at most `size` steps. The memory does not depend on the motion."""

@@ -44,7 +44,7 @@ class PASSO_EXPORTED Machine {
 };
 
 struct CheckOptions {
-  ReadOptions read;
+  ReadOptions read = {};
   // False: only errors and warnings are found. That takes a third of the time.
   bool plans = true;
   // Overrides of feed and rapids: 0.01 to 2, and 0.01 to 1.
@@ -52,7 +52,7 @@ struct CheckOptions {
   double rapid_factor = 1;
   // Called from time to time by the calling thread with the completed fraction, 0 to 1. What it throws ends the call,
   // and reaches the caller.
-  std::function<void(double)> progress;
+  std::function<void(double)> progress = {};
 };
 
 // The range of an axis, in mm or degrees.
@@ -63,14 +63,14 @@ struct AxisRange {
 // The motion of an axis.
 struct AxisMotion {
   Axis axis = Axis::x;
-  std::optional<AxisRange> extents;          // machine coordinates; empty: the axis does not move
-  std::optional<AxisRange> cutting_extents;  // of the feed moves
+  std::optional<AxisRange> extents = {};          // machine coordinates; empty: nothing moves
+  std::optional<AxisRange> cutting_extents = {};  // of the feed moves
   double highest_mm_per_s = 0;
   double highest_mm_per_s2 = 0;
 };
 // What limited the speed, and for how long.
 struct SpeedLimit {
-  std::string limit;  // "the programmed feed", "the velocity of X"
+  std::string limit = {};  // "the programmed feed", "the velocity of X"
   double time_s = 0;
   std::uint32_t first_line = 0;  // where it happened first
 };
@@ -80,7 +80,7 @@ struct SlowLine {
   double mean_mm_per_s = 0;
   double programmed_mm_per_s = 0;
   double lost_s = 0;
-  std::string limit;  // where the most time is lost
+  std::string limit = {};  // where the most time is lost
 };
 
 enum class StepVerdict : std::uint8_t { safe, doubtful, lost };
@@ -90,9 +90,9 @@ struct WeakSpot {
   std::uint32_t line = 0;
   double time_s = 0;
   StepVerdict verdict = StepVerdict::safe;
-  double load = 0;    // the torque needed, as a fraction of the guaranteed torque
-  std::string cause;  // "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40"
-  std::string cure;   // "a <= 380 mm/s², or F <= 900"; may be empty
+  double load = 0;         // the torque needed, as a fraction of the guaranteed torque
+  std::string cause = {};  // "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40"
+  std::string cure = {};   // "a <= 380 mm/s², or F <= 900"; may be empty
 };
 
 // The results of planning.
@@ -104,19 +104,19 @@ struct MotionReport {
   double rapid_length_mm = 0;
   std::uint64_t moves = 0;
   std::uint64_t tool_changes = 0;
-  std::vector<AxisMotion> axes;
-  std::vector<SpeedLimit> speed_limits;  // the longest first
-  std::vector<SlowLine> slowest_lines;   // the most lost time first; at most 5
+  std::vector<AxisMotion> axes = {};
+  std::vector<SpeedLimit> speed_limits = {};  // the longest first
+  std::vector<SlowLine> slowest_lines = {};   // the most lost time first; at most 5
   // Empty: the machine file describes no motor.
-  std::optional<StepVerdict> motors;
-  std::vector<WeakSpot> weak_spots;  // the worst first; at most 10
+  std::optional<StepVerdict> motors = {};
+  std::vector<WeakSpot> weak_spots = {};  // the worst first; at most 10
 
   double time_s() const { return cutting_time_s + rapid_time_s + dwell_time_s; }
 };
 
 struct CheckReport {
-  std::vector<Finding> findings;       // errors and warnings; at most 20 errors
-  std::optional<MotionReport> motion;  // empty: the program has errors, or was not planned
+  std::vector<Finding> findings = {};       // errors and warnings; at most 20 errors
+  std::optional<MotionReport> motion = {};  // empty: the program has errors, or was not planned
 
   // Whether there is no error. Lost steps are no error of the program: see MotionReport::motors.
   bool good() const {

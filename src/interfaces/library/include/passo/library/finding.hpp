@@ -19,14 +19,14 @@ enum class Severity : std::uint8_t { warning, error };
 // One error or warning.
 struct Finding {
   Severity severity = Severity::error;
-  std::string code;          // "gcode.missing-feed"; never changes once published
-  std::string file;          // the file, or the name given to a text
-  std::uint32_t line = 0;    // from 1; 0: the file as a whole. In a Path: the number of the piece, from 1
-  std::uint32_t column = 0;  // from 1, in characters; 0: the whole line
-  std::uint32_t length = 0;  // in characters
-  std::string message;       // what is wrong, with the value found
-  std::string expected;      // the correct form, or how to correct the error; may be empty
-  std::string text;          // the line of the file; may be empty
+  std::string code = {};      // "gcode.missing-feed"; never changes once published
+  std::string file = {};      // the file, or the name given to a text
+  std::uint32_t line = 0;     // from 1; 0: the file as a whole. In a Path: the number of the piece, from 1
+  std::uint32_t column = 0;   // from 1, in characters; 0: the whole line
+  std::uint32_t length = 0;   // in characters
+  std::string message = {};   // what is wrong, with the value found
+  std::string expected = {};  // the correct form, or how to correct the error; may be empty
+  std::string text = {};      // the line of the file; may be empty
 };
 
 // Returns a finding as compilers write it: "part.ngc:3:5: error: no feed rate is set [gcode.missing-feed]", and the
@@ -54,8 +54,8 @@ class Outcome {
   const std::vector<Finding>& findings() const { return findings_; }
 
  private:
-  std::optional<T> value_;
-  std::vector<Finding> findings_;
+  std::optional<T> value_ = {};
+  std::vector<Finding> findings_ = {};
 };
 
 }  // namespace passo::v1

@@ -50,11 +50,11 @@ enum class GcodeDialect : std::uint8_t { linuxcnc, grbl };
 // How a program is read.
 struct ReadOptions {
   GcodeDialect dialect = GcodeDialect::linuxcnc;
-  bool inches = false;                   // the units until G20 or G21
-  bool block_delete = false;             // skips lines that begin with '/'
-  std::string tool_table;                // a file in LinuxCNC's format, in mm; empty: none
-  std::string parameters;                // a file of numbered parameters (.var), with the work offsets; empty: none
-  std::vector<std::string> sub_folders;  // folders of subroutine files, searched after the program's own
+  bool inches = false;          // the units until G20 or G21
+  bool block_delete = false;    // skips lines that begin with '/'
+  std::string tool_table = {};  // a file in LinuxCNC's format, in mm; empty: none
+  std::string parameters = {};  // a file of numbered parameters (.var), with the work offsets; empty: none
+  std::vector<std::string> sub_folders = {};  // folders of subroutine files, searched after the program's own
 };
 
 namespace operation {
@@ -66,21 +66,21 @@ struct Feed {
   Unit unit = Unit::mm_per_s;
 };
 struct Line {
-  Position start;
-  Position end;
+  Position start = {};
+  Position end = {};
   bool rapid = false;
-  Feed feed;                // not for a rapid
+  Feed feed = {};           // not for a rapid
   bool in_machine = false;  // to a machine position (G53, G28, G30)
 };
 // The centre is given in the two axes of the plane. `turns`: as in Path::arc_to().
 struct Arc {
-  Position start;
-  Position end;
+  Position start = {};
+  Position end = {};
   ArcPlane plane = ArcPlane::xy;
   double first_centre_mm = 0;
   double second_centre_mm = 0;
   int turns = 1;
-  Feed feed;
+  Feed feed = {};
 };
 // A rational B-spline in X and Y of degree `order` - 1, with clamped knots that are 1 apart. The first control point is
 // the start, the last the end.
@@ -90,22 +90,22 @@ struct Spline {
     double y_mm = 0;
     double weight = 1;
   };
-  std::vector<ControlPoint> points;
+  std::vector<ControlPoint> points = {};
   int order = 3;
-  Feed feed;
+  Feed feed = {};
 };
 // A move until the probe is triggered, or until it opens.
 struct Probe {
-  Position start;
-  Position end;
+  Position start = {};
+  Position end = {};
   bool until_triggered = true;
   bool must_change = true;  // an error if the probe does not change (G38.2, G38.4)
-  Feed feed;
+  Feed feed = {};
 };
 // Rigid tapping: to `end` and back, with the spindle reversed there (G33.1).
 struct Tap {
-  Position start;
-  Position end;
+  Position start = {};
+  Position end = {};
   double pitch_mm = 0;
 };
 struct Dwell {
@@ -140,20 +140,20 @@ struct PathMode {
 // The coordinate system, from here on. OperationReader::to_machine() applies it.
 struct CoordinateSystem {
   int system = 1;  // 1 is G54, 9 is G59.3
-  Position work_offset;
-  Position g92_offset;
-  Position tool_offset;
+  Position work_offset = {};
+  Position g92_offset = {};
+  Position tool_offset = {};
   double rotation_degrees = 0;  // about Z
 };
 // A text for the operator, or a comment.
 struct Message {
   enum class Kind : std::uint8_t { comment, message, print };
   Kind kind = Kind::comment;
-  std::string text;
+  std::string text = {};
 };
-// Any other operation, as a canonical call in LinuxCNC's notation: "SET_MOTION_OUTPUT_BIT(3)".
+// Any other operation, as a canonical call in LinuxCNC's notation: "SET_AUX_OUTPUT_BIT(3)".
 struct Other {
-  std::string call;
+  std::string call = {};
 };
 
 using Any = std::variant<Line, Arc, Spline, Probe, Tap, Dwell, Spindle, Coolant, SelectTool, ChangeTool, Stop, End,
@@ -162,7 +162,7 @@ using Any = std::variant<Line, Arc, Spline, Probe, Tap, Dwell, Spindle, Coolant,
 }  // namespace operation
 
 struct Operation {
-  operation::Any what;
+  operation::Any what = {};
   std::uint32_t line = 0;  // of the file, from 1
 };
 

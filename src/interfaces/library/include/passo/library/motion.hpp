@@ -75,11 +75,11 @@ struct Limits {
 
 // The motion at a moment.
 struct MotionState {
-  Position position;          // mm, degrees
-  Position velocity;          // per second
-  Position acceleration;      // per second²
-  double speed_mm_per_s = 0;  // along the path; of a move of A, B and C only: degrees per second
-  std::uint32_t piece = 0;    // the number of the piece of the Path, from 1; of a program: the line
+  Position position = {};      // mm, degrees
+  Position velocity = {};      // per second
+  Position acceleration = {};  // per second²
+  double speed_mm_per_s = 0;   // along the path; of a move of A, B and C only: degrees per second
+  std::uint32_t piece = 0;     // the number of the piece of the Path, from 1; of a program: the line
 };
 
 // The motors of a machine, and the clock of their steps.
@@ -87,8 +87,9 @@ struct StepOptions {
   // Steps per millimetre or degree, 0.001 to 1e6; negative: the motor turns the other way round. 0: no motor. At most 8
   // motors.
   std::array<double, axis_count> steps_per_mm{};
-  double ticks_per_s = 1e6;  // 10,000 to 1e9
-  // All steps happen at events, at most so many per second: 100 to a fifth of ticks_per_s. No axis may make more steps.
+  double ticks_per_s = 16e6;  // 10,000 to 1e9
+  // All steps happen at events, at most so many per second: ticks_per_s / 32,767 to ticks_per_s / 16. At its velocity
+  // no axis may make more steps.
   double events_per_s = 1e5;
   double& operator[](Axis axis) { return steps_per_mm[static_cast<std::size_t>(axis)]; }
 };
@@ -123,7 +124,7 @@ class PASSO_EXPORTED StepTrain {
 class PASSO_EXPORTED Motion {
  public:
   double duration_s() const;
-  double length_mm() const;  // of the rounded path
+  double length_mm() const;  // of the rounded path, to a few parts in a thousand; without moves of A, B and C only
   // Returns the state at a time: before the start that of the start, after the end that of the end.
   MotionState at(double time_s) const;
   // Writes the states at `count` times: from, from + interval, and so on. Faster than at(). `interval_s` is at least 0.

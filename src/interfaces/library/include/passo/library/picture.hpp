@@ -17,13 +17,13 @@ namespace passo::v1 {
 struct Picture {
   std::size_t width = 0;
   std::size_t height = 0;
-  std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> rgb = {};
 };
 
 enum class PathTint : std::uint8_t { speed, depth, tool, torque };
 
 struct PictureOptions {
-  std::string title;
+  std::string title = {};
   PathTint tint = PathTint::speed;  // of the feed moves
   bool rapids = true;
   int width = 1600;  // pixels, 200 to 8000
@@ -44,14 +44,14 @@ struct MillingTool {
 };
 
 struct StockOptions {
-  ReadOptions read;
+  ReadOptions read = {};
   // The tool for every T number that tools_file does not have.
-  std::optional<MillingTool> tool;
-  std::string tools_file;  // TOML: docs/manual/simulate.md; empty: none
+  std::optional<MillingTool> tool = {};
+  std::string tools_file = {};  // TOML: docs/manual/simulate.md; empty: none
   // Ranges of the block in program coordinates; empty: as the feed moves need it.
-  std::optional<AxisRange> x_mm;
-  std::optional<AxisRange> y_mm;
-  std::optional<AxisRange> z_mm;
+  std::optional<AxisRange> x_mm = {};
+  std::optional<AxisRange> y_mm = {};
+  std::optional<AxisRange> z_mm = {};
   double cell_mm = 0;    // the size of a cell; 0: such that there are about a million
   unsigned threads = 1;  // 1 to 64
 };
@@ -63,9 +63,9 @@ struct Stock {
   double front_mm = 0;  // Y
   double top_mm = 0;    // Z before cutting
   double bottom_mm = 0;
-  std::size_t columns = 0;          // along X
-  std::size_t rows = 0;             // along Y
-  std::vector<float> below_top_mm;  // row by row: 0 is the top; cut cells are negative
+  std::size_t columns = 0;               // along X
+  std::size_t rows = 0;                  // along Y
+  std::vector<float> below_top_mm = {};  // row by row: 0 is the top; cut cells are negative
   double removed_mm3 = 0;
 };
 
