@@ -19,7 +19,9 @@ struct StepTrain::Content {
         generator(moves, options),
         player(static_cast<std::uint8_t>(driven.size())),
         axes(std::move(driven)),
-        ticks_per_s(options.clock.tick_rate.value()) {}
+        ticks_per_s(options.clock.tick_rate.value()) {
+    generator.be_exact_to({.least_rate = options.clock.highest_event_rate * passo::slow_share});
+  }
 
   // Plays events until there is a step. Returns false at the end.
   bool play() {
@@ -82,6 +84,9 @@ std::size_t StepTrain::read(Step* steps, std::size_t most) {
 
 namespace {
 
+// The steps of the fastest motor are divided into events up to a quarter of the board's highest rate, because a link
+// has to carry them. Here is no link: with a board that is four times as fast, up to events_per_s.
+constexpr double more_events = 4;
 constexpr double least_steps = 1e-3;
 constexpr double most_steps = 1e6;
 constexpr double least_ticks = 1e4;
@@ -147,7 +152,7 @@ Outcome<StepTrain> Motion::steps(const StepOptions& options) const {
     axes.push_back(axis);
   }
   inner_options.clock = {.tick_rate = passo::Hertz(options.ticks_per_s),
-                         .highest_event_rate = passo::Hertz(options.events_per_s)};
+                         .highest_event_rate = passo::Hertz(more_events * options.events_per_s)};
   inner_options.start = content_->start;
   return StepTrain(std::make_unique<StepTrain::Content>(*this, inner_options, std::move(axes)));
 }
@@ -161,6 +166,7 @@ Outcome<StepTrain> Motion::steps() const {
   for (const passo::MotorRow& row : content_->machine->kinematics.rows()) axes.push_back(outer(row.steps.axis()));
   passo::StepOptions options = *content_->machine;
   options.start = content_->start;
+  options.clock.highest_event_rate = options.clock.highest_event_rate * more_events;
   return StepTrain(std::make_unique<StepTrain::Content>(*this, options, std::move(axes)));
 }
 

@@ -172,10 +172,10 @@ TEST(PlannedSteps, are_where_and_when_the_motion_is) {
       const auto axis = static_cast<std::size_t>(steps[i].axis);
       const int way = steps[i].forward ? 1 : -1;
       const double scale = motors.steps_per_mm[axis];
-      // The step is made halfway between two counts, to the event that is next to it: one of them takes 10 µs or more.
+      // The step is made halfway between two counts, or at the next event: one of them takes at most 80 µs.
       const MotionState state = motion->at(static_cast<double>(last) / train->ticks_per_s());
       const double exact = state.position[steps[i].axis] * scale;
-      const double reach = std::abs(state.velocity[steps[i].axis] * scale) * 30e-6 + 0.02;
+      const double reach = std::abs(state.velocity[steps[i].axis] * scale) * 81e-6 + 0.02;
       ASSERT_NEAR(exact, static_cast<double>(counts[axis]) + way * 0.5, reach) << all + i;
       counts[axis] += way;
     }

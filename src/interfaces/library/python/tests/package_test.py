@@ -22,7 +22,7 @@ class Check(unittest.TestCase):
         self.assertEqual(by_name, by_object)
         self.assertTrue(by_name.good)
         assert by_name.motion is not None
-        self.assertGreater(by_name.motion.time, 60)
+        self.assertGreater(by_name.motion.time, 50)
         self.assertEqual([axis.axis for axis in by_name.motion.axes], ["X", "Y", "Z"])
 
     def test_gives_errors_with_their_places(self) -> None:
@@ -34,9 +34,13 @@ class Check(unittest.TestCase):
         self.assertTrue(str(finding).startswith("part.ngc:2:1: error: "))
 
     def test_raises_errors_of_files(self) -> None:
+        with open(machine, encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        wrong = next(i for i, line in enumerate(lines) if line.startswith("path_tolerance_mm"))
+        lines[wrong] = "path_tolerance_mm = -1"
         with self.assertRaises(passo.Error) as caught:
-            passo.check(program, passo.Machine.from_text("name = 3\n", "mine.toml"))
-        self.assertEqual((caught.exception.file, caught.exception.line), ("mine.toml", 1))
+            passo.check(program, passo.Machine.from_text("\n".join(lines), "mine.toml"))
+        self.assertEqual((caught.exception.file, caught.exception.line), ("mine.toml", wrong + 1))
         self.assertTrue(caught.exception.code.startswith("machine."))
         self.assertEqual(pickle.loads(pickle.dumps(caught.exception)).code, caught.exception.code)
         self.assertRaises(passo.Error, passo.check, "/nowhere.ngc", machine)

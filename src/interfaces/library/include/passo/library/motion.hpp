@@ -101,8 +101,10 @@ struct Step {
   bool forward = true;  // the motor's count goes up
 };
 
-// All steps of a motion, in order of time. They are computed while they are read, in constant memory. Each step is at
-// the tick that is nearest to its exact time, or next to it.
+// All steps of a motion, in order of time. They are computed while they are read, in constant memory.
+//
+// The steps of the fastest motor are at the tick next to their exact times. Those of the other motors wait for the next
+// event: while motors move there are events_per_s / 8 or more of them per second.
 class PASSO_EXPORTED StepTrain {
  public:
   StepTrain(StepTrain&& other) noexcept;
