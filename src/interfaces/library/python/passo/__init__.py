@@ -196,7 +196,10 @@ def check(
         _program(program), _machine(machine), read._core(), plans, feed_factor, rapid_factor, progress
     )
     if motion is None:
-        return CheckReport(findings_of(findings), None)
+        report_of_errors = CheckReport(findings_of(findings), None)
+        if any(finding.code == "check.factor" for finding in report_of_errors.findings):
+            raise Error(report_of_errors.findings)
+        return report_of_errors
     numbers, (axes, limits, slowest, motors, spots) = motion[:7], motion[7:]
     report = MotionReport(
         *numbers,
