@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   for (const passo::Finding& finding : machine.findings()) std::fputs(passo::describe(finding).c_str(), stderr);
   if (!program || !machine) return 2;
 
-  const passo::CheckReport report = passo::check(*program, *machine);
+  const passo::ProgramReport report = passo::check(*program, *machine);
   for (const passo::Finding& finding : report.findings) std::fputs(passo::describe(finding).c_str(), stderr);
   if (!report.good()) return 2;
   const passo::MotionReport& motion = *report.motion;

@@ -179,9 +179,8 @@ Limits Machine::limits() const {
 StepOptions Machine::step_options() const {
   const passo::MachineDescription& machine = content_->description;
   StepOptions options;
-  for (const passo::AxisDescription& axis : machine.axes) {
-    options[outer(axis.axis)] = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
-  }
+  const passo::Kinematics kinematics = passo::kinematics_of(machine);
+  for (const passo::MotorRow& row : kinematics.rows()) options[outer(row.steps.axis())] = row.steps.factor();
   options.ticks_per_s = machine.board.clock.value();
   options.events_per_s = machine.board.highest_event_rate.value();
   return options;
@@ -191,10 +190,10 @@ bool Machine::knows_motors() const {
   return std::ranges::any_of(content_->description.axes, [](const auto& axis) { return axis.motor.has_value(); });
 }
 
-CheckReport check(const Program& program, const Machine& machine, const CheckOptions& options) {
+ProgramReport check(const Program& program, const Machine& machine, const CheckOptions& options) {
   FirstLook first;
   look(program, machine, options, first);
-  CheckReport report{.findings = first.findings, .motion = {}};
+  ProgramReport report{.findings = first.findings, .motion = {}};
   if (first.good() && options.plans) {
     const auto progress = [&](double share) {
       options.progress(share_of_first_look + (1 - share_of_first_look) * (share > 0 ? std::min(share, 1.0) : 0));

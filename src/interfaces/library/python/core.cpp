@@ -16,7 +16,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "passo/library.hpp"
+#include "passo/library/axes.hpp"
+#include "passo/library/check.hpp"
+#include "passo/library/finding.hpp"
+#include "passo/library/gcode.hpp"
+#include "passo/library/motion.hpp"
+#include "passo/library/picture.hpp"
 
 namespace py = pybind11;
 
@@ -150,7 +155,7 @@ py::tuple tuple_of(const passo::MotionReport& report) {
 py::tuple check(const passo::Program& program, const passo::Machine& machine, const passo::ReadOptions& read,
                 bool plans, double feed_factor, double rapid_factor, const py::object& progress) {
   const passo::CheckOptions options = check_options(read, plans, feed_factor, rapid_factor, progress);
-  passo::CheckReport report;
+  passo::ProgramReport report;
   {
     const py::gil_scoped_release unlocked;
     report = passo::check(program, machine, options);

@@ -4,7 +4,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "passo/library.hpp"
+#include "passo/library/gcode.hpp"
 
 namespace py = pybind11;
 

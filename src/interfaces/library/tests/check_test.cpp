@@ -42,7 +42,7 @@ TEST(Machine, that_is_wrong_says_all_of_it) {
 TEST(Check, tells_time_extents_and_what_limits_the_speed) {
   // 100 mm at 10 mm/s, from rest to rest with 200 mm/s².
   const Program program = Program::from_text("G21 G90 G17\nG1 X100 F600\nM2\n");
-  const CheckReport report = check(program, pantograph());
+  const ProgramReport report = check(program, pantograph());
   ASSERT_TRUE(report.good());
   ASSERT_TRUE(report.motion);
   EXPECT_NEAR(report.motion->cutting_time_s, 100.0 / 10 + 10.0 / 200, 1e-6);
@@ -56,13 +56,13 @@ TEST(Check, tells_time_extents_and_what_limits_the_speed) {
   EXPECT_EQ(report.motion->speed_limits[0].limit, "the programmed feed");
   EXPECT_FALSE(report.motion->motors);
 
-  const CheckReport slower = check(program, pantograph(), {.feed_factor = 0.5});
+  const ProgramReport slower = check(program, pantograph(), {.feed_factor = 0.5});
   EXPECT_NEAR(slower.motion->cutting_time_s, 100.0 / 5 + 5.0 / 200, 1e-6);
   EXPECT_FALSE(check(program, pantograph(), {.plans = false}).motion);
 }
 
 TEST(Check, gives_errors_with_their_places) {
-  const CheckReport report = check(Program::from_text("G21 G90\nG1 X1000 F600\nM2\n", "far.ngc"), pantograph());
+  const ProgramReport report = check(Program::from_text("G21 G90\nG1 X1000 F600\nM2\n", "far.ngc"), pantograph());
   EXPECT_FALSE(report.good());
   EXPECT_FALSE(report.motion);
   ASSERT_EQ(report.findings.size(), 2U);
@@ -107,11 +107,11 @@ friction_n = 100
 
 TEST(Check, tells_lost_steps_with_line_cause_and_cure) {
   const Program program = Program::from_text("G21 G90\nG0 X30\nG1 X-30 F300\nM2\n");
-  const CheckReport gentle = check(program, heavy_axis(100));
+  const ProgramReport gentle = check(program, heavy_axis(100));
   ASSERT_TRUE(gentle.motion);
   EXPECT_EQ(gentle.motion->motors, StepVerdict::safe);
   EXPECT_TRUE(gentle.motion->weak_spots.empty());
-  const CheckReport wild = check(program, heavy_axis(4000));
+  const ProgramReport wild = check(program, heavy_axis(4000));
   ASSERT_TRUE(wild.motion);
   EXPECT_TRUE(wild.good());  // the program itself has no error
   EXPECT_EQ(wild.motion->motors, StepVerdict::lost);
@@ -150,7 +150,7 @@ TEST(Check, calls_progress_up_to_one_and_lets_it_end_the_call) {
 
 TEST(PlannedProgram, is_the_motion_that_the_check_measured) {
   const Program program = Program::open(std::string(PASSO_SOURCE_DIR) + "/examples/engrave.ngc").value();
-  const CheckReport report = check(program, pantograph());
+  const ProgramReport report = check(program, pantograph());
   ASSERT_TRUE(report.motion);
   const Outcome<Motion> motion = plan(program, pantograph());
   ASSERT_TRUE(motion);

@@ -30,7 +30,7 @@ from passo._core import Machine, Path, Program
 from passo._findings import Error, Finding, findings_of
 
 __all__ = [
-    "AxisLimits", "AxisMotion", "CheckReport", "Error", "Finding", "Machine", "MillingTool", "Motion", "MotionReport",
+    "AxisLimits", "AxisMotion", "ProgramReport", "Error", "Finding", "Machine", "MillingTool", "Motion", "MotionReport",
     "Path", "Program", "ReadOptions", "Samples", "SlowLine", "SpeedLimit", "Steps", "Stock", "WeakSpot", "check", "cut",
     "operation", "operations", "plan", "plan_program", "png_of", "toolpath",
 ]
@@ -167,7 +167,7 @@ class MotionReport:
 
 
 @dataclass(frozen=True)
-class CheckReport:
+class ProgramReport:
     """The results of a check."""
 
     findings: Tuple[Finding, ...]
@@ -190,13 +190,13 @@ def check(
     feed_factor: float = 1,
     rapid_factor: float = 1,
     progress: Optional[Progress] = None,
-) -> CheckReport:
+) -> ProgramReport:
     """Checks a program for a machine. Errors of the program are in the report; a wrong machine file raises Error."""
     findings, motion = _core.check(
         _program(program), _machine(machine), read._core(), plans, feed_factor, rapid_factor, progress
     )
     if motion is None:
-        report_of_errors = CheckReport(findings_of(findings), None)
+        report_of_errors = ProgramReport(findings_of(findings), None)
         if any(finding.code == "check.factor" for finding in report_of_errors.findings):
             raise Error(report_of_errors.findings)
         return report_of_errors
@@ -209,7 +209,7 @@ def check(
         motors=motors,
         weak_spots=tuple(WeakSpot(*values) for values in spots),
     )
-    return CheckReport(findings_of(findings), report)
+    return ProgramReport(findings_of(findings), report)
 
 
 # --- motion in time, and steps

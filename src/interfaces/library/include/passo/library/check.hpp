@@ -114,7 +114,7 @@ struct MotionReport {
   double time_s() const { return cutting_time_s + rapid_time_s + dwell_time_s; }
 };
 
-struct CheckReport {
+struct ProgramReport {
   std::vector<Finding> findings = {};       // errors and warnings; at most 20 errors
   std::optional<MotionReport> motion = {};  // empty: the program has errors, or was not planned
 
@@ -127,7 +127,7 @@ struct CheckReport {
   }
 };
 
-PASSO_EXPORTED CheckReport check(const Program& program, const Machine& machine, const CheckOptions& options = {});
+PASSO_EXPORTED ProgramReport check(const Program& program, const Machine& machine, const CheckOptions& options = {});
 
 // Plans a program for the machine to motion in time. Its states are in machine coordinates. Spindle, tool changes and
 // program stops take no time. Errors: those of check(), and "plan.too-long".
