@@ -11,7 +11,7 @@ function(passo_shared_library)
   add_library(passo_shared SHARED $<TARGET_OBJECTS:passo_library>)
   target_link_libraries(passo_shared PRIVATE ${layers} fmt::fmt PNG::PNG)
   set(shown "${PROJECT_SOURCE_DIR}/cmake/libpasso.map")
-  target_link_options(passo_shared PRIVATE "-Wl,--version-script=${shown}" -Wl,--as-needed -Wl,-z,defs)
+  target_link_options(passo_shared PRIVATE "-Wl,--version-script=${shown}" -Wl,--as-needed -Wl,--gc-sections -Wl,-z,defs)
   set_target_properties(passo_shared PROPERTIES LINK_DEPENDS "${shown}")
   target_include_directories(passo_shared INTERFACE
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")

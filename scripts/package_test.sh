@@ -36,6 +36,8 @@ packages=build/packages
 rm -rf "$packages"/*.deb "$packages/before" "$packages/next"
 scripts/package.sh >/dev/null
 ends "packages made"
+(($# > 0)) || scripts/library_test.sh --packages "$packages"
+ends "programs built with the library's packages"
 first=("$packages"/passo_*.deb "$packages"/passo-emulators_*.deb)
 mkdir -p "$packages/before"
 mv "${first[@]}" "$packages/before/"
