@@ -61,7 +61,9 @@ function(passo_install)
 
   # All that `cmake --install` needs, except the web interface.
   add_custom_target(everything_installed DEPENDS passo command_documents ${made})
-  if(TARGET passo_emulate_avr)
-    add_dependencies(everything_installed passo_emulate_avr)
-  endif()
+  foreach(target IN ITEMS passo_emulate_avr passo_shared passo_python)
+    if(TARGET ${target})
+      add_dependencies(everything_installed ${target})
+    endif()
+  endforeach()
 endfunction()

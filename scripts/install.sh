@@ -37,6 +37,7 @@ build_packages=(
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
   lld wasi-libc "${wasm_packages[@]}"  # the lab of the page, as WebAssembly
+  pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(
@@ -55,7 +56,8 @@ test_packages=(
   curl netcat-openbsd        # a web page's request to the sender port of passo serve
   chromium                   # the stories of the page of passo serve
   mkdocs-material python3-markdown-it python3-jieba  # the site; its search divides Chinese words
-  debhelper lintian debootstrap  # Debian packages, their check, and a bare system to install them in
+  mypy python3-build python3-setuptools python3-wheel  # types and wheel of the Python package
+  debhelper dh-python lintian debootstrap  # Debian packages, their check, and a bare system to install them in
 )
 
 # The page of passo serve is built with node, 18 or later, and the Pico's emulator, rp2040js, runs on it. A node from

@@ -46,6 +46,8 @@ fi
 rm -rf "$packages"/*.deb "$packages/before" "$packages/next"
 "${make_packages[@]}" >/dev/null
 ends "packages made"
+(($# > 0)) || scripts/library_test.sh --packages "$packages"
+ends "programs built with the library's packages"
 first=("$packages"/passo_*.deb "$packages"/passo-emulators_*.deb)
 mkdir -p "$packages/before"
 mv "${first[@]}" "$packages/before/"
