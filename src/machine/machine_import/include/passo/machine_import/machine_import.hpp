@@ -57,12 +57,12 @@ struct AssumedValue {
 
 struct ImportedMachine {
   ImportFormat format = ImportFormat::settings;
-  std::string controller;  // "Grbl 1.1", "grblHAL", "FluidNC", "LinuxCNC", "Mach3"
-  std::string toml;
-  std::vector<UnderstoodValue> understood;
-  std::vector<UnmappedValue> unmapped;
-  std::vector<AssumedValue> assumed;
-  std::vector<std::string> warnings;  // sentences: what the machine file cannot say, and what to check
+  std::string controller = {};  // "Grbl", "grblHAL", "FluidNC", "LinuxCNC", "Mach3"
+  std::string toml = {};
+  std::vector<UnderstoodValue> understood = {};
+  std::vector<UnmappedValue> unmapped = {};
+  std::vector<AssumedValue> assumed = {};
+  std::vector<std::string> warnings = {};  // sentences: what the machine file cannot say, and what to check
 };
 
 // The file that a tree comes from: its name and its lines, for the diagnostics. The text may be empty.
