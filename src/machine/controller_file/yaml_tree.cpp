@@ -24,10 +24,11 @@ class YamlTree {
       }
     }
     if (node.IsMap()) {
-      for (const auto& [key, value] : node) {
+      for (const auto& entry : node) {
+        const YAML::Node& key = entry.first;
         SourceNode& child = into.children.emplace_back();
         if (key.IsScalar()) child.name = key.Scalar().substr(0, longest_text);
-        if (!add(value, child, depth + 1)) return false;
+        if (!add(entry.second, child, depth + 1)) return false;
         if (child.line == 0 && !key.Mark().is_null()) child.line = static_cast<std::uint32_t>(key.Mark().line + 1);
       }
     }
@@ -54,7 +55,7 @@ std::optional<SourceNode> read_yaml_tree(const ImportSource& source, Diagnostics
     add_source_error(source, diagnostics, "import.syntax",
                      has_place ? static_cast<std::uint32_t>(error.mark.line + 1) : 0,
                      has_place ? static_cast<std::uint32_t>(error.mark.column + 1) : 0,
-                     fmt::format("this is not YAML: {}", error.msg), "FluidNC's configuration");
+                     fmt::format("this is not YAML: {}", error.msg), "FluidNC's configuration, with a blank after the colon of each key");
   }
   return std::nullopt;
 }

@@ -79,7 +79,10 @@ std::optional<unsigned> ImportContext::mask(const SourceNode* node, std::string 
 }
 
 void ImportContext::understood(const ValueOrigin& origin, std::string target) {
-  if (result_.understood.size() >= most_listed) return;
+  const bool is_listed = std::ranges::any_of(result_.understood, [&](const UnderstoodValue& value) {
+    return value.source == origin.key && value.target == target;
+  });
+  if (is_listed || result_.understood.size() >= most_listed) return;
   result_.understood.push_back({origin.key, origin.value, std::move(target), origin.line});
 }
 

@@ -27,7 +27,15 @@ constexpr SectionReason section_reasons[] = {
     {"APPLICATIONS", "no equivalent: LinuxCNC's own programs"},
     {"PYTHON", "no equivalent: remapped codes"},
     {"HOSTMOT2", "no equivalent: the interface card"},
+    {"EMC", "no equivalent: LinuxCNC's own programs"},
+    {"MACROS", "no equivalent: commands of buttons"},
+    {"MDI_COMMAND_LIST", "no equivalent: commands of buttons"},
+    {"PROBE", "no equivalent: commands of buttons"},
+    {"TOOLSENSOR", "no equivalent: commands of buttons"},
+    {"VERSA_TOOLSETTER", "no equivalent: commands of buttons"},
 };
+const char* const servo_reason = "the loop of a servo: see [axis.X.encoder]";
+constexpr std::array servo_keys = {"P", "I", "D", "FF0", "FF1", "FF2", "BIAS", "DEADBAND", "MAX_OUTPUT", "MAX_ERROR", "OUTPUT_SCALE", "OUTPUT_OFFSET", "OUTPUT_MIN_LIMIT", "OUTPUT_MAX_LIMIT", "PID_MAX_VEL", "PID_MAX_ERROR", "ENCODER_SCALE", "INPUT_OFFSET", "MAX_VELOCITY_FF", "PGAIN", "IGAIN", "DGAIN"};
 
 struct KeyReason {
   std::string_view key;
@@ -53,7 +61,12 @@ constexpr KeyReason joint_reasons[] = {
     {"OFFSET_AV_RATIO", "no equivalent"},
     {"WRAPPED_ROTARY", "no equivalent"},
     {"UNITS", "the unit is that of [TRAJ]"},
+    {"AXIS", "the number is that of the section"},
+    {"JOINTS", "the coordinates tell the number of joints"},
 };
+
+// The steps per unit of a stepper motor. Before 2.3 they were the scale of its input.
+constexpr std::array scale_keys = {"SCALE", "STEP_SCALE", "STEPGEN_SCALE", "INPUT_SCALE"};
 
 // "ALWAYS", "1", "YES": the first word of a value, without a comment behind it.
 std::string_view first_word(std::string_view text) {
@@ -95,6 +108,7 @@ class LinuxCncImport {
   void read_times(const Joint& joint);
   void read_spindle();
   void list_sections();
+  void list_joint_keys(const SourceNode& section);
   UnitFactor unit_of(Axis axis) const { return is_rotary(axis) ? UnitFactor{} : length_; }
 
   const SourceNode& tree_;
@@ -102,6 +116,7 @@ class LinuxCncImport {
   ImportedModel& model_;
   UnitFactor length_;
   bool is_old_ = false;  // [AXIS_0], before 2.8
+  bool has_servos_ = false;
   std::vector<Joint> joints_;
 };
 
@@ -203,10 +218,14 @@ void LinuxCncImport::read_units() {
 void LinuxCncImport::find_joints() {
   is_old_ = tree_.child("JOINT_0") == nullptr && tree_.child("AXIS_0") != nullptr;
   const std::vector<Axis> all = letters();
+  // Without coordinates= the number of a joint is that of its letter: joint 2 is Z, also of a lathe without Y.
+  const SourceNode* kinematics = value("KINS", "KINEMATICS");
+  const bool are_given = kinematics != nullptr && kinematics->text.find("coordinates=") != std::string::npos;
+  const bool are_once = std::ranges::all_of(all, [&](Axis axis) { return std::ranges::count(all, axis) == 1; });
+  const bool by_letter = is_old_ || (!are_given && are_once);
   for (std::size_t i = 0; i < all.size(); ++i) {
     Joint joint{.letter = all[i]};
-    // Before 2.8 the number was that of the letter: [AXIS_2] is Z, also of a lathe without Y.
-    const std::size_t number = is_old_ ? index_of(all[i]) : i;
+    const std::size_t number = by_letter ? index_of(all[i]) : i;
     joint.joint = tree_.child(fmt::format("{}_{}", is_old_ ? "AXIS" : "JOINT", number));
     joint.axis = is_old_ ? nullptr : tree_.child(fmt::format("AXIS_{}", letter_of(all[i])));
     if (joint.joint == nullptr) {
@@ -259,7 +278,7 @@ void LinuxCncImport::read_axis(const Joint& joint) {
   const UnitFactor unit = unit_of(joint.letter);
   const UnitFactor per_unit{unit.divisor, unit.factor};
   ImportedAxis axis{.axis = joint.letter};
-  for (const char* key : {"SCALE", "STEP_SCALE", "OUTPUT_SCALE", "INPUT_SCALE"}) {
+  for (const char* key : scale_keys) {
     auto scale = number_in(joint.joint, key, per_unit, !axis.scale);
     if (!scale) continue;
     if (axis.scale) {
@@ -298,7 +317,7 @@ void LinuxCncImport::read_second_motor(ImportedAxis& axis, const Joint& joint) {
   axis.second = ImportedSecondMotor{.origin = origin};
   const UnitFactor unit = unit_of(joint.letter);
   const SourceNode* section = joint.joint;
-  for (const char* key : {"SCALE", "STEP_SCALE", "OUTPUT_SCALE", "INPUT_SCALE"}) {
+  for (const char* key : scale_keys) {
     const auto scale = number_in(section, key, {unit.divisor, unit.factor});
     if (!scale || !axis.scale) continue;
     if (scale->value.magnitude().value() != axis.scale->value.magnitude().value()) {
@@ -390,13 +409,33 @@ void LinuxCncImport::list_sections() {
       context_.unmapped(origin, row->reason);
       continue;
     }
-    for (const SourceNode& key : section.children) {
-      const auto reason = std::ranges::find(joint_reasons, key.name, &KeyReason::key);
-      const bool is_joint = section.name.starts_with("JOINT_") || section.name.starts_with("AXIS_");
-      if (is_joint && reason != std::end(joint_reasons)) context_.unmapped(&key, key_of(section, key.name), reason->reason);
+    list_joint_keys(section);
+    const bool is_used = std::ranges::any_of(
+        joints_, [&](const Joint& joint) { return joint.joint == &section || joint.axis == &section; });
+    const bool is_of_motion = section.name.starts_with("JOINT_") || section.name.starts_with("AXIS_");
+    if (!is_of_motion && section.name != "TRAJ" && section.name != "KINS" && !section.name.starts_with("SPINDLE")) {
+      context_.mark_all(section);
+      ValueOrigin origin = context_.origin(section, fmt::format("[{}]", section.name));
+      origin.value = fmt::format("{} keys", section.children.size());
+      context_.unmapped(origin, "");
     }
     context_.list_rest(section, fmt::format("[{}]", section.name), "",
-                       section.name == "TRAJ" ? "no equivalent: the machine file has the limits of each axis" : "");
+                       section.name == "TRAJ"    ? "no equivalent: the machine file has the limits of each axis"
+                       : is_of_motion && !is_used ? "the coordinates name no axis for this section"
+                                                  : "");
+  }
+}
+
+void LinuxCncImport::list_joint_keys(const SourceNode& section) {
+  const bool is_joint = section.name.starts_with("JOINT_") || section.name.starts_with("AXIS_");
+  if (!is_joint && section.name != "KINS") return;
+  for (const SourceNode& key : section.children) {
+    const auto reason = std::ranges::find(joint_reasons, key.name, &KeyReason::key);
+    if (reason != std::end(joint_reasons)) context_.unmapped(&key, key_of(section, key.name), reason->reason);
+    if (std::ranges::find(servo_keys, key.name) != servo_keys.end()) {
+      context_.unmapped(&key, key_of(section, key.name), servo_reason);
+      has_servos_ |= key.name == "P" || key.name == "PGAIN";
+    }
   }
 }
 
@@ -418,6 +457,9 @@ void LinuxCncImport::import() {
   for (const Joint& joint : joints_) read_axis(joint);
   read_spindle();
   list_sections();
+  if (has_servos_) {
+    context_.warn("the axes have servo loops: check whether the scale is that of the motor's steps, or of an encoder");
+  }
   context_.warn("the levels of pins are in LinuxCNC's HAL files: check the directions, the switches and the outputs");
 }
 

@@ -50,6 +50,7 @@ class ModelCompletion {
  private:
   bool check_axes();
   void complete_axis(ImportedAxis& axis);
+  const char* expected_keys() const;
   void check_required(const ImportedAxis& axis, const std::optional<SourcedNumber>& number, AllowedRange range,
                       const char* what);
   void complete_travel(ImportedAxis& axis);
@@ -84,6 +85,18 @@ bool ModelCompletion::check_axes() {
   return true;
 }
 
+// The keys that each axis needs.
+const char* ModelCompletion::expected_keys() const {
+  switch (context_.result().format) {
+    case ImportFormat::settings: return "for each axis its steps/mm, e.g. $100, rate, $110, and acceleration, $120";
+    case ImportFormat::fluidnc: return "steps_per_mm, max_rate_mm_per_min and acceleration_mm_per_sec2 for each axis";
+    case ImportFormat::linuxcnc:
+      return "SCALE, MAX_VELOCITY and MAX_ACCELERATION for each joint, not in another file or in HAL";
+    case ImportFormat::mach3: return "e.g. Steps0, Vel0 and Acc0 for each active axis";
+  }
+  return "";
+}
+
 void ModelCompletion::check_required(const ImportedAxis& axis, const std::optional<SourcedNumber>& number,
                                      AllowedRange range, const char* what) {
   if (!number) {
@@ -91,7 +104,7 @@ void ModelCompletion::check_required(const ImportedAxis& axis, const std::option
     if (!context_.has_failed()) {
       context_.error("import.missing-key", ValueOrigin{},
                      fmt::format("the file does not give the {} of axis {}", what, letter_of(axis.axis)),
-                     "steps, velocity and acceleration of each axis");
+                     expected_keys());
     }
   } else if (!lies_in(number->value, range)) {
     context_.error("import.out-of-range", number->origin,

@@ -46,11 +46,11 @@ int import_machine_file(const MachineArguments& arguments) {
   NamedFiles files;
   files.reads("--from", arguments.from);
   files.writes("--output", arguments.output);
-  if (!files.are_apart()) return exit_bad_input;
+  if (!files.are_apart()) return exit_bad_program;
   Diagnostics diagnostics;
   const auto machine = import_controller_file(arguments.from, import_format_of(arguments.format), diagnostics);
   show(diagnostics);
-  if (!machine) return exit_bad_input;
+  if (!machine) return exit_bad_program;
   if (!arguments.output.empty()) {
     if (const int code = write_new_machine(machine->toml, arguments.output); code != exit_done) return code;
   }
@@ -70,7 +70,7 @@ int import_machine_file(const MachineArguments& arguments) {
 int machine(const MachineArguments& arguments) {
   if (!arguments.from.empty()) return import_machine_file(arguments);
   if (arguments.machine.empty()) {
-    return fail(exit_bad_input, "a machine file, or --from with the configuration of another controller, is needed");
+    return fail(exit_bad_program, "a machine file, or --from with the configuration of another controller, is needed");
   }
   Diagnostics diagnostics;
   const auto description = load_machine_file(arguments.machine, diagnostics);

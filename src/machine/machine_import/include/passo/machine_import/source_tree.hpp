@@ -18,7 +18,7 @@
 
 namespace passo {
 
-inline constexpr std::size_t most_source_nodes = 20'000;
+inline constexpr std::size_t most_source_nodes = 50'000;
 inline constexpr std::size_t deepest_source_node = 32;
 inline constexpr std::size_t most_source_bytes = std::size_t{1} << 20;
 
