@@ -33,7 +33,7 @@ bool is_active_low(const SourceNode& pin) {
 
 // Sections without anything for a machine file.
 constexpr std::array other_sections = {
-    "spi", "sdcard", "macros", "user_outputs", "user_inputs", "i2so", "i2c0", "i2c1", "uart0", "uart1", "uart2", "uart_channel0", "uart_channel1", "uart_channel2", "start", "parking", "oled", "status_outputs", "extenders", "atc_manual", "atc_basic", "planner_blocks", "verbose_errors", "report_inches", "enable_parking_override_control", "use_line_numbers", "board", "meta", "arc_tolerance_mm", "junction_deviation_mm"};
+    "spi", "sdcard", "macros", "user_outputs", "user_inputs", "i2so", "i2c0", "i2c1", "uart0", "uart1", "uart2", "uart_channel0", "uart_channel1", "uart_channel2", "start", "parking", "oled", "status_outputs", "extenders", "atc_manual", "atc_basic", "planner_blocks", "verbose_errors", "report_inches", "enable_parking_override_control", "use_line_numbers", "board", "meta"};
 
 constexpr std::array spindles = {"pwm", "10v", "laser", "relay", "onoff", "hbridge", "besc", "dac", "huanyang", "h2a", "h100", "yl620", "nowforever", "siemensv20", "modbusvfd", "danfossvlt2800", "folinnbd600", "mollomg70", "plasmaspindle", "nospindle"};
 
@@ -302,17 +302,21 @@ void FluidNcImport::mark_unused_pins(const SourceNode& node) {
 }
 
 void FluidNcImport::list_sections() {
+  for (const char* key : {"junction_deviation_mm", "arc_tolerance_mm"}) {
+    context_.unmapped(fluid_child(&tree_, key), key, "no equivalent: Passo rounds corners within path_tolerance_mm");
+  }
   for (const SourceNode& section : tree_.children) {
     const std::string name = lower_case(section.name);
     const bool is_known = std::ranges::find(other_sections, name) != other_sections.end();
-    if (!is_known || section.children.empty()) continue;
+    if (!is_known) continue;
+    if (section.children.empty()) {
+      context_.unmapped(&section, section.name, "no equivalent in a machine file");
+      continue;
+    }
     context_.mark_all(section);
     ValueOrigin origin = context_.origin(section, section.name);
     origin.value = fmt::format("{} keys", section.children.size());
     context_.unmapped(origin, "no equivalent in a machine file");
-  }
-  for (const char* key : {"junction_deviation_mm", "arc_tolerance_mm"}) {
-    context_.unmapped(fluid_child(&tree_, key), key, "no equivalent: Passo rounds corners within path_tolerance_mm");
   }
   context_.list_rest(tree_, "", "/");
 }

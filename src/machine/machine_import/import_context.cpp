@@ -39,16 +39,30 @@ std::string ImportContext::printable(std::string_view text) {
   return result;
 }
 
+std::string_view ImportContext::number_text(const SourceNode& node) const {
+  const std::string_view text = node.text;
+  return numbers_end_at_blanks_ ? text.substr(0, std::min(text.find_first_of(" \t#;"), text.size())) : text;
+}
+
+ValueOrigin ImportContext::origin(const SourceNode& node, std::string key) {
+  ValueOrigin result{.key = std::move(key), .value = printable(node.text), .line = node.line, .column = node.column};
+  const bool is_new = std::ranges::none_of(pending_, [&](const ValueOrigin& other) {
+    return other.key == result.key && other.line == result.line;
+  });
+  if (is_new && pending_.size() < most_listed) pending_.push_back(result);
+  return result;
+}
+
 std::optional<SourcedNumber> ImportContext::read(const SourceNode* node, std::string key, UnitFactor unit,
                                                  bool is_needed) {
   if (node == nullptr) return std::nullopt;
   mark(*node);
-  std::string_view text = node->text;
-  if (numbers_end_at_blanks_) text = text.substr(0, std::min(text.find_first_of(" \t#;"), text.size()));
+  ValueOrigin from = origin(*node, std::move(key));
+  const std::string_view text = number_text(*node);
   if (const auto number = DecimalNumber::parse(text)) {
-    return SourcedNumber{number->scaled(unit.factor, unit.divisor), origin(*node, std::move(key))};
+    from.value = printable(text);
+    return SourcedNumber{number->scaled(unit.factor, unit.divisor), std::move(from)};
   }
-  const ValueOrigin from = origin(*node, std::move(key));
   if (is_needed) {
     error("import.not-a-number", from, fmt::format("{} is \"{}\"", from.key, from.value),
           "a number with a decimal point, e.g. 250 or 0.5");
@@ -69,12 +83,13 @@ std::optional<SourcedNumber> ImportContext::optional_number(const SourceNode* no
 std::optional<unsigned> ImportContext::mask(const SourceNode* node, std::string key) {
   if (node == nullptr) return std::nullopt;
   mark(*node);
+  const ValueOrigin from = origin(*node, std::move(key));
   const auto number = DecimalNumber::parse(node->text);
   if (number && number->value() >= 0 && number->value() <= 65535) {
     const auto whole = static_cast<unsigned>(number->value());
     if (number->value() == whole) return whole;
   }
-  unmapped(origin(*node, std::move(key)), "this is not a whole number from 0 to 65535");
+  unmapped(from, "this is not a whole number from 0 to 65535");
   return std::nullopt;
 }
 
@@ -138,6 +153,14 @@ void ImportContext::error(const char* code, const ValueOrigin& origin, std::stri
   // Mach3 writes its file as one long line, of which only the beginning is kept.
   if (finding.place.column > finding.text.size() + 1) finding.text.clear();
   diagnostics_.add(std::move(finding));
+}
+
+void ImportContext::list_pending() {
+  for (const ValueOrigin& origin : pending_) {
+    const auto is_same = [&](const auto& value) { return value.source == origin.key && value.line == origin.line; };
+    if (std::ranges::any_of(result_.understood, is_same) || std::ranges::any_of(result_.unmapped, is_same)) continue;
+    unmapped(origin, "it has no value of its own in the machine file");
+  }
 }
 
 void ImportContext::list_rest(const SourceNode& node, const std::string& path, std::string_view separator,

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "imported_model.hpp"
 
@@ -40,9 +41,8 @@ class ImportContext {
   // A text for people: printable UTF-8, at most 80 bytes.
   static std::string printable(std::string_view text);
 
-  ValueOrigin origin(const SourceNode& node, std::string key) const {
-    return {.key = std::move(key), .value = printable(node.text), .line = node.line, .column = node.column};
-  }
+  // Where a node's value is from. If it gets no entry in the report, list_pending() makes one.
+  ValueOrigin origin(const SourceNode& node, std::string key);
 
   void understood(const ValueOrigin& origin, std::string target);
   void unmapped(const ValueOrigin& origin, std::string reason);
@@ -57,11 +57,14 @@ class ImportContext {
   // Lists all leaves below the node that are not marked. `path` precedes their names.
   void list_rest(const SourceNode& node, const std::string& path, std::string_view separator,
                  const std::string& reason = {});
+  // Lists what was read and is neither understood nor listed. Called last.
+  void list_pending();
 
   ImportedMachine& result() { return result_; }
 
  private:
   std::optional<SourcedNumber> read(const SourceNode* node, std::string key, UnitFactor unit, bool is_needed);
+  std::string_view number_text(const SourceNode& node) const;
   std::string line_text(std::uint32_t line) const;
 
   const ImportSource& source_;
@@ -70,6 +73,7 @@ class ImportContext {
   std::size_t errors_before_;
   bool numbers_end_at_blanks_ = false;
   std::set<const SourceNode*> done_;
+  std::vector<ValueOrigin> pending_;
 };
 
 }  // namespace passo

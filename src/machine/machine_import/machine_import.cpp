@@ -34,6 +34,7 @@ std::optional<ImportedMachine> import_machine(ImportFormat format, const SourceN
   const auto board = complete_model(model, context);
   if (!board || context.has_failed()) return std::nullopt;
   result.toml = write_machine_text(model, *board, context);
+  context.list_pending();
   context.warn("there are no motor data: Passo cannot check whether the motors lose steps; see [axis.X.torque]");
   return result;
 }
