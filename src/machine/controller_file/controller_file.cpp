@@ -31,7 +31,8 @@ bool can_be_read(const ImportedMachine& machine, const std::string& file, Diagno
   Diagnostics found;
   if (parse_machine(machine.toml, file, found)) return true;
   for (const Diagnostic& finding : found.all()) {
-    diagnostics.add(of_file("import.bad-result", file, fmt::format("the machine file would be wrong: {}", std::string(finding.message)),
+    diagnostics.add(of_file("import.bad-result", file,
+                            fmt::format("the machine file would be wrong: {}", std::string(finding.message)),
                             std::string(finding.expected)));
   }
   return false;
@@ -82,7 +83,8 @@ std::optional<ImportedMachine> import_controller_text(const ImportSource& source
 
 std::optional<ImportedMachine> import_controller_file(const std::string& path, std::optional<ImportFormat> format,
                                                       Diagnostics& diagnostics) {
-  const auto text = read_bytes(path, {.area = "import", .expected = expected_formats, .most = most_source_bytes}, diagnostics);
+  const auto text =
+      read_bytes(path, {.area = "import", .expected = expected_formats, .most = most_source_bytes}, diagnostics);
   if (!text) return std::nullopt;
   return import_controller_text({.file = path, .text = *text}, format, diagnostics);
 }

@@ -26,7 +26,8 @@ class XmlTree {
 
   std::optional<SourceNode> read() {
     // Windows writes the texts of Mach3 in its own code page, without saying so.
-    const bool is_latin = source_.text.substr(0, 200).find("encoding") == std::string_view::npos && !is_utf8(source_.text);
+    const bool is_latin =
+        source_.text.substr(0, 200).find("encoding") == std::string_view::npos && !is_utf8(source_.text);
     const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
         XML_ParserCreate(is_latin ? "ISO-8859-1" : nullptr), &XML_ParserFree);
     parser_ = parser.get();
@@ -107,7 +108,7 @@ class XmlTree {
   const ImportSource& source_;
   Diagnostics& diagnostics_;
   XML_Parser parser_ = nullptr;
-  SourceNode root_;                 // its child is the outermost element
+  SourceNode root_;                // its child is the outermost element
   std::vector<std::size_t> open_;  // from the root, which child is open
   std::size_t nodes_ = 0;
   bool is_refused_ = false;

@@ -55,7 +55,8 @@ std::optional<SourceNode> read_yaml_tree(const ImportSource& source, Diagnostics
     add_source_error(source, diagnostics, "import.syntax",
                      has_place ? static_cast<std::uint32_t>(error.mark.line + 1) : 0,
                      has_place ? static_cast<std::uint32_t>(error.mark.column + 1) : 0,
-                     fmt::format("this is not YAML: {}", error.msg), "FluidNC's configuration, with a blank after the colon of each key");
+                     fmt::format("this is not YAML: {}", error.msg),
+                     "FluidNC's configuration, with a blank after the colon of each key");
   }
   return std::nullopt;
 }

@@ -102,7 +102,9 @@ DecimalNumber DecimalNumber::operator-() const {
 DecimalNumber DecimalNumber::scaled(std::int64_t factor, std::int64_t divisor) const {
   const DecimalNumber rounded = of(value_ * static_cast<double>(factor) / static_cast<double>(divisor));
   if (!is_exact_) return rounded;
-  const auto fits = [](std::int64_t digits, std::int64_t by) { return (digits < 0 ? -digits : digits) < most_digits / by; };
+  const auto fits = [](std::int64_t digits, std::int64_t by) {
+    return (digits < 0 ? -digits : digits) < most_digits / by;
+  };
   if (!fits(digits_, factor)) return rounded;
   std::int64_t digits = digits_ * factor;
   // A divisor below 10^5 has at most 16 factors 2, so more zeros cannot help.

@@ -16,8 +16,8 @@ namespace {
 // FluidNC compares its keys without regard to case.
 const SourceNode* fluid_child(const SourceNode* node, std::string_view wanted) {
   if (node == nullptr) return nullptr;
-  const auto found = std::ranges::find_if(
-      node->children, [&](const SourceNode& child) { return lower_case(child.name) == wanted; });
+  const auto found =
+      std::ranges::find_if(node->children, [&](const SourceNode& child) { return lower_case(child.name) == wanted; });
   return found == node->children.end() ? nullptr : &*found;
 }
 
@@ -32,10 +32,39 @@ bool is_active_low(const SourceNode& pin) {
 }
 
 // Sections without anything for a machine file.
-constexpr std::array other_sections = {
-    "spi", "sdcard", "macros", "user_outputs", "user_inputs", "i2so", "i2c0", "i2c1", "uart0", "uart1", "uart2", "uart_channel0", "uart_channel1", "uart_channel2", "start", "parking", "oled", "status_outputs", "extenders", "atc_manual", "atc_basic", "planner_blocks", "verbose_errors", "report_inches", "enable_parking_override_control", "use_line_numbers", "board", "meta"};
+constexpr std::array other_sections = {"spi",
+                                       "sdcard",
+                                       "macros",
+                                       "user_outputs",
+                                       "user_inputs",
+                                       "i2so",
+                                       "i2c0",
+                                       "i2c1",
+                                       "uart0",
+                                       "uart1",
+                                       "uart2",
+                                       "uart_channel0",
+                                       "uart_channel1",
+                                       "uart_channel2",
+                                       "start",
+                                       "parking",
+                                       "oled",
+                                       "status_outputs",
+                                       "extenders",
+                                       "atc_manual",
+                                       "atc_basic",
+                                       "planner_blocks",
+                                       "verbose_errors",
+                                       "report_inches",
+                                       "enable_parking_override_control",
+                                       "use_line_numbers",
+                                       "board",
+                                       "meta"};
 
-constexpr std::array spindles = {"pwm", "10v", "laser", "relay", "onoff", "hbridge", "besc", "dac", "huanyang", "h2a", "h100", "yl620", "nowforever", "siemensv20", "modbusvfd", "danfossvlt2800", "folinnbd600", "mollomg70", "plasmaspindle", "nospindle"};
+constexpr std::array spindles = {
+    "pwm",         "10v",       "laser",         "relay",    "onoff",      "hbridge",    "besc",      "dac",
+    "huanyang",    "h2a",       "h100",          "yl620",    "nowforever", "siemensv20", "modbusvfd", "danfossvlt2800",
+    "folinnbd600", "mollomg70", "plasmaspindle", "nospindle"};
 
 class FluidNcImport {
  public:
@@ -101,7 +130,8 @@ void FluidNcImport::note_level(ImportedPin pin, const SourceNode& node, const st
   level = SourcedFlag{high, origin};
 }
 
-void FluidNcImport::read_pin(ImportedPin pin, const SourceNode* section, std::string_view key, const std::string& path) {
+void FluidNcImport::read_pin(ImportedPin pin, const SourceNode* section, std::string_view key,
+                             const std::string& path) {
   const SourceNode* node = fluid_child(section, key);
   if (is_pin(node)) note_level(pin, *node, path, !is_active_low(*node));
 }
@@ -114,7 +144,9 @@ void FluidNcImport::read_axis(const SourceNode& node, Axis letter) {
   };
   const auto number = [&](const char* key, UnitFactor unit, std::int64_t usual) {
     const SourceNode* child = fluid_child(&node, key);
-    if (child == nullptr) return std::optional(SourcedNumber{assumed(usual).value.scaled(unit.factor, unit.divisor), assumed(usual).origin});
+    if (child == nullptr)
+      return std::optional(
+          SourcedNumber{assumed(usual).value.scaled(unit.factor, unit.divisor), assumed(usual).origin});
     return context_.number(child, fmt::format("{}/{}", path, key), unit);
   };
   axis.scale = number("steps_per_mm", {}, 80);
@@ -129,9 +161,10 @@ void FluidNcImport::read_axis(const SourceNode& node, Axis letter) {
     axis.second->inverted = SourcedFlag{false, axis.second->origin};
     read_motor(axis, *second, path + "/motor1", true);
     if (homing != nullptr && !axis.second->limit_high) {
-      context_.warn(fmt::format("the second motor of axis {} has no limit switch of its own: Passo squares an axis with two "
-                                "switches",
-                                letter_of(letter)));
+      context_.warn(
+          fmt::format("the second motor of axis {} has no limit switch of its own: Passo squares an axis with two "
+                      "switches",
+                      letter_of(letter)));
     }
   }
   if (homing != nullptr) read_home(axis, node, *homing, path);
@@ -159,8 +192,9 @@ void FluidNcImport::read_travel(ImportedAxis& axis, const SourceNode& node, cons
   context_.mark(*soft);
   context_.understood(context_.origin(*soft, path + "/soft_limits"), "the travel, which Passo always enforces");
   if (lower_case(soft->text) == "true") return;
-  context_.warn(fmt::format("the soft limits of axis {} are off in FluidNC, so its travel may be wrong; Passo enforces it",
-                            letter_of(axis.axis)));
+  context_.warn(
+      fmt::format("the soft limits of axis {} are off in FluidNC, so its travel may be wrong; Passo enforces it",
+                  letter_of(axis.axis)));
 }
 
 void FluidNcImport::read_home(ImportedAxis& axis, const SourceNode& node, const SourceNode& homing,
@@ -174,7 +208,8 @@ void FluidNcImport::read_home(ImportedAxis& axis, const SourceNode& node, const 
   const auto latch = context_.optional_number(fluid_child(&homing, "feed_mm_per_min"), own("feed_mm_per_min"), {1, 60});
   const SourceNode* direction = fluid_child(&homing, "positive_direction");
   if (direction != nullptr) context_.mark(*direction);
-  const auto pull_off = context_.optional_number(fluid_child(fluid_child(&node, "motor0"), "pulloff_mm"), path + "/motor0/pulloff_mm");
+  const auto pull_off =
+      context_.optional_number(fluid_child(fluid_child(&node, "motor0"), "pulloff_mm"), path + "/motor0/pulloff_mm");
   if (!cycle || cycle->value.value() < 1 || !axis.low || !axis.high) return;
   if (!axis.limit_high) {
     context_.warn(fmt::format("axis {} is not homed by the machine file: its first motor has no limit pin",
@@ -182,9 +217,10 @@ void FluidNcImport::read_home(ImportedAxis& axis, const SourceNode& node, const 
     return;
   }
   if (!seek || !latch || !pull_off) {
-    context_.warn(fmt::format("axis {} is not homed by the machine file: it needs seek_mm_per_min, feed_mm_per_min and "
-                              "pulloff_mm",
-                              letter_of(axis.axis)));
+    context_.warn(
+        fmt::format("axis {} is not homed by the machine file: it needs seek_mm_per_min, feed_mm_per_min and "
+                    "pulloff_mm",
+                    letter_of(axis.axis)));
     return;
   }
   const bool high = direction == nullptr || lower_case(direction->text) != "false";

@@ -46,9 +46,8 @@ std::string_view ImportContext::number_text(const SourceNode& node) const {
 
 ValueOrigin ImportContext::origin(const SourceNode& node, std::string key) {
   ValueOrigin result{.key = std::move(key), .value = printable(node.text), .line = node.line, .column = node.column};
-  const bool is_new = std::ranges::none_of(pending_, [&](const ValueOrigin& other) {
-    return other.key == result.key && other.line == result.line;
-  });
+  const bool is_new = std::ranges::none_of(
+      pending_, [&](const ValueOrigin& other) { return other.key == result.key && other.line == result.line; });
   if (is_new && pending_.size() < most_listed) pending_.push_back(result);
   return result;
 }

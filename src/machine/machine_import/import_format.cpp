@@ -23,7 +23,8 @@ bool is_setting(std::string_view line) {
 }
 
 bool is_section(std::string_view line) {
-  constexpr std::array<std::string_view, 7> sections = {"[EMC]", "[KINS]", "[TRAJ]", "[EMCMOT]", "[HAL]", "[JOINT_0]", "[AXIS_"};
+  constexpr std::array<std::string_view, 7> sections = {"[EMC]", "[KINS]",    "[TRAJ]", "[EMCMOT]",
+                                                        "[HAL]", "[JOINT_0]", "[AXIS_"};
   return std::ranges::any_of(sections, [&](std::string_view section) { return line.starts_with(section); });
 }
 

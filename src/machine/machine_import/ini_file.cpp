@@ -1,8 +1,7 @@
 // Ini files as LinuxCNC reads them: sections, keys, and comments on lines of their own.
-#include "source_text.hpp"
-
 #include <algorithm>
 
+#include "source_text.hpp"
 #include <fmt/format.h>
 
 namespace passo {

@@ -35,7 +35,28 @@ constexpr SectionReason section_reasons[] = {
     {"VERSA_TOOLSETTER", "no equivalent: commands of buttons"},
 };
 const char* const servo_reason = "the loop of a servo: see [axis.X.encoder]";
-constexpr std::array servo_keys = {"P", "I", "D", "FF0", "FF1", "FF2", "BIAS", "DEADBAND", "MAX_OUTPUT", "MAX_ERROR", "OUTPUT_SCALE", "OUTPUT_OFFSET", "OUTPUT_MIN_LIMIT", "OUTPUT_MAX_LIMIT", "PID_MAX_VEL", "PID_MAX_ERROR", "ENCODER_SCALE", "INPUT_OFFSET", "MAX_VELOCITY_FF", "PGAIN", "IGAIN", "DGAIN"};
+constexpr std::array servo_keys = {"P",
+                                   "I",
+                                   "D",
+                                   "FF0",
+                                   "FF1",
+                                   "FF2",
+                                   "BIAS",
+                                   "DEADBAND",
+                                   "MAX_OUTPUT",
+                                   "MAX_ERROR",
+                                   "OUTPUT_SCALE",
+                                   "OUTPUT_OFFSET",
+                                   "OUTPUT_MIN_LIMIT",
+                                   "OUTPUT_MAX_LIMIT",
+                                   "PID_MAX_VEL",
+                                   "PID_MAX_ERROR",
+                                   "ENCODER_SCALE",
+                                   "INPUT_OFFSET",
+                                   "MAX_VELOCITY_FF",
+                                   "PGAIN",
+                                   "IGAIN",
+                                   "DGAIN"};
 
 struct KeyReason {
   std::string_view key;
@@ -171,9 +192,11 @@ std::vector<Axis> LinuxCncImport::letters() {
     context_.mark(*coordinates);
     context_.understood(context_.origin(*coordinates, "[TRAJ]COORDINATES"), "a table [axis.X] for each letter");
   }
-  if (at != std::string::npos) return letters_of(*kinematics, first_word(std::string_view(kinematics->text).substr(at + 12)));
+  if (at != std::string::npos)
+    return letters_of(*kinematics, first_word(std::string_view(kinematics->text).substr(at + 12)));
   if (coordinates != nullptr) {
-    return letters_of(*coordinates, coordinates->text.substr(0, std::min(coordinates->text.find('#'), coordinates->text.size())));
+    return letters_of(*coordinates,
+                      coordinates->text.substr(0, std::min(coordinates->text.find('#'), coordinates->text.size())));
   }
   context_.error("import.axes", ValueOrigin{}, "the file does not name the axes",
                  "COORDINATES in [TRAJ], or coordinates= in [KINS]KINEMATICS");
@@ -287,15 +310,18 @@ void LinuxCncImport::read_axis(const Joint& joint) {
       axis.scale = scale;
     }
   }
-  axis.velocity = lower_of(joint, "MAX_VELOCITY", unit, is_rotary(joint.letter) ? "MAX_ANGULAR_VELOCITY" : "MAX_LINEAR_VELOCITY");
-  axis.acceleration = lower_of(joint, "MAX_ACCELERATION", unit, is_rotary(joint.letter) ? "MAX_ANGULAR_ACCELERATION" : "MAX_LINEAR_ACCELERATION");
+  axis.velocity =
+      lower_of(joint, "MAX_VELOCITY", unit, is_rotary(joint.letter) ? "MAX_ANGULAR_VELOCITY" : "MAX_LINEAR_VELOCITY");
+  axis.acceleration = lower_of(joint, "MAX_ACCELERATION", unit,
+                               is_rotary(joint.letter) ? "MAX_ANGULAR_ACCELERATION" : "MAX_LINEAR_ACCELERATION");
   axis.low = first_of(joint, "MIN_LIMIT", unit);
   axis.high = first_of(joint, "MAX_LIMIT", unit);
   axis.backlash = number_in(joint.joint, "BACKLASH", unit, false);
   if (const SourceNode* type = joint.joint->child("TYPE")) {
     context_.mark(*type);
     const bool is_angular = first_word(type->text) == "ANGULAR";
-    context_.understood(context_.origin(*type, key_of(*joint.joint, "TYPE")), is_rotary(joint.letter) ? "degrees" : "millimetres");
+    context_.understood(context_.origin(*type, key_of(*joint.joint, "TYPE")),
+                        is_rotary(joint.letter) ? "degrees" : "millimetres");
     if (is_angular != is_rotary(joint.letter)) {
       context_.warn(fmt::format("[{}]TYPE is {}, but axis {} is in {} in a machine file", joint.joint->name,
                                 is_angular ? "ANGULAR" : "LINEAR", letter_of(joint.letter),
@@ -308,9 +334,13 @@ void LinuxCncImport::read_axis(const Joint& joint) {
 }
 
 void LinuxCncImport::read_second_motor(ImportedAxis& axis, const Joint& joint) {
-  const ValueOrigin origin = {.key = fmt::format("[{}]", joint.joint->name), .value = std::string(1, letter_of(joint.letter)), .line = joint.joint->line, .column = joint.joint->column};
+  const ValueOrigin origin = {.key = fmt::format("[{}]", joint.joint->name),
+                              .value = std::string(1, letter_of(joint.letter)),
+                              .line = joint.joint->line,
+                              .column = joint.joint->column};
   if (axis.second) {
-    context_.error("import.too-many-motors", origin, fmt::format("axis {} has more than two joints", letter_of(axis.axis)),
+    context_.error("import.too-many-motors", origin,
+                   fmt::format("axis {} has more than two joints", letter_of(axis.axis)),
                    "one or two motors for each axis");
     return;
   }
@@ -328,10 +358,12 @@ void LinuxCncImport::read_second_motor(ImportedAxis& axis, const Joint& joint) {
     }
     if (!axis.second->inverted) axis.second->inverted = SourcedFlag{scale->value.value() < 0, scale->origin};
   }
-  context_.list_rest(*section, fmt::format("[{}]", section->name), "", "the values of the first motor of the axis are used");
-  context_.warn(fmt::format("axis {} has two motors: Passo squares them with a limit switch each, see square_mm in "
-                            "[axis.{}.second_motor]",
-                            letter_of(axis.axis), letter_of(axis.axis)));
+  context_.list_rest(*section, fmt::format("[{}]", section->name), "",
+                     "the values of the first motor of the axis are used");
+  context_.warn(
+      fmt::format("axis {} has two motors: Passo squares them with a limit switch each, see square_mm in "
+                  "[axis.{}.second_motor]",
+                  letter_of(axis.axis), letter_of(axis.axis)));
 }
 
 void LinuxCncImport::read_home(ImportedAxis& axis, const Joint& joint, UnitFactor unit) {
@@ -420,7 +452,7 @@ void LinuxCncImport::list_sections() {
       context_.unmapped(origin, "");
     }
     context_.list_rest(section, fmt::format("[{}]", section.name), "",
-                       section.name == "TRAJ"    ? "no equivalent: the machine file has the limits of each axis"
+                       section.name == "TRAJ"     ? "no equivalent: the machine file has the limits of each axis"
                        : is_of_motion && !is_used ? "the coordinates name no axis for this section"
                                                   : "");
   }

@@ -1,9 +1,9 @@
 // A profile of Mach3: <profile><Preferences>, a flat list of some thousand elements.
 //
 // There is no public description of the format. Used here is what Mach3's own screens name, and what LinuxCNC's import
-// of such profiles uses: Steps0 to Steps5 (steps per unit), Vel0 (units per second), Acc0 (units per second²), M0Max and
-// M0Min (soft limits), Motor0Active, Motor0DirNeg, Units (0: millimetres). What the screens show per minute is stored
-// per second.
+// of such profiles uses: Steps0 to Steps5 (steps per unit), Vel0 (units per second), Acc0 (units per second²), M0Max
+// and M0Min (soft limits), Motor0Active, Motor0DirNeg, Units (0: millimetres). What the screens show per minute is
+// stored per second.
 #include <algorithm>
 #include <array>
 
@@ -126,11 +126,11 @@ void Mach3Import::read_axis(std::size_t index) {
 void Mach3Import::list_homing(std::size_t index) {
   const std::string input = fmt::format("Input{}Active", 3 * index + 2);
   const bool has_switch = is_on(input);
-  const std::string reason =
-      fmt::format("write [axis.{}.home]: it needs a switch position, two speeds and a pull-off, which Mach3 does not have",
-                  letter_of(mach3_axes[index]));
-  for (const std::string& key : {fmt::format("M{}Neg", index), fmt::format("RefSpeed{}", index),
-                                 fmt::format("M{}AutoZero", index), input}) {
+  const std::string reason = fmt::format(
+      "write [axis.{}.home]: it needs a switch position, two speeds and a pull-off, which Mach3 does not have",
+      letter_of(mach3_axes[index]));
+  for (const std::string& key :
+       {fmt::format("M{}Neg", index), fmt::format("RefSpeed{}", index), fmt::format("M{}AutoZero", index), input}) {
     context_.unmapped(value(key), key, has_switch ? reason : "no home switch in Mach3");
   }
 }
@@ -160,16 +160,19 @@ void Mach3Import::read_slave() {
   leader->second = ImportedSecondMotor{.origin = origin};
   if (follower->inverted) leader->second->inverted = follower->inverted;
   const char letter = letter_of(leader->axis);
-  context_.warn(fmt::format("axis {} follows axis {}: check [axis.{}.second_motor]", letter_of(follower->axis), letter, letter));
+  context_.warn(
+      fmt::format("axis {} follows axis {}: check [axis.{}.second_motor]", letter_of(follower->axis), letter, letter));
   model_.axes.erase(follower);
 }
 
 void Mach3Import::list_rest() {
   // Thousands of elements of screens, keys and displays: only their number is of use.
-  constexpr std::string_view of_motion[] = {"Motor", "Vel", "Acc", "Steps", "M0", "M1", "M2", "M3", "M4", "M5", "Slave", "AxisToMotor"};
+  constexpr std::string_view of_motion[] = {"Motor", "Vel", "Acc", "Steps", "M0",    "M1",
+                                            "M2",    "M3",  "M4",  "M5",    "Slave", "AxisToMotor"};
   std::size_t others = 0;
   for (const SourceNode& node : preferences_.children) {
-    const bool is_of_motion = std::ranges::any_of(of_motion, [&](std::string_view prefix) { return node.name.starts_with(prefix); });
+    const bool is_of_motion =
+        std::ranges::any_of(of_motion, [&](std::string_view prefix) { return node.name.starts_with(prefix); });
     const bool is_of_active_axis = std::ranges::any_of(model_.axes, [&](const ImportedAxis& axis) {
       return node.name.find(static_cast<char>('0' + index_of(axis.axis))) != std::string::npos;
     });

@@ -1,11 +1,10 @@
 #include "passo/machine_import/machine_import.hpp"
 
-#include <fmt/format.h>
-
 #include "format_imports.hpp"
 #include "import_context.hpp"
 #include "machine_text.hpp"
 #include "model_completion.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -40,9 +39,9 @@ std::optional<ImportedMachine> import_machine(ImportFormat format, const SourceN
 }
 
 std::string describe(const ImportedMachine& machine) {
-  std::string text = fmt::format("{}: {} {} understood, {} not taken over\n", machine.controller,
-                                 machine.understood.size(), machine.understood.size() == 1 ? "value" : "values",
-                                 machine.unmapped.size());
+  std::string text =
+      fmt::format("{}: {} {} understood, {} not taken over\n", machine.controller, machine.understood.size(),
+                  machine.understood.size() == 1 ? "value" : "values", machine.unmapped.size());
   const auto heading = [&](const char* words, std::size_t count) {
     if (count > 0) text += fmt::format("\n{}:\n", words);
   };

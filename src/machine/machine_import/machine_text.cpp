@@ -52,7 +52,7 @@ class MachineText {
   const ImportedBoard& board_;
   ImportContext& context_;
   std::string text_;
-  std::string table_;          // the table of the lines that follow
+  std::string table_;           // the table of the lines that follow
   bool table_is_open_ = false;  // whether its header is written
 };
 
@@ -102,10 +102,11 @@ void MachineText::write_board() {
   } else {
     put("step_pulse_us", pulse, model_.step_pulse_us->origin);
     if (board_.pulse_is_shortened) {
-      context_.warn(fmt::format(
-          "a step pulse of {} us and a pause of the same length do not fit into the highest step rate: step_pulse_us = {} "
-          "instead; check what the drivers require",
-          model_.step_pulse_us->value.text(), pulse));
+      context_.warn(
+          fmt::format("a step pulse of {} us and a pause of the same length do not fit into the highest step rate: "
+                      "step_pulse_us = {} "
+                      "instead; check what the drivers require",
+                      model_.step_pulse_us->value.text(), pulse));
     }
   }
   put("direction_setup_us", model_.direction_setup_us);
@@ -179,19 +180,17 @@ std::string MachineText::homing_order() const {
   for (const ImportedAxis& axis : model_.axes) {
     if (axis.home) homed.push_back(&axis);
   }
-  std::ranges::stable_sort(homed, {}, [](const ImportedAxis* axis) {
-    return axis->home->turn < 0 ? 1000 : axis->home->turn;
-  });
+  std::ranges::stable_sort(homed, {},
+                           [](const ImportedAxis* axis) { return axis->home->turn < 0 ? 1000 : axis->home->turn; });
   std::string order;
   for (std::size_t i = 0; i < homed.size();) {
     std::size_t end = i + 1;
     const int turn = homed[i]->home->turn;
     while (turn >= 0 && end < homed.size() && homed[end]->home->turn == turn) ++end;
-    const bool together = end - i > 1 && std::all_of(homed.begin() + static_cast<std::ptrdiff_t>(i),
-                                                     homed.begin() + static_cast<std::ptrdiff_t>(end),
-                                                     [](const ImportedAxis* axis) {
-                                                       return !is_rotary(axis->axis) && !axis->second;
-                                                     });
+    const bool together =
+        end - i > 1 &&
+        std::all_of(homed.begin() + static_cast<std::ptrdiff_t>(i), homed.begin() + static_cast<std::ptrdiff_t>(end),
+                    [](const ImportedAxis* axis) { return !is_rotary(axis->axis) && !axis->second; });
     for (const char* between = order.empty() ? "" : " "; i < end; ++i, between = together ? "" : " ") {
       order += between;
       if (together && (*between != '\0' || order.empty())) order += '(';

@@ -167,7 +167,8 @@ void ModelCompletion::complete_home(ImportedAxis& axis) {
   ImportedHome& home = *axis.home;
   const std::string reason = refuse_home(axis, home);
   if (reason.empty()) return;
-  for (const ValueOrigin* origin : {&home.is_high.origin, &home.switch_at.origin, &home.seek.origin, &home.latch.origin}) {
+  for (const ValueOrigin* origin :
+       {&home.is_high.origin, &home.switch_at.origin, &home.seek.origin, &home.latch.origin}) {
     if (!origin->is_assumed()) context_.unmapped(*origin, reason);
   }
   if (home.pull_off && !home.pull_off->origin.is_assumed()) context_.unmapped(home.pull_off->origin, reason);
@@ -199,15 +200,15 @@ bool ModelCompletion::find_pull_off(const ImportedAxis& axis, ImportedHome& home
   DecimalNumber off(1);
   if (off < outside) off = outside;
   if (!lies_in(off, allowed_pull_off)) return false;
-  home.pull_off =
-      SourcedNumber{off, {.key = {}, .value = {}, .reason = "the source does not say how far the axis leaves the switch"}};
+  home.pull_off = SourcedNumber{
+      off, {.key = {}, .value = {}, .reason = "the source does not say how far the axis leaves the switch"}};
   return true;
 }
 
 void ModelCompletion::drop_outside(std::optional<SourcedNumber>& number, AllowedRange range, const char* key) {
   if (!number || lies_in(number->value, range)) return;
-  context_.unmapped(number->origin, fmt::format("{} would be {}, outside the range of a machine file, {:g} to {:g}", key,
-                                                number->value.text(), range.least, range.most));
+  context_.unmapped(number->origin, fmt::format("{} would be {}, outside the range of a machine file, {:g} to {:g}",
+                                                key, number->value.text(), range.least, range.most));
   number.reset();
 }
 
@@ -235,8 +236,7 @@ std::optional<ImportedBoard> ModelCompletion::choose_board() {
   constexpr double pico_rate = 500'000;
   ImportedBoard board;
   if (needed > most_event_rate) {
-    context_.error("import.too-fast", ValueOrigin{},
-                   fmt::format("the fastest axis needs {:.0f} steps/s", needed),
+    context_.error("import.too-fast", ValueOrigin{}, fmt::format("the fastest axis needs {:.0f} steps/s", needed),
                    fmt::format("at most {:.0f} steps/s", most_event_rate));
     return std::nullopt;
   }

@@ -1,8 +1,7 @@
 // The answer of Grbl, grblHAL or FluidNC to $$, as a terminal or a sender saved it, with other answers around it.
-#include "source_text.hpp"
-
 #include <algorithm>
 
+#include "source_text.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -38,7 +37,8 @@ std::optional<SourceNode> parse_settings_dump(const ImportSource& source, Diagno
   while (lines.next(line)) {
     // A terminal puts a prompt before the line: "< $0=10".
     std::string_view trimmed = without_blanks(line);
-    while (!trimmed.empty() && (trimmed.front() == '<' || trimmed.front() == '>')) trimmed = without_blanks(trimmed.substr(1));
+    while (!trimmed.empty() && (trimmed.front() == '<' || trimmed.front() == '>'))
+      trimmed = without_blanks(trimmed.substr(1));
     const std::string_view number = setting_number(trimmed);
     if (number.empty() && !is_identity(trimmed)) continue;
     SourceNode node;

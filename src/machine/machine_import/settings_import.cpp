@@ -54,8 +54,8 @@ constexpr SettingReason setting_reasons[] = {
 };
 
 std::string reason_of_setting(int number) {
-  const auto row = std::ranges::find_if(
-      setting_reasons, [&](const SettingReason& r) { return number >= r.first && number <= r.last; });
+  const auto row = std::ranges::find_if(setting_reasons,
+                                        [&](const SettingReason& r) { return number >= r.first && number <= r.last; });
   return row == std::end(setting_reasons) ? "" : row->reason;
 }
 
@@ -165,8 +165,9 @@ void SettingsImport::read_axis(Axis letter, int index) {
     const auto rotary = mask(376);
     const int bit = static_cast<int>(index_of(letter)) - 3;
     if (rotary && (*rotary >> bit & 1U) == 0) {
-      context_.warn(fmt::format("axis {} is a linear axis for the controller ($376), but a machine file has it in degrees",
-                                letter_of(letter)));
+      context_.warn(
+          fmt::format("axis {} is a linear axis for the controller ($376), but a machine file has it in degrees",
+                      letter_of(letter)));
     }
   }
   model_.axes.push_back(std::move(axis));
@@ -320,7 +321,8 @@ void SettingsImport::read_spindle() {
   if (!mode) return;
   context_.unmapped(origin(32), *mode == 1 ? "no equivalent: laser mode" : "no equivalent");
   if (*mode == 1) context_.warn("the controller drives a laser ($32=1): Passo treats it as a spindle");
-  if (*mode == 2) context_.warn("the controller is in lathe mode ($32=2): Passo derives a lathe from its axes, X and Z");
+  if (*mode == 2)
+    context_.warn("the controller is in lathe mode ($32=2): Passo derives a lathe from its axes, X and Z");
 }
 
 void SettingsImport::read_soft_limits() {
@@ -330,7 +332,8 @@ void SettingsImport::read_soft_limits() {
       context_.warn("the soft limits of the controller are off ($20=0), so its travel may be wrong; Passo enforces it");
     }
   }
-  if (setting(22) != nullptr) context_.understood(origin(22), (homing_ & 1U) != 0 ? "[axis.X.home]" : "no [axis.X.home]");
+  if (setting(22) != nullptr)
+    context_.understood(origin(22), (homing_ & 1U) != 0 ? "[axis.X.home]" : "no [axis.X.home]");
   if ((homing_ & 1U) != 0) return;
   for (const int number : {23, 24, 25, 27}) {
     context_.unmapped(setting(number), fmt::format("${}", number), "homing is off ($22)");
@@ -367,7 +370,8 @@ void SettingsImport::import() {
   read_spindle();
   read_soft_limits();
   if (firmware_ == GrblFirmware::fluidnc) {
-    context_.warn("FluidNC keeps pins, switches and the position of home in its YAML configuration: import that instead");
+    context_.warn(
+        "FluidNC keeps pins, switches and the position of home in its YAML configuration: import that instead");
   }
   list_rest();
 }

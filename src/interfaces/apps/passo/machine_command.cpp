@@ -1,10 +1,9 @@
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "commands.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
+#include <nlohmann/json.hpp>
 
 #include "passo/controller_file/controller_file.hpp"
 #include "passo/machine_file/machine_description.hpp"

@@ -2,9 +2,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <gtest/gtest.h>
-
 #include "imported.hpp"
+#include <gtest/gtest.h>
 
 namespace passo::test {
 namespace {
@@ -67,7 +66,7 @@ TEST(LinuxCncImport, keeps_numbers_homing_and_the_gantry) {
   EXPECT_EQ(it.machine->name, "Mill with a gantry");
   const AxisDescription& x = it.axis(Axis::x);
   EXPECT_EQ(x.steps_per_unit, 160.5);
-  EXPECT_TRUE(x.inverted);           // a negative SCALE
+  EXPECT_TRUE(x.inverted);            // a negative SCALE
   EXPECT_EQ(x.velocity.value(), 80);  // of the axis; the joint can do 90
   EXPECT_EQ(x.acceleration.value(), 450);
   EXPECT_EQ(x.travel_low, -0.5);
@@ -101,7 +100,8 @@ TEST(LinuxCncImport, refuses_other_kinematics_units_and_scales) {
   EXPECT_EQ(imported(replaced(text, "trivkins", "corexykins")).first_code(), "import.kinematics");
   EXPECT_EQ(imported(replaced(text, "LINEAR_UNITS = mm", "LINEAR_UNITS = cubit")).first_code(), "import.units");
   EXPECT_EQ(imported(replaced(text, "LINEAR_UNITS = mm", "")).first_code(), "import.units");
-  EXPECT_EQ(imported(replaced(text, "SCALE = -160.5\n[AXIS_Z]", "SCALE = -161\n[AXIS_Z]")).first_code(), "import.scale");
+  EXPECT_EQ(imported(replaced(text, "SCALE = -160.5\n[AXIS_Z]", "SCALE = -161\n[AXIS_Z]")).first_code(),
+            "import.scale");
   EXPECT_EQ(imported(replaced(text, "coordinates=XYYZ", "coordinates=XYYY")).first_code(), "import.too-many-motors");
   EXPECT_EQ(imported(replaced(text, "SCALE = 800", "")).first_code(), "import.missing-key");
   EXPECT_EQ(imported(replaced(text, "MAX_LIMIT = 5", "MAX_LIMIT = -500")).first_code(), "import.travel");
@@ -147,11 +147,13 @@ TEST(ControllerFile, refuses_files_that_mean_harm) {
 }
 
 TEST(ControllerFile, a_name_cannot_break_out_of_its_quotes) {
-  const std::string text = replaced(example_text("linuxcnc.ini"), "Mill with a gantry", "a\"\\\n[axis.Q]\n\x01\xff\xc3\xa9 \"");
+  const std::string text =
+      replaced(example_text("linuxcnc.ini"), "Mill with a gantry", "a\"\\\n[axis.Q]\n\x01\xff\xc3\xa9 \"");
   const Imported it = imported(text);
   ASSERT_TRUE(it.machine.has_value());
   EXPECT_EQ(it.machine->name, "a\"\\");
-  const Imported other = imported(replaced(example_text("linuxcnc.ini"), "Mill with a gantry", "x\x01\xff\xc3\xa9\" # = y"));
+  const Imported other =
+      imported(replaced(example_text("linuxcnc.ini"), "Mill with a gantry", "x\x01\xff\xc3\xa9\" # = y"));
   EXPECT_EQ(other.machine->name, "x??\xc3\xa9\" # = y");
 }
 
@@ -166,7 +168,8 @@ TEST(ControllerFile, lists_every_value_of_the_source) {
       if (node.children.empty() && node.line > 0 && !is_group && !node.text.empty() && node.text != "NO_PIN" &&
           (node.name.starts_with('$') || it.result->format != ImportFormat::settings)) {
         const auto is_here = [&](const auto& value) { return value.line == node.line; };
-        EXPECT_TRUE(std::ranges::any_of(it.result->understood, is_here) || std::ranges::any_of(it.result->unmapped, is_here))
+        EXPECT_TRUE(std::ranges::any_of(it.result->understood, is_here) ||
+                    std::ranges::any_of(it.result->unmapped, is_here))
             << name << ":" << node.line << ": " << node.name;
       }
       const bool is_summary = std::ranges::any_of(it.result->unmapped, [&](const UnmappedValue& value) {
@@ -182,7 +185,8 @@ TEST(ControllerFile, lists_every_value_of_the_source) {
 
 // Each number of the machine file has its source beside it, or says that it is assumed.
 TEST(ControllerFile, every_value_of_the_machine_file_has_a_source) {
-  for (const char* name : {"grbl.txt", "grblhal.txt", "fluidnc.yaml", "linuxcnc.ini", "linuxcnc_inch.ini", "mach3.xml"}) {
+  for (const char* name :
+       {"grbl.txt", "grblhal.txt", "fluidnc.yaml", "linuxcnc.ini", "linuxcnc_inch.ini", "mach3.xml"}) {
     const Imported it = imported_example(name);
     std::string_view text = it.result->toml;
     while (!text.empty()) {

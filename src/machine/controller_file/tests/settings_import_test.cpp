@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include "imported.hpp"
+#include <gtest/gtest.h>
 
 namespace passo::test {
 namespace {
@@ -47,7 +46,8 @@ TEST(SettingsImport, levels_of_grbl_and_grblhal_have_opposite_meanings) {
   EXPECT_TRUE(grbl.machine->pins.limits_high[0] && grbl.machine->pins.limits_high[2]);
   EXPECT_FALSE(grbl.machine->pins.driver_enable_high);
   const Imported hal = imported_example("grblhal.txt");  // $5=11: X, Y and A are normally open
-  EXPECT_FALSE(hal.machine->pins.limits_high[0] || hal.machine->pins.limits_high[1] || hal.machine->pins.limits_high[3]);
+  EXPECT_FALSE(hal.machine->pins.limits_high[0] || hal.machine->pins.limits_high[1] ||
+               hal.machine->pins.limits_high[3]);
   EXPECT_TRUE(hal.machine->pins.limits_high[2]);
   EXPECT_FALSE(hal.machine->pins.driver_enable_high);  // $4=15
   EXPECT_FALSE(hal.machine->pins.probe_high);          // $6=1
@@ -76,8 +76,9 @@ TEST(SettingsImport, knows_the_settings_that_only_grblhal_has) {
 }
 
 TEST(SettingsImport, reads_what_people_write_around_a_setting) {
-  const Imported it = imported("(my machine)\r\n< $100=26.67 (x, step/mm)\r\n$110 = 8000\t(fast)\r\n$120=200\r\n$130=1800\r\n"
-                               "$130=780  (measured)\r\nok\r\n");
+  const Imported it = imported(
+      "(my machine)\r\n< $100=26.67 (x, step/mm)\r\n$110 = 8000\t(fast)\r\n$120=200\r\n$130=1800\r\n"
+      "$130=780  (measured)\r\nok\r\n");
   ASSERT_TRUE(it.machine.has_value());
   EXPECT_EQ(it.axis(Axis::x).steps_per_unit, 26.67);
   EXPECT_EQ(it.axis(Axis::x).travel_low, -780);

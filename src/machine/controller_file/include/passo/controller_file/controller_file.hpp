@@ -1,5 +1,5 @@
-// import_controller_file: makes a machine file from a configuration file on disk. Its readers of YAML (yaml-cpp) and XML
-// (expat) are for programs only; a browser has its own, and shares machine_import.
+// import_controller_file: makes a machine file from a configuration file on disk. Its readers of YAML (yaml-cpp) and
+// XML (expat) are for programs only; a browser has its own, and shares machine_import.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ std::optional<SourceNode> read_source_tree(ImportFormat format, const ImportSour
 std::optional<ImportedMachine> import_controller_text(const ImportSource& source, std::optional<ImportFormat> format,
                                                       Diagnostics& diagnostics);
 
-// Without a format, it is detected from the content. Returns nothing, and adds diagnostics with codes "import.*", if the
-// file cannot be read or does not describe a machine. The machine file has been read again, without an error.
+// Without a format, it is detected from the content. Returns nothing, and adds diagnostics with codes "import.*", if
+// the file cannot be read or does not describe a machine. The machine file has been read again, without an error.
 std::optional<ImportedMachine> import_controller_file(const std::string& path, std::optional<ImportFormat> format,
                                                       Diagnostics& diagnostics);
 

@@ -1,7 +1,7 @@
 // import_machine: makes a machine file (TOML) from the configuration of another controller.
 //
 // The mapping is the same source in the program and in a browser: no files, no exceptions, no library but fmt.
-// docs/manual/machine-import.md has the table of the keys.
+// docs/manual/machine-import.md has the tables of keys; decision 0181 says what is assumed.
 //
 // Invariants: each number of the machine file comes from the source, or is listed in `assumed` and marked "assumed" in
 // the file. Each key of the source is in `understood` or in `unmapped`. The text is a valid machine file (the tests
