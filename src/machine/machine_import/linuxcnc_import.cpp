@@ -5,89 +5,12 @@
 #include <vector>
 
 #include "format_imports.hpp"
+#include "linuxcnc_keys.hpp"
 #include "source_text.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
-
-struct SectionReason {
-  std::string_view name;
-  const char* reason;
-};
-constexpr SectionReason section_reasons[] = {
-    {"DISPLAY", "no equivalent: the screen"},
-    {"FILTER", "no equivalent: programs that convert files"},
-    {"TASK", "no equivalent: LinuxCNC's own programs"},
-    {"RS274NGC", "no equivalent: the interpreter"},
-    {"EMCMOT", "no equivalent: LinuxCNC's own programs"},
-    {"HAL", "no equivalent: the wiring is in other files"},
-    {"HALUI", "no equivalent: commands of buttons"},
-    {"EMCIO", "no equivalent: the tool changer"},
-    {"APPLICATIONS", "no equivalent: LinuxCNC's own programs"},
-    {"PYTHON", "no equivalent: remapped codes"},
-    {"HOSTMOT2", "no equivalent: the interface card"},
-    {"EMC", "no equivalent: LinuxCNC's own programs"},
-    {"MACROS", "no equivalent: commands of buttons"},
-    {"MDI_COMMAND_LIST", "no equivalent: commands of buttons"},
-    {"PROBE", "no equivalent: commands of buttons"},
-    {"TOOLSENSOR", "no equivalent: commands of buttons"},
-    {"VERSA_TOOLSETTER", "no equivalent: commands of buttons"},
-};
-const char* const servo_reason = "the loop of a servo: see [axis.X.encoder]";
-constexpr std::array servo_keys = {"P",
-                                   "I",
-                                   "D",
-                                   "FF0",
-                                   "FF1",
-                                   "FF2",
-                                   "BIAS",
-                                   "DEADBAND",
-                                   "MAX_OUTPUT",
-                                   "MAX_ERROR",
-                                   "OUTPUT_SCALE",
-                                   "OUTPUT_OFFSET",
-                                   "OUTPUT_MIN_LIMIT",
-                                   "OUTPUT_MAX_LIMIT",
-                                   "PID_MAX_VEL",
-                                   "PID_MAX_ERROR",
-                                   "ENCODER_SCALE",
-                                   "INPUT_OFFSET",
-                                   "MAX_VELOCITY_FF",
-                                   "PGAIN",
-                                   "IGAIN",
-                                   "DGAIN"};
-
-struct KeyReason {
-  std::string_view key;
-  const char* reason;
-};
-constexpr KeyReason joint_reasons[] = {
-    {"STEPGEN_MAXVEL", "headroom of LinuxCNC's step generator: Passo needs none"},
-    {"STEPGEN_MAXACCEL", "headroom of LinuxCNC's step generator: Passo needs none"},
-    {"STEPGEN_MAX_VEL", "headroom of LinuxCNC's step generator: Passo needs none"},
-    {"STEPGEN_MAX_ACC", "headroom of LinuxCNC's step generator: Passo needs none"},
-    {"FERROR", "the following error of a servo: see [axis.X.encoder]"},
-    {"MIN_FERROR", "the following error of a servo: see [axis.X.encoder]"},
-    {"STEPSPACE", "Passo makes the pause as long as the pulse"},
-    {"COMP_FILE", "errors of the screw in another file: see error_mm in [axis.X.screw]"},
-    {"COMP_FILE_TYPE", "errors of the screw in another file: see error_mm in [axis.X.screw]"},
-    {"HOME_FINAL_VEL", "no equivalent: the speed after homing"},
-    {"HOME_USE_INDEX", "no equivalent: homing to the index pulse of an encoder"},
-    {"HOME_IS_SHARED", "axes with one switch have the same input in [axis.X.home]"},
-    {"HOME_ABSOLUTE_ENCODER", "no equivalent: an absolute encoder"},
-    {"HOME_IGNORE_LIMITS", "no equivalent"},
-    {"VOLATILE_HOME", "no equivalent"},
-    {"LOCKING_INDEXER", "no equivalent"},
-    {"OFFSET_AV_RATIO", "no equivalent"},
-    {"WRAPPED_ROTARY", "no equivalent"},
-    {"UNITS", "the unit is that of [TRAJ]"},
-    {"AXIS", "the number is that of the section"},
-    {"JOINTS", "the coordinates tell the number of joints"},
-};
-
-// The steps per unit of a stepper motor. Before 2.3 they were the scale of its input.
-constexpr std::array scale_keys = {"SCALE", "STEP_SCALE", "STEPGEN_SCALE", "INPUT_SCALE"};
 
 // "ALWAYS", "1", "YES": the first word of a value, without a comment behind it.
 std::string_view first_word(std::string_view text) {
@@ -301,7 +224,7 @@ void LinuxCncImport::read_axis(const Joint& joint) {
   const UnitFactor unit = unit_of(joint.letter);
   const UnitFactor per_unit{unit.divisor, unit.factor};
   ImportedAxis axis{.axis = joint.letter};
-  for (const char* key : scale_keys) {
+  for (const char* key : linuxcnc_scale_keys) {
     auto scale = number_in(joint.joint, key, per_unit, !axis.scale);
     if (!scale) continue;
     if (axis.scale) {
@@ -347,7 +270,7 @@ void LinuxCncImport::read_second_motor(ImportedAxis& axis, const Joint& joint) {
   axis.second = ImportedSecondMotor{.origin = origin};
   const UnitFactor unit = unit_of(joint.letter);
   const SourceNode* section = joint.joint;
-  for (const char* key : scale_keys) {
+  for (const char* key : linuxcnc_scale_keys) {
     const auto scale = number_in(section, key, {unit.divisor, unit.factor});
     if (!scale || !axis.scale) continue;
     if (scale->value.magnitude().value() != axis.scale->value.magnitude().value()) {
@@ -433,8 +356,8 @@ void LinuxCncImport::list_sections() {
       context_.warn(fmt::format("the file includes {}, which is not read", ImportContext::printable(section.text)));
       continue;
     }
-    const auto row = std::ranges::find(section_reasons, section.name, &SectionReason::name);
-    if (row != std::end(section_reasons)) {
+    const auto row = std::ranges::find(linuxcnc_sections, section.name, &LinuxCncSection::name);
+    if (row != std::end(linuxcnc_sections)) {
       context_.mark_all(section);
       ValueOrigin origin = context_.origin(section, fmt::format("[{}]", section.name));
       origin.value = fmt::format("{} keys", section.children.size());
@@ -462,10 +385,10 @@ void LinuxCncImport::list_joint_keys(const SourceNode& section) {
   const bool is_joint = section.name.starts_with("JOINT_") || section.name.starts_with("AXIS_");
   if (!is_joint && section.name != "KINS") return;
   for (const SourceNode& key : section.children) {
-    const auto reason = std::ranges::find(joint_reasons, key.name, &KeyReason::key);
-    if (reason != std::end(joint_reasons)) context_.unmapped(&key, key_of(section, key.name), reason->reason);
-    if (std::ranges::find(servo_keys, key.name) != servo_keys.end()) {
-      context_.unmapped(&key, key_of(section, key.name), servo_reason);
+    const auto reason = std::ranges::find(linuxcnc_joint_keys, key.name, &LinuxCncKey::key);
+    if (reason != std::end(linuxcnc_joint_keys)) context_.unmapped(&key, key_of(section, key.name), reason->reason);
+    if (std::ranges::find(linuxcnc_servo_keys, key.name) != linuxcnc_servo_keys.end()) {
+      context_.unmapped(&key, key_of(section, key.name), linuxcnc_servo_reason);
       has_servos_ |= key.name == "P" || key.name == "PGAIN";
     }
   }
