@@ -3,6 +3,7 @@
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 namespace {

@@ -1,5 +1,7 @@
 #include "passo/machine_import/machine_import.hpp"
 
+#include <algorithm>
+
 #include "format_imports.hpp"
 #include "import_context.hpp"
 #include "machine_text.hpp"
@@ -18,6 +20,15 @@ void import_model(ImportFormat format, const SourceNode& tree, ImportContext& co
   }
 }
 
+// Work and machine coordinates are the same until a program, or a file of parameters, sets a work offset.
+void warn_of_machine_zero(const ImportedModel& model, ImportContext& context) {
+  const bool has_room = std::ranges::all_of(
+      model.axes, [](const ImportedAxis& axis) { return axis.low->value.value() < 0 && axis.high->value.value() > 0; });
+  if (has_room) return;
+  context.warn(
+      "machine zero is at an end of the travel: a program needs a work offset (G54), which passo check proposes");
+}
+
 std::string place_of(std::uint32_t line) {
   return line == 0 ? "" : fmt::format(" (line {})", line);
 }
@@ -34,6 +45,7 @@ std::optional<ImportedMachine> import_machine(ImportFormat format, const SourceN
   if (!board || context.has_failed()) return std::nullopt;
   result.toml = write_machine_text(model, *board, context);
   context.list_pending();
+  warn_of_machine_zero(model, context);
   context.warn("there are no motor data: Passo cannot check whether the motors lose steps; see [axis.X.torque]");
   return result;
 }
