@@ -55,10 +55,21 @@ TEST(FluidNcImport, refuses_other_kinematics_and_what_is_not_yaml) {
   EXPECT_EQ(corexy.first_code(), "import.kinematics");
   EXPECT_NE(corexy.first().message.find("corexy"), std::string::npos);
   EXPECT_TRUE(imported(replaced(text, "axes:", "kinematics:\n  Cartesian:\naxes:")).machine.has_value());
-  const Imported no_blank = imported(replaced(text, "pulloff_mm: 2.5", "pulloff_mm:2.5"));
-  EXPECT_EQ(no_blank.first_code(), "import.syntax");
-  EXPECT_GT(no_blank.first().place.line, 20U);
+  const Imported open = imported(replaced(text, "name: \"Router", "name: [\"Router"));
+  EXPECT_EQ(open.first_code(), "import.syntax");
+  EXPECT_GT(open.first().place.line, 0U);
   EXPECT_EQ(imported(replaced(text, "steps_per_mm: 200", "steps_per_mm: many")).first_code(), "import.not-a-number");
+}
+
+TEST(FluidNcImport, needs_no_blank_after_a_colon_as_fluidnc_does) {
+  const std::string text = example_text("fluidnc.yaml");
+  const Imported it = imported(replaced(text, "pulloff_mm: 2.5", "pulloff_mm:2.5"));
+  EXPECT_EQ(it.axis(Axis::x).home->pull_off, 2.5);
+  EXPECT_EQ(it.result->toml, imported(text).result->toml);
+  const Imported wrong = imported(replaced(text, "max_travel_mm: 320", "max_travel_mm:all"));
+  ASSERT_EQ(wrong.first_code(), "import.not-a-number");
+  EXPECT_EQ(wrong.first().text, "    max_travel_mm:all");
+  EXPECT_EQ(wrong.first().place.column, 19U);
 }
 
 TEST(LinuxCncImport, keeps_numbers_homing_and_the_gantry) {
