@@ -315,7 +315,12 @@ void FluidNcImport::read_spindle(const SourceNode& node) {
   has_spindle_ = true;
   const std::string kind = lower_case(node.name);
   if (kind == "laser") context_.warn("the controller drives a laser: Passo treats it as a spindle");
-  read_speed_map(fluid_child(&node, "speed_map"), path + "/speed_map");
+  const SourceNode* speeds = fluid_child(&node, "speed_map");
+  if (kind == "relay" || kind == "onoff") {
+    context_.unmapped(speeds, path + "/speed_map", "a relay has no speeds");
+  } else {
+    read_speed_map(speeds, path + "/speed_map");
+  }
   read_pin(ImportedPin::spindle, &node, "output_pin", path + "/output_pin");
   read_pin(ImportedPin::spindle_reverse, &node, "direction_pin", path + "/direction_pin");
   const SourceNode* spin_up = fluid_child(&node, "spinup_ms");

@@ -45,6 +45,9 @@ TEST(FluidNcImport, pins_are_active_high_unless_they_say_low) {
   EXPECT_FALSE(pins.driver_enable_high);
   EXPECT_EQ(it.machine->tool.highest_rpm, 24000);
   EXPECT_DOUBLE_EQ(it.machine->spindle.run_up.value(), 0.125);
+  const Imported relay = imported(replaced(example_text("fluidnc.yaml"), "PWM:", "Relay:"));
+  EXPECT_EQ(relay.machine->tool.highest_rpm, 0);
+  EXPECT_EQ(relay.reason_of("Relay/speed_map"), "a relay has no speeds");
   EXPECT_EQ(it.reason_of("future_section/what"), "");
   EXPECT_TRUE(it.warns_of("soft limits of axis Y"));
 }
