@@ -3,6 +3,7 @@
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 namespace {
@@ -45,6 +46,32 @@ TEST_F(FilesOfACommand, that_are_read_are_not_overwritten) {
   expect_refused(run_ + "--board tcp:127.0.0.1:1 --journal " + program_);
   expect_refused("canon " + program_ + " -o " + program_);
   expect_refused("canon - -o " + program_ + " <" + program_);
+}
+
+TEST_F(FilesOfACommand, a_machine_file_is_made_from_another_controllers_settings) {
+  const std::string settings =
+      write("settings.txt", "$0=5\n$100=250.000\n$110=6000.000\n$120=10.000\n$130=200.000\nok\n");
+  const Outcome piped = passo("machine --from " + settings);
+  EXPECT_EQ(piped.code, 0) << piped.err;
+  EXPECT_THAT(piped.out, HasSubstr("max_velocity_mm_s = 100"));
+  EXPECT_THAT(piped.err, HasSubstr("$110 = 6000.000 -> axis.X.max_velocity_mm_s = 100"));
+  const Outcome written = passo("machine --from " + settings + " -o " + path("made.toml"));
+  EXPECT_EQ(written.out, "");
+  EXPECT_EQ(read(path("made.toml")), piped.out);
+  EXPECT_THAT(passo("machine " + path("made.toml")).out, HasSubstr("Grbl machine"));
+  const auto json = nlohmann::json::parse(passo("machine --json --from " + settings).out);
+  EXPECT_EQ(json.at("machine_file"), piped.out);
+  EXPECT_EQ(json.at("format"), "settings");
+  EXPECT_EQ(json.at("assumed").size(), 3U);
+
+  EXPECT_EQ(passo("machine --from " + settings + " -o " + settings).code, 2);
+  const Outcome wrong = passo("machine --format mach3 --from " + settings);
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("settings.txt:1:1: error: this is not XML"));
+  EXPECT_EQ(passo("machine --format marlin --from " + settings).code, 2);
+  EXPECT_EQ(passo("machine --from " + path("none.ini")).code, 2);
+  EXPECT_EQ(passo("machine").code, 2);
+  EXPECT_EQ(passo("machine --json " + machine_).code, 2);
 }
 
 TEST_F(FilesOfACommand, that_a_program_may_call_are_not_overwritten) {
