@@ -21,28 +21,42 @@ if(NOT PASSO_WASM_FOUND)
   message(STATUS "clang++, wasm-ld or libc++ for WASI not found: no lab.wasm, the page has no lab")
 endif()
 
-# fmt alone, and nothing else of the host's headers.
+# fmt and the header libraries of machine files and JSON, and nothing else of the host's headers.
 if(PASSO_WASM_FOUND)
   file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/wasm_include")
   file(CREATE_LINK "${PASSO_FMT_INCLUDE}/fmt" "${PROJECT_BINARY_DIR}/wasm_include/fmt" SYMBOLIC)
+  find_path(PASSO_TOML_INCLUDE toml++/toml.h)
+  find_path(PASSO_JSON_INCLUDE nlohmann/json.hpp)
+  foreach(library IN ITEMS TOML_INCLUDE/toml++ JSON_INCLUDE/nlohmann)
+    string(REGEX MATCH "^[^/]+" path "${library}")
+    string(REGEX REPLACE "^[^/]+/" "" folder "${library}")
+    if(PASSO_${path})
+      file(CREATE_LINK "${PASSO_${path}}/${folder}" "${PROJECT_BINARY_DIR}/wasm_include/${folder}" SYMBOLIC)
+    endif()
+  endforeach()
 endif()
 
 # -Os: what is sent to a browser counts. The sweep of the stock takes 9 % longer than with -O2.
 set(PASSO_WASM_OPTIONS
   --target=wasm32-wasi -std=c++20 -Os -fno-exceptions -fno-rtti -fno-threadsafe-statics
-  -ffunction-sections -fdata-sections -Wall -Wextra -Wconversion -Wshadow
+  -ffunction-sections -fdata-sections -Wall -Wextra -Wconversion
   "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}/="
-  -DFMT_HEADER_ONLY=1 -isystem "${PROJECT_BINARY_DIR}/wasm_include")
+  -DFMT_HEADER_ONLY=1 -DTOML_EXCEPTIONS=0 -DJSON_HAS_FILESYSTEM=0 -isystem "${PROJECT_BINARY_DIR}/wasm_include")
 
-# passo_wasm_module(NAME SOURCES module/file… [MODULES module…])
+# passo_wasm_module(NAME SOURCES module/file… [APART module/file…] [MODULES module…] [OPTIMISE -O2] [MEMORY MiB])
 #
 # The target NAME builds NAME.wasm in the current binary directory; its path is the target's property PASSO_WASM. SOURCES
-# begin with their module; those of one module are compiled together, which takes a third of the time. MODULES are further
-# modules whose headers the sources include.
+# begin with their module; those of one module are compiled together, which takes a third of the time. Those whose own
+# names clash with the others' are APART. MODULES are further modules whose headers the sources include. MEMORY: the most
+# that the module may take, 256 MiB if not said.
 function(passo_wasm_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;MODULES" ${ARGN})
-  set(options ${PASSO_WASM_OPTIONS})
-  list(TRANSFORM ARG_SOURCES REPLACE "/.*" "" OUTPUT_VARIABLE modules)
+  cmake_parse_arguments(ARG "" "OPTIMISE;MEMORY" "SOURCES;APART;MODULES" ${ARGN})
+  set(options ${PASSO_WASM_OPTIONS} ${ARG_OPTIMISE})
+  if(NOT ARG_MEMORY)
+    set(ARG_MEMORY 256)
+  endif()
+  set(modules ${ARG_SOURCES} ${ARG_APART})
+  list(TRANSFORM modules REPLACE "/.*" "")
   list(REMOVE_DUPLICATES modules)
   foreach(module IN LISTS modules ARG_MODULES)
     list(APPEND options "-I${PASSO_FOLDER_${module}}/include")
@@ -50,13 +64,23 @@ function(passo_wasm_module name)
   if(PASSO_WERROR)
     list(APPEND options -Werror)
   endif()
-  foreach(module IN LISTS modules)
-    set(sources ${ARG_SOURCES})
-    list(FILTER sources INCLUDE REGEX "^${module}/")
+  # Each unit has the name of its module, or of the source that stands apart.
+  foreach(unit IN LISTS modules ARG_APART)
+    string(REGEX REPLACE "/.*" "" module "${unit}")
+    if(unit STREQUAL module)
+      set(sources ${ARG_SOURCES})
+      list(FILTER sources INCLUDE REGEX "^${module}/")
+    else()
+      set(sources "${unit}")
+    endif()
+    if(NOT sources)
+      continue()
+    endif()
     list(TRANSFORM sources REPLACE "^${module}/" "${PASSO_FOLDER_${module}}/")
     list(TRANSFORM sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE lines)
     string(JOIN "" text ${lines})
-    set(unit "${CMAKE_CURRENT_BINARY_DIR}/${name}.dir/${module}")
+    string(REGEX REPLACE "[/.]" "_" unit "${unit}")
+    set(unit "${CMAKE_CURRENT_BINARY_DIR}/${name}.dir/${unit}")
     file(CONFIGURE OUTPUT "${unit}.cpp" CONTENT "${text}" @ONLY)
     add_custom_command(OUTPUT "${unit}.o"
       COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${options} "-I${PASSO_FOLDER_${module}}"
@@ -64,10 +88,11 @@ function(passo_wasm_module name)
       DEPENDS "${unit}.cpp" ${sources} DEPFILE "${unit}.d" COMMENT "Compiling ${module} for WebAssembly" VERBATIM)
     list(APPEND objects "${unit}.o")
   endforeach()
+  math(EXPR memory "${ARG_MEMORY} * 1024 * 1024")
   set(wasm "${CMAKE_CURRENT_BINARY_DIR}/${name}.wasm")
   add_custom_command(OUTPUT "${wasm}"
     COMMAND "${PASSO_CLANG}" --target=wasm32-wasi -mexec-model=reactor -Wl,--gc-sections -Wl,--strip-all
-            -Wl,--max-memory=268435456 ${objects} -o "${wasm}"
+            -Wl,--max-memory=${memory} ${objects} -o "${wasm}"
     DEPENDS ${objects} COMMENT "Linking ${name}.wasm" VERBATIM)
   add_custom_target(${name} ALL DEPENDS "${wasm}")
   set_target_properties(${name} PROPERTIES PASSO_WASM "${wasm}")
