@@ -1,9 +1,9 @@
-import { existsSync, readFileSync } from 'node:fs';
 import { readdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 import { defineConfig } from 'vitest/config';
+import { modules } from './vite.modules';
 
 const worthCompressing = /\.(html|js|css|svg|json|wasm)$/;
 
@@ -25,35 +25,10 @@ function precompressed(): Plugin {
   };
 }
 
-// The modules that CMake makes of the program's own sources. Without them the page has all but the lab and the stock.
-const modules = {
-  'lab.wasm': process.env.PASSO_LAB_WASM ?? '../build/release/src/study/lab/lab.wasm',
-  'stock.wasm': process.env.PASSO_STOCK_WASM ?? '../build/release/src/cam/stock/stock.wasm',
-};
-function core(): Plugin {
-  return {
-    name: 'core',
-    generateBundle() {
-      for (const [fileName, path] of Object.entries(modules)) {
-        if (existsSync(path)) this.emitFile({ type: 'asset', fileName, source: readFileSync(path) });
-        else this.warn(`${path} is not there: the page has no ${fileName}`);
-      }
-    },
-    configureServer(server) {
-      for (const [fileName, path] of Object.entries(modules)) {
-        server.middlewares.use(`/${fileName}`, (_, reply) => {
-          reply.setHeader('Content-Type', 'application/wasm');
-          reply.end(readFileSync(path));
-        });
-      }
-    },
-  };
-}
-
 export default defineConfig({
   base: './',
   esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
-  plugins: [core(), precompressed()],
+  plugins: [modules('lab.wasm', 'stock.wasm'), precompressed()],
   build: {
     target: 'es2022',
     outDir: process.env.PASSO_PAGE_OUT ?? '../build/page',

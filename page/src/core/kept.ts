@@ -1,6 +1,12 @@
 // Signals that outlive the page: kept in the browser, on this computer only.
 import { effect, signal, type Signal } from '@preact/signals';
 
+let isKeeping = true;
+// From now on choices last as long as the page: an embedded page leaves those of its visitor alone.
+export function keepNothing(): void {
+  isKeeping = false;
+}
+
 // `sound` decides whether a value from an earlier visit is still valid. `formerly`: the name under which an earlier version kept it.
 export function kept<T>(name: string, otherwise: T, sound: (value: unknown) => value is T, formerly = name): Signal<T> {
   const key = `passo.${name}`;
@@ -15,6 +21,7 @@ export function kept<T>(name: string, otherwise: T, sound: (value: unknown) => v
   const result = signal(first);
   effect(() => {
     const text = JSON.stringify(result.value);
+    if (!isKeeping) return;
     try {
       localStorage.setItem(key, text);
     } catch {
