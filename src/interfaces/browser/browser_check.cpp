@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/program.hpp"
@@ -66,13 +67,19 @@ std::optional<TomlText::Setting> setting_of(const Json& value) {
   return {};
 }
 
-// The machine's text with the values that the page sets.
-std::string text_with(std::string text, const Json& values) {
+// The machine's text with these keys of [axis.X.torque] for each axis that has no motor yet.
+std::string text_with(std::string text, const MachineDescription& machine, const Json& motor) {
   auto edited = TomlText::read(text);
   if (!edited) return text;
-  for (const auto& [path, value] : values.items()) {
-    const std::optional<TomlText::Setting> setting = setting_of(value);
-    if (setting) static_cast<void>(edited->set(path, *setting));
+  for (const AxisDescription& axis : machine.axes) {
+    if (axis.motor) continue;
+    for (const auto& [key, value] : motor.items()) {
+      // A turntable has no mass in kg.
+      const bool of_a_slide = key == "load_mass_kg" || key == "friction_n";
+      const std::optional<TomlText::Setting> setting = setting_of(value);
+      if (!setting || (of_a_slide && is_rotary(axis.axis))) continue;
+      static_cast<void>(edited->set(fmt::format("axis.{}.torque.{}", letter_of(axis.axis), key), *setting));
+    }
   }
   return edited->text();
 }
@@ -85,9 +92,9 @@ std::optional<MachineDescription> machine_of(const Json& request, Json& answer) 
   auto text = value_of<std::string>(asked, "text", "");
   Diagnostics findings;
   std::optional<MachineDescription> machine = parse_machine(text, name, findings);
-  const auto values = asked.find("set");
-  if (machine && values != asked.end() && values->is_object() && !values->empty()) {
-    text = text_with(std::move(text), *values);
+  const auto motor = asked.find("motor");
+  if (machine && motor != asked.end() && motor->is_object()) {
+    text = text_with(std::move(text), *machine, *motor);
     findings.clear();
     machine = parse_machine(text, name, findings);
   }

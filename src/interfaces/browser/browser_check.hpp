@@ -25,9 +25,9 @@ class BrowserCheck {
 
   explicit BrowserCheck(Progress progress) : progress_(std::move(progress)) {}
 
-  // `request`: {"program": file, "machine": {"name", "text", "set": {path: value}}, "dialect", "inches", "block_delete",
-  // "tools": file}. `set` changes values of the machine file as the editor of `passo serve` does. Returns the keys
-  // "machine" (its findings, and what it is), the keys of `passo check --json`, and "path" (as the API's path index).
+  // `request`: {"program": file, "machine": {"name", "text", "motor"}, "dialect", "inches", "block_delete", "tools": file,
+  // "proposals"}. `motor`: keys of [axis.X.torque], for each axis without a motor. Returns the key "machine" (its
+  // findings, and what it is), the keys of `passo check --json`, and "path" (as the API's path index).
   std::string check(const std::string& request);
 
   const ProgramPath& path() const { return path_; }
