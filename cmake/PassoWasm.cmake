@@ -43,15 +43,17 @@ set(PASSO_WASM_OPTIONS
   "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}/="
   -DFMT_HEADER_ONLY=1 -DTOML_EXCEPTIONS=0 -DJSON_HAS_FILESYSTEM=0 -isystem "${PROJECT_BINARY_DIR}/wasm_include")
 
-# passo_wasm_module(NAME SOURCES module/file… [APART module/file…] [MODULES module…] [OPTIMISE -O2] [MEMORY MiB])
+# passo_wasm_module(NAME SOURCES module/file… [APART module/file…] [TOGETHER module…] [MODULES module…] [OPTIMISED module…]
+#                   [MEMORY MiB])
 #
 # The target NAME builds NAME.wasm in the current binary directory; its path is the target's property PASSO_WASM. SOURCES
-# begin with their module; those of one module are compiled together, which takes a third of the time. Those whose own
-# names clash with the others' are APART. MODULES are further modules whose headers the sources include. MEMORY: the most
-# that the module may take, 256 MiB if not said.
+# begin with their module; those of one module are compiled together, which takes a third of the time, and so are those of
+# the modules TOGETHER. Those whose own names clash with the others' are APART. MODULES are further modules whose headers
+# the sources include. With OPTIMISED, these modules are compiled with -O2 and the others with -O1: what is fetched counts
+# less than the time that it computes. MEMORY: the most that the module may take, 256 MiB if not said.
 function(passo_wasm_module name)
-  cmake_parse_arguments(ARG "" "OPTIMISE;MEMORY" "SOURCES;APART;MODULES" ${ARGN})
-  set(options ${PASSO_WASM_OPTIONS} ${ARG_OPTIMISE})
+  cmake_parse_arguments(ARG "" "MEMORY" "SOURCES;APART;TOGETHER;MODULES;OPTIMISED" ${ARGN})
+  set(options ${PASSO_WASM_OPTIONS})
   if(NOT ARG_MEMORY)
     set(ARG_MEMORY 256)
   endif()
@@ -64,28 +66,47 @@ function(passo_wasm_module name)
   if(PASSO_WERROR)
     list(APPEND options -Werror)
   endif()
-  # Each unit has the name of its module, or of the source that stands apart.
-  foreach(unit IN LISTS modules ARG_APART)
-    string(REGEX REPLACE "/.*" "" module "${unit}")
-    if(unit STREQUAL module)
+  # A unit has the name of its module, or of the source that stands apart, or "together".
+  set(units ${modules} ${ARG_APART})
+  if(ARG_TOGETHER)
+    list(REMOVE_ITEM units ${ARG_TOGETHER})
+    list(APPEND units together)
+  endif()
+  foreach(unit IN LISTS units)
+    string(REGEX REPLACE "/.*" "" of_unit "${unit}")
+    set(sources "${unit}")
+    if(unit STREQUAL "together")
+      set(of_unit ${ARG_TOGETHER})
+    endif()
+    if(NOT unit MATCHES "/")
+      list(JOIN of_unit "|" any)
       set(sources ${ARG_SOURCES})
-      list(FILTER sources INCLUDE REGEX "^${module}/")
-    else()
-      set(sources "${unit}")
+      list(FILTER sources INCLUDE REGEX "^(${any})/")
     endif()
     if(NOT sources)
       continue()
     endif()
-    list(TRANSFORM sources REPLACE "^${module}/" "${PASSO_FOLDER_${module}}/")
+    set(own "")
+    foreach(module IN LISTS of_unit)
+      list(TRANSFORM sources REPLACE "^${module}/" "${PASSO_FOLDER_${module}}/")
+      list(APPEND own "-I${PASSO_FOLDER_${module}}")
+    endforeach()
+    if(ARG_OPTIMISED)
+      set(level -O1)
+      if(of_unit IN_LIST ARG_OPTIMISED)
+        set(level -O2)
+      endif()
+      list(APPEND own ${level})
+    endif()
     list(TRANSFORM sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE lines)
     string(JOIN "" text ${lines})
     string(REGEX REPLACE "[/.]" "_" unit "${unit}")
     set(unit "${CMAKE_CURRENT_BINARY_DIR}/${name}.dir/${unit}")
     file(CONFIGURE OUTPUT "${unit}.cpp" CONTENT "${text}" @ONLY)
     add_custom_command(OUTPUT "${unit}.o"
-      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${options} "-I${PASSO_FOLDER_${module}}"
+      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${options} ${own}
               -MD -MF "${unit}.d" -MT "${unit}.o" -c "${unit}.cpp" -o "${unit}.o"
-      DEPENDS "${unit}.cpp" ${sources} DEPFILE "${unit}.d" COMMENT "Compiling ${module} for WebAssembly" VERBATIM)
+      DEPENDS "${unit}.cpp" ${sources} DEPFILE "${unit}.d" COMMENT "Compiling ${of_unit} for WebAssembly" VERBATIM)
     list(APPEND objects "${unit}.o")
   endforeach()
   math(EXPR memory "${ARG_MEMORY} * 1024 * 1024")

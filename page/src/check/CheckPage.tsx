@@ -1,6 +1,6 @@
 // "Check my program": a program and a machine in, and what `passo check` finds, all in this browser.
-import './check.css';
 import '../style/pages.css';
+import './check.css';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { durationText } from '../core/time';
 import { language } from '../core/language';

@@ -16,7 +16,11 @@ const pick = (line: number): void => {
 const boundWords = ({ limit, axis }: SpeedBound): string => say(`bound_${limit}`, { axis: axis ?? '' });
 
 export function Badges({ answer }: { answer: CheckAnswer }) {
-  if (!answer.machine.good) return <Badge kind="bad" icon="bad" words={say('machineErrors')} />;
+  if (!answer.machine.good) return (
+    <ul class="check-badges" data-testid="badges">
+      <Badge kind="bad" icon="bad" words={say('machineErrors')} />
+    </ul>
+  );
   const errors = answer.errors ?? 0;
   const warnings = (answer.findings ?? []).length - errors;
   const { margin } = answer;
@@ -81,7 +85,7 @@ export function Findings({ findings, title, own }: { findings: readonly CheckFin
                 {reportWords(one.message, one.message_sentence)} <code>[{one.code}]</code>
                 <Caret finding={one} />
                 {one.expected !== '' && <span class="dim">{say('expected', { what: reportWords(one.expected, one.expected_sentence) })}</span>}
-                {one.more_lines.length > 0 && <span class="dim"> {say('moreLines', { lines: one.more_lines.slice(0, 8).join(', ') })}</span>}
+                {one.more_lines.length > 0 && <span class="dim check-more">{say('moreLines', { lines: one.more_lines.slice(0, 8).join(', ') })}</span>}
               </span>
             </>
           );
@@ -198,7 +202,7 @@ export function Speed({ answer }: { answer: CheckAnswer }) {
                 <th scope="row">{boundWords(one)}</th>
                 <td>{(one.time_s / time_s).toLocaleString(language.value, { style: 'percent', maximumFractionDigits: 1 })}</td>
                 <td>
-                  <button type="button" class="bare check-line" onClick={() => pick(one.first_line)}>
+                  <button type="button" class="check-line" onClick={() => pick(one.first_line)}>
                     {one.first_line}
                   </button>
                 </td>
