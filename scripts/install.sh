@@ -20,6 +20,7 @@ build_packages=(
   libpolyclipping-dev        # unions and offsets of copper in passo cam
   libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
+  libyaml-cpp-dev            # FluidNC configurations in passo machine --from
   libminizip-dev             # zip archives of board files
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker

@@ -131,7 +131,11 @@ struct ExplainArguments {
 int explain(const ExplainArguments& arguments);
 
 struct MachineArguments {
-  std::string machine;
+  std::string machine;  // empty: with `from`
+  std::string from;     // the configuration file of another controller; empty: none
+  std::string format;   // of that file; empty: from its content
+  std::string output;   // the new machine file; empty: standard output
+  bool json = false;
 };
 int machine(const MachineArguments& arguments);
 

@@ -99,11 +99,28 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
 }
 
 void add_machine_options(CLI::App& command, MachineArguments& arguments) {
-  command.add_option("MACHINE", arguments.machine, "machine file (TOML)")->required();
+  CLI::Option* const machine = command.add_option("MACHINE", arguments.machine, "machine file (TOML) to check");
+  CLI::Option* const from =
+      command
+          .add_option("--from", arguments.from,
+                      "configuration file of another controller, to make a machine file from: the answer of Grbl, "
+                      "grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML)")
+          ->excludes(machine);
+  command
+      .add_option("--format", arguments.format,
+                  "format of that file (default: from its content): settings, fluidnc, linuxcnc or mach3")
+      ->check(CLI::IsMember({"settings", "fluidnc", "linuxcnc", "mach3"}))
+      ->needs(from);
+  command.add_option("-o,--output", arguments.output, "the new machine file (default: standard output)")->needs(from);
+  command.add_flag("--json", arguments.json, "print the new machine file and the report as JSON")->needs(from);
   command.footer(
       "Examples:\n  passo machine examples/machines/router.toml     its axes, board and tool\n"
       "  passo machine mine.toml                         the errors in your own file\n"
-      "Every key is explained in docs/manual/machine-file.md");
+      "  passo machine --from settings.txt -o mine.toml  a machine file from the answer of Grbl to $$\n"
+      "  passo machine --from config.yaml > mine.toml    the same from FluidNC's configuration; the report of what was "
+      "understood is on\n"
+      "                                                  standard error\n"
+      "Every key is explained in docs/manual/machine-file.md, the formats in docs/manual/machine-import.md");
 }
 
 }  // namespace passo
