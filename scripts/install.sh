@@ -42,6 +42,7 @@ test_packages=(
   jq                         # the table of scripts/motion_table.sh
   curl netcat-openbsd        # a web page's request to the sender port of passo serve
   chromium                   # the stories of the page of passo serve
+  mkdocs-material python3-markdown-it python3-jieba  # the site; its search divides Chinese words
   debhelper lintian debootstrap  # Debian packages, their check, and a bare system to install them in
 )
 

@@ -43,7 +43,7 @@ for html in page/*.html; do
   [[ $name == index ]] && continue
   (cd page && PASSO_SITE_PAGE=$name PASSO_SITE_OUT=$pages npx vite build --config vite.site.config.ts --logLevel warn)
 done
-PASSO_SITE_PAGES=$pages mkdocs build --quiet --config-file site/mkdocs.yml --site-dir "$PWD/$work/site"
+PASSO_SITE_PAGES=$pages mkdocs build --quiet --strict --config-file site/mkdocs.yml --site-dir "$PWD/$work/site"
 # Without the address of the site these two have none to give.
 rm -f "$work"/site/404.html "$work"/site/sitemap.xml*
 cp -r "$pages"/. "$work/site/"

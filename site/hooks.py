@@ -39,6 +39,7 @@ local_lab = re.compile(r"http://127\.0\.0\.1:7080/?#/lab")
 built_pages = Path(os.environ.get("PASSO_SITE_PAGES", root / "build/site-pages"))
 pages_of_their_own = {"lab": "Lab", "check": "Check a program"}
 longest_term = 4  # characters of a Chinese term that is a heading
+longest_summary = 300  # characters
 sources = set()  # source files that a page links to
 
 
@@ -51,6 +52,10 @@ def on_files(files, config):
 
 
 def on_nav(nav, config, files):
+    in_nav = {page.file.src_uri for page in nav.pages}
+    for file in files.documentation_pages():
+        if file.src_uri not in in_nav and not file.src_uri.startswith("decisions/"):
+            raise PluginError(f"docs/{file.src_uri} is not in the navigation of site/mkdocs.yml")
     for name, title in pages_of_their_own.items():
         if (built_pages / name).is_dir():
             nav.items.insert(1, Link(title, f"{name}/index.html"))
@@ -195,6 +200,8 @@ def on_post_page(output, page, config):
         if was not in output:
             raise PluginError(f"hooks.py: the theme no longer has {was}")
         output = output.replace(was, becomes, 1)
+    to_top = posixpath.relpath("site.js", posixpath.dirname(page.file.dest_uri) or ".")
+    output = output.replace("</head>", f'<script src="{to_top}"></script></head>', 1)
     return output.replace('<html lang="en"', f'<html lang="{language_of(page)}"', 1)
 
 
@@ -209,7 +216,11 @@ def divide_words(index_file):
     jieba.setLogLevel("WARNING")
     jieba.dt.tmp_dir = str(built_pages)  # not one that others can write
     index = json.loads(index_file.read_text(encoding="utf-8"))
+    # A decision is found by its title and its first words, so that the manual comes first.
+    index["docs"] = [entry for entry in index["docs"] if not re.match(r"decisions/\d.*#", entry["location"])]
     for entry in index["docs"]:
+        if entry["location"].startswith("decisions/0"):
+            entry["text"] = entry["text"][:longest_summary]
         if entry["location"].startswith("zh/") and len(entry["title"]) <= longest_term:
             jieba.add_word(entry["title"])
     for entry in index["docs"]:
