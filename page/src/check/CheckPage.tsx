@@ -8,7 +8,7 @@ import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
 import { ProgressBar } from '../parts/progress_bar';
 import { SceneView } from '../scene/scene_view';
-import { exampleMachine, examples } from './examples';
+import { exampleMachine, examples, type ChosenMachine } from './examples';
 import { motorKinds } from './motors';
 import { ProgramLines } from './ProgramLines';
 import { Axes, Badges, Findings, Motors, Remedies, Speed, Times } from './Results';
@@ -186,15 +186,50 @@ function Choices() {
           {say('check')}
         </Button>
       )}
-      {(machine.notes ?? []).length > 0 && (
-        <ul class="check-notes">
-          {machine.notes?.map((one) => (
-            <li key={one}>{one}</li>
-          ))}
-        </ul>
-      )}
+      <ImportNotes machine={machine} />
     </div>
   );
+}
+
+// What a file of another controller does not say is never guessed in silence.
+function ImportNotes({ machine }: { machine: ChosenMachine }) {
+  const made = machine.imported;
+  if (made === undefined) return null;
+  const lists = [
+    ['importWarnings', made.warnings],
+    ['importAssumed', made.assumed],
+    ['importUnmapped', made.unmapped],
+  ] as const;
+  return (
+    <div class="check-notes">
+      <p>{say('imported', { controller: made.controller, count: made.understood })}</p>
+      {lists.map(
+        ([title, all]) =>
+          all.length > 0 && (
+            <details key={title} open={title === 'importWarnings'}>
+              <summary>
+                {say(title)}: {all.length}
+              </summary>
+              <ul>
+                {all.map((one, i) => (
+                  <li key={i}>{one}</li>
+                ))}
+              </ul>
+            </details>
+          ),
+      )}
+      <a class="button" download={`${machine.file.replace(/\.[^.]*$/, '')}.toml`} href={downloadOf(machine.text)}>
+        {say('importDownload')}
+      </a>
+    </div>
+  );
+}
+let download = { text: '', address: '' };
+function downloadOf(text: string): string {
+  if (download.text === text) return download.address;
+  if (download.address !== '') URL.revokeObjectURL(download.address);
+  download = { text, address: URL.createObjectURL(new Blob([text], { type: 'application/toml' })) };
+  return download.address;
 }
 
 interface NumberProps {

@@ -1,11 +1,19 @@
 // The machines to choose from: those of examples/machines, as they are.
 const texts: Record<string, string> = import.meta.glob('../../../examples/machines/*.toml', { query: '?raw', import: 'default', eager: true });
 
+// What was made of a file of another controller, in the words of the program.
+export interface Imported {
+  controller: string;
+  understood: number; // values
+  assumed: string[];
+  unmapped: string[];
+  warnings: string[];
+}
 export interface ChosenMachine {
   file: string;
   text: string;
   own: boolean; // the visitor's
-  notes?: string[]; // of a file of another controller: what was assumed or not understood
+  imported?: Imported; // from a file of another controller
 }
 const nameIn = (text: string): string => /^name *= *"(.*)"/m.exec(text)?.[1] ?? '';
 export const examples = Object.entries(texts)

@@ -11,7 +11,7 @@ export interface HostFile {
   read: ReadPart;
 }
 
-type Check = Record<'check_program' | 'check_answer' | 'check_room' | 'check_path', (...numbers: number[]) => number>;
+type Check = Record<'check_program' | 'check_import' | 'check_answer' | 'check_room' | 'check_path', (...numbers: number[]) => number>;
 
 // The module with its files. A check is one long call.
 export class CheckModule {
@@ -61,10 +61,18 @@ export class CheckModule {
     this.files.set(name, file);
   }
   check(request: object): string {
+    this.give(request);
+    return new TextDecoder().decode(this.answer(this.call.check_program()));
+  }
+  // Makes a machine file of another controller's configuration.
+  import(request: object): string {
+    this.give(request);
+    return new TextDecoder().decode(this.answer(this.call.check_import()));
+  }
+  private give(request: object): void {
     const text = new TextEncoder().encode(JSON.stringify(request));
     const at = this.call.check_room(text.length);
     new Uint8Array(this.memory.buffer, at, text.length).set(text);
-    return new TextDecoder().decode(this.answer(this.call.check_program()));
   }
   // Chunks of the path, one after the other.
   path(first: number, count: number, level: number): Uint8Array<ArrayBuffer> {

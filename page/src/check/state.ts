@@ -9,6 +9,7 @@ import type { CheckAnswer } from './answer';
 import { exampleMachine, usualMachine, type ChosenMachine } from './examples';
 import { FileText } from './file_text';
 import type { Stage } from './host';
+import { importMachine, isConfiguration, isSettingsDump } from './importing';
 import type { CheckRequest, FromWorker, ToWorker } from './messages';
 import { motorKeys, motorKinds, usualLoad, type MovedLoad } from './motors';
 
@@ -147,7 +148,7 @@ export async function check(): Promise<void> {
     } else if (data.kind === 'path') {
       waiting.get(data.id)?.(data.bytes);
       waiting.delete(data.id);
-    } else {
+    } else if (data.kind === 'failed') {
       fail(data.memory, data.words);
     }
   };
@@ -164,18 +165,30 @@ const isMachine = (name: string): boolean => /\.toml$/i.test(name);
 const isTools = (name: string): boolean => /\.tbl$/i.test(name);
 const mostMachineBytes = 1 << 20;
 
-// Takes dropped files: the first that is neither a machine nor a tool table is the program, the others are its subroutines.
+async function machineOf(file: File): Promise<ChosenMachine> {
+  if (!isMachine(file.name)) return importMachine(file, await loadModule(), newWorker);
+  if (file.size > mostMachineBytes) throw new Error(file.name);
+  return { file: file.name, text: await file.text(), own: true };
+}
+
+// Takes dropped files: a machine, a tool table, and the program; what comes after the program are its subroutines.
 export async function take(files: readonly File[]): Promise<void> {
-  const machine = files.find((one) => isMachine(one.name));
-  const rest = files.filter((one) => one !== machine);
-  const first = rest.find((one) => !isTools(one.name));
-  if (machine !== undefined) {
-    if (machine.size > mostMachineBytes) {
-      refusal.value = { kind: 'other-file', words: machine.name };
+  const rest: File[] = [];
+  for (const file of files) {
+    const isOne = isMachine(file.name) || isConfiguration(file.name) || (!isTools(file.name) && (await isSettingsDump(file)));
+    if (!isOne) {
+      rest.push(file);
+      continue;
+    }
+    try {
+      chosenMachine.value = await machineOf(file);
+    } catch (error) {
+      forget();
+      refusal.value = { kind: 'other-file', words: error instanceof Error ? error.message : file.name };
       return;
     }
-    chosenMachine.value = { file: machine.name, text: await machine.text(), own: true };
   }
+  const first = rest.find((one) => !isTools(one.name));
   if (rest.length > 0) otherFiles.value = rest.filter((one) => one !== first);
   if (first !== undefined) choose(first);
   else if (program.peek() !== null) void check();

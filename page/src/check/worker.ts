@@ -34,6 +34,9 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>): Promise<void> => {
   try {
     if (data.kind === 'check') {
       await check(data);
+    } else if (data.kind === 'import') {
+      const importer = await CheckModule.start(data.module, () => undefined);
+      say({ kind: 'imported', answer: importer.import(data.request) });
     } else {
       const bytes = module?.path(data.first, data.count, data.level).buffer ?? new ArrayBuffer(0);
       say({ kind: 'path', id: data.id, bytes }, [bytes]);

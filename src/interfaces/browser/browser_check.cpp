@@ -4,14 +4,12 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "request_values.hpp"
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "passo/activity/program.hpp"
-#include "passo/diagnostics/findings_json.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/tool_table_file.hpp"
 #include "passo/judge/check_page.hpp"
@@ -23,42 +21,6 @@
 
 namespace passo {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// A value of the request, or what it is if it lacks.
-template <class Value>
-Value value_of(const Json& request, const char* key, Value otherwise) {
-  const auto found = request.find(key);
-  if (found == request.end()) return otherwise;
-  if constexpr (std::is_same_v<Value, bool>) {
-    return found->is_boolean() ? found->get<bool>() : otherwise;
-  } else {
-    return found->is_string() ? found->get<std::string>() : otherwise;
-  }
-}
-
-Json sentence_json(const FindingWords& words) {
-  const Sentence sentence = words.sentence();
-  Json arguments = Json::object();
-  for (const auto& [name, value] : sentence.arguments) arguments[name] = value;
-  return {{"code", sentence.code}, {"arguments", std::move(arguments)}};
-}
-
-// With the line of the program, and the words in a form that the page can translate.
-Json with_sentences(Json list, const Diagnostics& findings) {
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Diagnostic& finding = findings.all()[i];
-    list[i]["text"] = finding.text;
-    list[i]["message_sentence"] = sentence_json(finding.message);
-    list[i]["expected_sentence"] = sentence_json(finding.expected);
-  }
-  return list;
-}
-
-Json findings_of(const Diagnostics& findings) {
-  return with_sentences(findings_json(findings.all()), findings);
-}
 
 std::optional<TomlText::Setting> setting_of(const Json& value) {
   if (value.is_number()) return value.get<double>();
@@ -98,7 +60,7 @@ std::optional<MachineDescription> machine_of(const Json& request, Json& answer) 
     findings.clear();
     machine = parse_machine(text, name, findings);
   }
-  Json told = {{"good", machine.has_value()}, {"findings", findings_of(findings)}};
+  Json told = {{"good", machine.has_value()}, {"findings", findings_with_sentences(findings)}};
   if (machine) {
     told["name"] = machine->name;
     told["lathe"] = is_lathe(*machine);
@@ -188,7 +150,6 @@ struct Looked {
 }  // namespace
 
 std::string BrowserCheck::check(const std::string& request_text) {
-  const auto written = [](const Json& answer) { return answer.dump(-1, ' ', false, Json::error_handler_t::replace); };
   path_ = ProgramPath();
   Json answer;
   const Json request = Json::parse(request_text, nullptr, false);
@@ -198,7 +159,7 @@ std::string BrowserCheck::check(const std::string& request_text) {
   Looked first;
   const auto refused = [&] {
     answer.update(findings_as_json(first.findings, first.stops));
-    answer["findings"] = findings_of(first.findings);
+    answer["findings"] = findings_with_sentences(first.findings);
     return written(answer);
   };
   const std::optional<InterpreterOptions> options = options_of(request, first.findings);
@@ -231,7 +192,7 @@ std::string BrowserCheck::check(const std::string& request_text) {
                  [&](double share) { progress_(CheckStage::planning, std::clamp(share, 0.0, 1.0)); });
   }
   answer.update(findings_as_json(first.findings, first.stops));
-  answer["findings"] = findings_of(first.findings);
+  answer["findings"] = findings_with_sentences(first.findings);
   if (page) add_to(answer, *page, *machine);
   if (page) {
     answer["cutting_s"] = page->summary.cutting_time.value();

@@ -9,8 +9,6 @@
 #include <functional>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "passo/api/program_path.hpp"
 
 namespace passo {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "browser_check.hpp"
+#include "browser_import.hpp"
 
 #include "passo/base/browser_host.hpp"
 
@@ -39,6 +40,11 @@ char* PASSO_EXPORT(check_room)(std::size_t size) {
 std::size_t PASSO_EXPORT(check_program)() {
   answer().clear();
   answer() = one_check().check(request_text());
+  return answer().size();
+}
+// Makes a machine file of the configuration of another controller. Returns the length of the answer.
+std::size_t PASSO_EXPORT(check_import)() {
+  answer() = import_in_browser(request_text());
   return answer().size();
 }
 const char* PASSO_EXPORT(check_answer)() {
