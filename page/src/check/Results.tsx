@@ -144,7 +144,7 @@ export function Axes({ answer }: { answer: CheckAnswer }) {
   return (
     <section class="panel">
       <h2>{say('axes')}</h2>
-      <div class="check-wide">
+      <div class="check-wide" tabIndex={0} role="region" aria-label={say('axes')}>
         <table class="facts check-table">
           <thead>
             <tr>
@@ -187,7 +187,7 @@ export function Speed({ answer }: { answer: CheckAnswer }) {
   return (
     <section class="panel">
       <h2>{say('speedTitle')}</h2>
-      <div class="check-wide">
+      <div class="check-wide" tabIndex={0} role="region" aria-label={say('speedTitle')}>
         <table class="facts check-table" data-testid="bounds">
           <thead>
             <tr>
