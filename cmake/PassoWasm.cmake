@@ -48,7 +48,7 @@ set(PASSO_WASM_OPTIONS
 #
 # The target NAME builds NAME.wasm in the current binary directory; its path is the target's property PASSO_WASM. SOURCES
 # begin with their module; those of one module are compiled together, which takes a third of the time, and so are those of
-# the modules TOGETHER. Those whose own names clash with the others' are APART. MODULES are further modules whose headers
+# the modules TOGETHER (of some perhaps only the headers). Those whose own names clash with the others' are APART. MODULES are further modules whose headers
 # the sources include. With OPTIMISED, these modules are compiled with -O2 and the others with -O1: what is fetched counts
 # less than the time that it computes. MEMORY: the most that the module may take, 256 MiB if not said.
 function(passo_wasm_module name)
@@ -90,6 +90,9 @@ function(passo_wasm_module name)
     foreach(module IN LISTS of_unit)
       list(TRANSFORM sources REPLACE "^${module}/" "${PASSO_FOLDER_${module}}/")
       list(APPEND own "-I${PASSO_FOLDER_${module}}")
+      if(NOT module IN_LIST modules)
+        list(APPEND own "-I${PASSO_FOLDER_${module}}/include")
+      endif()
     endforeach()
     if(ARG_OPTIMISED)
       set(level -O1)

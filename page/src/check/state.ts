@@ -11,6 +11,7 @@ import { FileText } from './file_text';
 import type { Stage } from './host';
 import { importMachine, isConfiguration, isSettingsDump } from './importing';
 import type { CheckRequest, FromWorker, ToWorker } from './messages';
+import workerAddress from './worker.ts?worker&url';
 import { motorKeys, motorKinds, usualLoad, type MovedLoad } from './motors';
 
 export const mostBytes = 200_000_000;
@@ -35,12 +36,21 @@ export const refusal = signal<{ kind: Refusal; words: string } | null>(null);
 export const result = signal<{ answer: CheckAnswer; seconds: number; megabytes: number } | null>(null);
 export const tools = computed(() => otherFiles.value.find((one) => /\.tbl$/i.test(one.name))?.name ?? '');
 
+// The module and the worker's script are loaded once: from then on nothing is fetched.
 let bytes: Promise<ArrayBuffer> | undefined;
+let script = '';
+async function fetched(address: URL | string): Promise<Response> {
+  const reply = await fetch(address);
+  if (!reply.ok) throw new Error(reply.statusText);
+  return reply;
+}
+async function loadAll(): Promise<ArrayBuffer> {
+  const [module, text] = await Promise.all([fetched(new URL('check.wasm', document.baseURI)), fetched(workerAddress)]);
+  script = URL.createObjectURL(new Blob([await text.text()], { type: 'text/javascript' }));
+  return module.arrayBuffer();
+}
 export function loadModule(): Promise<ArrayBuffer> {
-  bytes ??= fetch(new URL('check.wasm', document.baseURI)).then(async (reply) => {
-    if (!reply.ok) throw new Error(reply.statusText);
-    return reply.arrayBuffer();
-  });
+  bytes ??= loadAll();
   bytes.catch(() => (bytes = undefined));
   return bytes;
 }
@@ -48,7 +58,7 @@ export function loadModule(): Promise<ArrayBuffer> {
 let worker: Worker | undefined;
 const waiting = new Map<number, (bytes: ArrayBuffer) => void>();
 let question = 0;
-const newWorker = (): Worker => new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+const newWorker = (): Worker => new Worker(script, { type: 'module' });
 const tell = (to: Worker, what: ToWorker): void => to.postMessage(what);
 
 // Ends the check at once, and lets its memory go.
