@@ -111,15 +111,9 @@ Json path_json(const ProgramPath& path, const MachineDescription& machine, const
     speeds = {{"low", path.speeds().low.value() * seconds_per_minute},
               {"high", path.speeds().high.value() * seconds_per_minute}};
   }
-  return {{"cut_off", path.cut_off()},
-          {"points", path.points()},
-          {"chunks", path.chunks()},
-          {"levels", ProgramPath::levels},
-          {"all", as_json(path.all())},
-          {"cuts", as_json(path.cuts())},
-          {"work", as_json(path.work())},
-          {"speeds", std::move(speeds)},
-          {"tools", std::move(tools)}};
+  return {{"cut_off", path.cut_off()},     {"points", path.points()},     {"chunks", path.chunks()},
+          {"levels", ProgramPath::levels}, {"all", as_json(path.all())},  {"cuts", as_json(path.cuts())},
+          {"work", as_json(path.work())},  {"speeds", std::move(speeds)}, {"tools", std::move(tools)}};
 }
 
 // How much of the program was read. Lines of loops come again, and count once.
@@ -205,8 +199,8 @@ std::string BrowserCheck::check(const std::string& request_text) {
   answer["proposals"] = Json::array();
   if (value_of(request, "proposals", true)) {
     progress_(CheckStage::proposals, 0);
-    answer["proposals"] =
-        passo::as_json(proposals_of({*program, *machine, *options}, first.result, first.findings, page ? &*page : nullptr));
+    answer["proposals"] = passo::as_json(
+        proposals_of({*program, *machine, *options}, first.result, first.findings, page ? &*page : nullptr));
   }
   return written(answer);
 }

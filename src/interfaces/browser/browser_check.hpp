@@ -23,8 +23,8 @@ class BrowserCheck {
 
   explicit BrowserCheck(Progress progress) : progress_(std::move(progress)) {}
 
-  // `request`: {"program": file, "machine": {"name", "text", "motor"}, "dialect", "inches", "block_delete", "tools": file,
-  // "proposals"}. `motor`: keys of [axis.X.torque], for each axis without a motor. Returns the key "machine" (its
+  // `request`: {"program": file, "machine": {"name", "text", "motor"}, "dialect", "inches", "block_delete", "tools":
+  // file, "proposals"}. `motor`: keys of [axis.X.torque], for each axis without a motor. Returns the key "machine" (its
   // findings, and what it is), the keys of `passo check --json`, and "path" (as the API's path index).
   std::string check(const std::string& request);
 

@@ -29,9 +29,8 @@ bool read_tree(const Json& json, SourceNode& node, std::size_t depth, std::size_
   node.column = place_in(json, "column");
   const auto children = json.find("children");
   if (children == json.end() || !children->is_array()) return true;
-  return std::ranges::all_of(*children, [&](const Json& child) {
-    return read_tree(child, node.children.emplace_back(), depth + 1, nodes);
-  });
+  return std::ranges::all_of(
+      *children, [&](const Json& child) { return read_tree(child, node.children.emplace_back(), depth + 1, nodes); });
 }
 
 std::optional<SourceNode> tree_of(const Json& request, ImportFormat format, const ImportSource& source,
@@ -57,12 +56,9 @@ Json lines_json(const ImportedMachine& machine) {
   for (const UnmappedValue& one : machine.unmapped) {
     unmapped.push_back({{"source", one.source}, {"value", one.value}, {"reason", one.reason}, {"line", one.line}});
   }
-  return {{"controller", machine.controller},
-          {"toml", machine.toml},
-          {"understood", machine.understood.size()},
-          {"assumed", std::move(assumed)},
-          {"unmapped", std::move(unmapped)},
-          {"warnings", machine.warnings}};
+  return {{"controller", machine.controller},        {"toml", machine.toml},
+          {"understood", machine.understood.size()}, {"assumed", std::move(assumed)},
+          {"unmapped", std::move(unmapped)},         {"warnings", machine.warnings}};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // ProgramBytes: the bytes of a program's file, wherever they are.
 //
-// The program reads a file (program_bytes.cpp), and in a browser the visitor's file (wasm/program_bytes.cpp). Neither is
-// held in memory.
+// The program reads a file (program_bytes.cpp), and in a browser the visitor's file (wasm/program_bytes.cpp). Neither
+// is held in memory.
 #pragma once
 
 #include <cstddef>

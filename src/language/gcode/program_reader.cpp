@@ -205,13 +205,15 @@ Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
   }
   if (const ForeignFile foreign = foreign_file(name, first); !foreign.kind.empty()) {
     return Failure{about_whole_file(inspect(first) == Content::text ? "file.not-gcode" : "file.binary", name,
-                              kind_in_words(foreign), foreign.expected)};
+                                    kind_in_words(foreign), foreign.expected)};
   }
   switch (inspect(first)) {
     case Content::text: break;
     case Content::wide_text:
-      return Failure{about_whole_file("file.binary", name, "the file is UTF-16 text", "the file saved as UTF-8 or ASCII")};
-    case Content::binary: return Failure{about_whole_file("file.binary", name, gcode_says::not_text, gcode_says::plain_text)};
+      return Failure{
+          about_whole_file("file.binary", name, "the file is UTF-16 text", "the file saved as UTF-8 or ASCII")};
+    case Content::binary:
+      return Failure{about_whole_file("file.binary", name, gcode_says::not_text, gcode_says::plain_text)};
   }
   if (first.starts_with(utf8_mark)) state->start = state->cursor = utf8_mark.size();
   return ProgramReader(std::move(state));

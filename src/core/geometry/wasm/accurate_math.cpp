@@ -1,8 +1,8 @@
 // sin(), cos(), atan2(), acos(), asin() and hypot() for WebAssembly, correctly rounded in nearly every case.
 //
 // The C library of WASI rounds 3 % of the sines and 18 % of the arc tangents differently from glibc, which is correctly
-// rounded in more than 99.8 % of the cases. A difference in the last bit can tip a decision of the path smoother, and then
-// a browser would show another time than the program in the fifth digit. These functions take the place of the
+// rounded in more than 99.8 % of the cases. A difference in the last bit can tip a decision of the path smoother, and
+// then a browser would show another time than the program in the fifth digit. These functions take the place of the
 // library's: they compute with two doubles (about 100 bits) and round once.
 //
 // Method: T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
@@ -67,19 +67,20 @@ constexpr double largest_angle = 1e5;
 Twice sine_of(Twice r) {
   const Twice z = r * r;
   const double x = z.high;
-  const double tail = 1 / 362'880.0 -
-                      x * (1 / 39'916'800.0 -
-                           x * (1 / 6'227'020'800.0 -
-                                x * (1 / 1'307'674'368'000.0 - x * (1 / 355'687'428'096'000.0 - x / 1.21645100408832e17))));
+  const double tail =
+      1 / 362'880.0 - x * (1 / 39'916'800.0 -
+                           x * (1 / 6'227'020'800.0 - x * (1 / 1'307'674'368'000.0 -
+                                                           x * (1 / 355'687'428'096'000.0 - x / 1.21645100408832e17))));
   const Twice sum = -inverse(6) + z * (inverse(120) + z * (-inverse(5040) + z * single(tail)));
   return r + r * z * sum;
 }
 Twice cosine_of(Twice r) {
   const Twice z = r * r;
   const double x = z.high;
-  const double tail = -1 / 3'628'800.0 +
-                      x * (1 / 479'001'600.0 -
-                           x * (1 / 87'178'291'200.0 - x * (1 / 20'922'789'888'000.0 - x * (1 / 6.402373705728e15 - x / 2.43290200817664e18))));
+  const double tail =
+      -1 / 3'628'800.0 + x * (1 / 479'001'600.0 -
+                              x * (1 / 87'178'291'200.0 - x * (1 / 20'922'789'888'000.0 -
+                                                               x * (1 / 6.402373705728e15 - x / 2.43290200817664e18))));
   const Twice sum = single(-0.5) + z * (inverse(24) + z * (-inverse(720) + z * (inverse(40'320) + z * single(tail))));
   return single(1) + z * sum;
 }
@@ -103,8 +104,8 @@ Twice sine_of_quarter(const Reduced& angle, int more) {
   return quarter >= 2 ? -value : value;
 }
 
-// For what is left to the library. Volatile: the compiler must not make sin(x) of (double)sinl(x), which is the function
-// that it compiles.
+// For what is left to the library. Volatile: the compiler must not make sin(x) of (double)sinl(x), which is the
+// function that it compiles.
 long double wide(double x) {
   volatile long double wider = x;
   return wider;

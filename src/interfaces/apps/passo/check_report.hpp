@@ -6,7 +6,6 @@
 
 #include <string>
 
-
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/judge/check_page.hpp"
 

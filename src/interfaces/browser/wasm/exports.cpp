@@ -1,6 +1,6 @@
-// "Check my program" as a WebAssembly module. The page writes the request, a JSON text, to where check_room() tells, and
-// calls check_program(). That asks the page for the bytes of the files and tells it how far it is: the module has no
-// files and no clock of its own. The answer's text, and then each chunk of the path, lies at check_answer().
+// "Check my program" as a WebAssembly module. The page writes the request, a JSON text, to where check_room() tells,
+// and calls check_program(). That asks the page for the bytes of the files and tells it how far it is: the module has
+// no files and no clock of its own. The answer's text, and then each chunk of the path, lies at check_answer().
 #include <cstddef>
 #include <string>
 

@@ -32,7 +32,8 @@ Result<std::shared_ptr<const ProgramBytes>, Diagnostic> ProgramBytes::open(const
   if (size < 0) {
     return Failure{about_whole_file("file.not-found", path, "there is no such file", "the path of a G-code file")};
   }
-  return std::shared_ptr<const ProgramBytes>(std::make_shared<const VisitorsFile>(path, static_cast<std::uint64_t>(size)));
+  return std::shared_ptr<const ProgramBytes>(
+      std::make_shared<const VisitorsFile>(path, static_cast<std::uint64_t>(size)));
 }
 
 }  // namespace passo

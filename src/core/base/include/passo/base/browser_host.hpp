@@ -1,4 +1,5 @@
-// What a page does for a module that reads programs (interfaces/browser/wasm): it reads the visitor's files, and shows how far the check is.
+// What a page does for a module that reads programs (interfaces/browser/wasm): it reads the visitor's files, and shows
+// how far the check is.
 #pragma once
 
 #include <cstddef>
