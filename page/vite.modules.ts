@@ -5,6 +5,7 @@ import type { Plugin } from 'vite';
 const built = (path: string, variable: string): string => process.env[variable] ?? `../build/release/src/${path}`;
 export const wasm = {
   'lab.wasm': built('study/lab/lab.wasm', 'PASSO_LAB_WASM'),
+  'check.wasm': built('interfaces/browser/check.wasm', 'PASSO_CHECK_WASM'),
   'stock.wasm': built('cam/stock/stock.wasm', 'PASSO_STOCK_WASM'),
 } as const;
 export type WasmName = keyof typeof wasm;

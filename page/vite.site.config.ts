@@ -7,7 +7,7 @@ import { defineConfig, type Plugin } from 'vite';
 import { modules, type WasmName } from './vite.modules';
 
 // The modules of each page: a page fetches its own beside its html file (core/wasm.ts).
-const modulesOf: Record<string, readonly WasmName[]> = { lab: ['lab.wasm'] };
+const modulesOf: Record<string, readonly WasmName[]> = { lab: ['lab.wasm'], check: ['check.wasm'] };
 
 const page = process.env.PASSO_SITE_PAGE ?? 'lab';
 const outDir = join(process.env.PASSO_SITE_OUT ?? '../build/site-pages', page);

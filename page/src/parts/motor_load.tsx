@@ -10,12 +10,12 @@ import { picked } from '../scene/stage';
 import { Button } from './button';
 import { Icon, type IconName } from './icon';
 
-const icons: Record<Verdict, IconName> = { safe: 'calm', doubtful: 'warn', lost: 'bad' };
+export const verdictIcons: Record<Verdict, IconName> = { safe: 'calm', doubtful: 'warn', lost: 'bad' };
 const mostShown = 6;
 const percent = (share: number): string => `${Math.round(share * 100)} %`;
 
 // Where the torque is enough and steps are lost all the same, a motor swings.
-function verdictOf({ verdict, most }: MotorLoads): string {
+export function verdictOf({ verdict, most }: Pick<MotorLoads, 'verdict' | 'most'>): string {
   const contradicts = verdict === 'safe' ? most > 1 : most <= 1;
   return say(contradicts ? `torque.${verdict}.swing` : `torque.${verdict}`, { share: percent(most) });
 }
@@ -36,6 +36,30 @@ function cureOf(one: LoadedLine): string {
   return say('torque.cure', { cures: cures.length === 0 ? say('torque.cure.motor') : cures.join(say('torque.cure.or')) });
 }
 
+export function WorstLines({ worst, pick }: { worst: readonly LoadedLine[]; pick: (line: number) => void }) {
+  return (
+    <ul class="findings">
+      {worst.slice(0, mostShown).map((one) => (
+        <li key={`${one.line} ${one.axis}`} class={one.verdict === 'safe' ? '' : one.verdict === 'lost' ? 'error' : 'warning'}>
+          <button type="button" class="finding" onClick={() => pick(one.line)}>
+            <Icon name={verdictIcons[one.verdict]} />
+            <span>
+              <b>{say('run.line', { line: one.line })}</b>{' '}
+              {say(`torque.line.${one.want}`, {
+                axis: one.axis,
+                needed: one.needed_nm.toFixed(2),
+                there: one.low_nm.toFixed(2),
+                rate: Math.round(one.full_steps_s).toLocaleString(language.value),
+              })}{' '}
+              {one.verdict !== 'safe' && <span class="dim">{cureOf(one)}</span>}
+            </span>
+          </button>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
 export function MotorLoad({ program }: { program: Program }) {
   useEffect(wantLoads, []);
   const loads = loadsOfShown.value;
@@ -44,7 +68,7 @@ export function MotorLoad({ program }: { program: Program }) {
     <>
       <h2 class="findings-title">{say('torque.title')}</h2>
       <p role="status" data-testid="torque" class={loads?.state === 'done' ? `verdict ${loads.verdict === 'lost' ? 'bad' : 'good'}` : 'dim'}>
-        {loads?.state === 'done' && <Icon name={icons[loads.verdict]} />}{' '}
+        {loads?.state === 'done' && <Icon name={verdictIcons[loads.verdict]} />}{' '}
         {loads === null || loads.state === 'running'
           ? say('torque.running')
           : loads.state === 'done'
@@ -53,32 +77,13 @@ export function MotorLoad({ program }: { program: Program }) {
       </p>
       {loads?.state === 'done' && (
         <>
-          <ul class="findings">
-            {loads.worst.slice(0, mostShown).map((one) => (
-              <li key={`${one.line} ${one.axis}`} class={one.verdict === 'safe' ? '' : one.verdict === 'lost' ? 'error' : 'warning'}>
-                <button
-                  type="button"
-                  class="finding"
-                  onClick={() => {
-                    picked.value = one.line;
-                    goTo('run');
-                  }}
-                >
-                  <Icon name={icons[one.verdict]} />
-                  <span>
-                    <b>{say('run.line', { line: one.line })}</b>{' '}
-                    {say(`torque.line.${one.want}`, {
-                      axis: one.axis,
-                      needed: one.needed_nm.toFixed(2),
-                      there: one.low_nm.toFixed(2),
-                      rate: Math.round(one.full_steps_s).toLocaleString(language.value),
-                    })}{' '}
-                    {one.verdict !== 'safe' && <span class="dim">{cureOf(one)}</span>}
-                  </span>
-                </button>
-              </li>
-            ))}
-          </ul>
+          <WorstLines
+            worst={loads.worst}
+            pick={(line) => {
+              picked.value = line;
+              goTo('run');
+            }}
+          />
           <Button
             icon="run"
             onClick={() => {

@@ -21,6 +21,14 @@ export interface PathListener {
   added: (points: PathPoints) => void;
 }
 
+// Where chunks come from: so many from the first on, one after the other.
+export type PathSource = (index: PathIndex, first: number, count: number, level: number) => Promise<ArrayBuffer>;
+const fromDaemon: PathSource = async (index, first, count, level) => {
+  const path = `/programs/${index.program}/path?chunk=${first}&count=${count}&level=${level}`;
+  return (await ask('GET', path, undefined, 20_000)).arrayBuffer();
+};
+let source = fromDaemon;
+
 const listeners = new Set<PathListener>();
 const chunks = new Map<string, PathPoints>();
 const wanted = new Set<string>();
@@ -70,8 +78,7 @@ function runsOf(all: readonly number[], level: number): number[][] {
 async function fetchRun(index: PathIndex, run: readonly number[], level: number, mine: number): Promise<void> {
   for (const chunk of run) wanted.add(`${chunk}/${level}`);
   try {
-    const path = `/programs/${index.program}/path?chunk=${run[0]!}&count=${run.length}&level=${level}`;
-    const answer = readChunks(await (await ask('GET', path, undefined, 20_000)).arrayBuffer());
+    const answer = readChunks(await source(index, run[0]!, run.length, level));
     if (mine !== round) return;
     for (const points of answer) {
       chunks.set(`${points.chunk}/${points.level}`, points);
@@ -146,6 +153,14 @@ function clear(): void {
   pathIndex.value = null;
   pathLoaded.value = 1;
   for (const one of listeners) one.cleared();
+}
+
+// A path that is whole, from somewhere else than the daemon. Null: none any more.
+export async function showPath(index: PathIndex | null, from: PathSource): Promise<void> {
+  ++round;
+  clear();
+  source = from;
+  if (index !== null) await take(index, Math.max(1, index.points));
 }
 
 export function listenToPath(listener: PathListener): () => void {

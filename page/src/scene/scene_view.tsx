@@ -14,7 +14,8 @@ import { StockTools } from './stock_tools';
 import { showsStock, showStock } from './stock_view';
 import { drawnProgram, followsTool, picked, showsRapids, Stage } from './stage';
 
-export function SceneView() {
+// `alone`: the path of a program without a machine: there is no tool to follow, and nothing starts.
+export function SceneView({ alone = false }: { alone?: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const labels = useRef<HTMLDivElement>(null);
   const stage = useRef<Stage | null>(null);
@@ -50,9 +51,11 @@ export function SceneView() {
         <button type="button" class="chip" aria-pressed={showsRapids.value} onClick={() => (showsRapids.value = !showsRapids.value)}>
           {say('scene.rapids')}
         </button>
-        <button type="button" class="chip" aria-pressed={followsTool.value} onClick={() => (followsTool.value = !followsTool.value)}>
-          {say('scene.tool')}
-        </button>
+        {!alone && (
+          <button type="button" class="chip" aria-pressed={followsTool.value} onClick={() => (followsTool.value = !followsTool.value)}>
+            {say('scene.tool')}
+          </button>
+        )}
         <button
           type="button"
           class="chip"
@@ -61,23 +64,25 @@ export function SceneView() {
         >
           {say('scene.section')}
         </button>
-        <button type="button" class="chip" aria-pressed={showsStock.value} onClick={() => showStock(!showsStock.value)}>
-          {say('scene.stock')}
-        </button>
+        {!alone && (
+          <button type="button" class="chip" aria-pressed={showsStock.value} onClick={() => showStock(!showsStock.value)}>
+            {say('scene.stock')}
+          </button>
+        )}
         <label class="chip">
           <span class="unseen">{say('scene.colour')}</span>
           <select value={tells.value} onChange={(event) => (tells.value = event.currentTarget.value as typeof tells.value)}>
             <option value="nothing">{say('scene.colour.nothing')}</option>
             <option value="speed">{say('scene.colour.speed')}</option>
             <option value="depth">{say('scene.colour.depth')}</option>
-            <option value="torque">{say('scene.colour.torque')}</option>
+            {!alone && <option value="torque">{say('scene.colour.torque')}</option>}
           </select>
         </label>
       </div>
       <Section />
-      <StockTools />
-      <Legend />
-      <div class="narrow-only">{!isUnderWay(status.value?.job ?? null) && <PickedLine />}</div>
+      {!alone && <StockTools />}
+      <Legend alone={alone} />
+      {!alone && <div class="narrow-only">{!isUnderWay(status.value?.job ?? null) && <PickedLine />}</div>}
       {pathLoaded.value < 1 && <p class="scene-loading">{say('scene.loading', { percent: Math.floor(pathLoaded.value * 100) })}</p>}
     </div>
   );
@@ -111,10 +116,10 @@ function TorqueState() {
 }
 
 // What the colours tell, in figures.
-function Legend() {
+function Legend({ alone }: { alone: boolean }) {
   const now = colouring.value;
   const speeds = pathIndex.value?.speeds;
-  if (tells.value === 'torque' && now.tells === 'nothing') return <TorqueState />;
+  if (!alone && tells.value === 'torque' && now.tells === 'nothing') return <TorqueState />;
   if (now.tells === 'nothing') return null;
   const zero = workOffset.value.z ?? 0;
   const ends: Record<'speed' | 'depth' | 'torque', [string, string, string]> = {

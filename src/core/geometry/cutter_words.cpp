@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <charconv>
 #include <numbers>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "passo/base/read_double.hpp"
 #include "passo/geometry/cutter.hpp"
 
 namespace passo {
@@ -31,7 +32,7 @@ std::vector<double> numbers_of(std::string_view text) {
   while (true) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + colon, value);
+    const auto [end, error] = read_double(text.data(), text.data() + colon, value);
     if (error != std::errc() || end != text.data() + colon || !(value >= 0 && value <= 1000)) return {};
     values.push_back(value);
     if (colon == text.size()) return values;

@@ -6,6 +6,8 @@
 
 #include "characters.hpp"
 
+#include "passo/base/read_double.hpp"
+
 namespace passo {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  
 constexpr std::uint64_t largest_exact_integer = std::uint64_t{1} << 53;
 constexpr std::size_t most_digits_of_mantissa = 18;  // fits std::uint64_t, whatever the digits
 
-// Reads what the fast path cannot round correctly: std::from_chars on a copy without blanks.
+// Reads what the fast path cannot round correctly: read_double() on a copy without blanks.
 NumberReading read_long_number(const char* first, const char* last, bool negative) {
   std::array<char, longest_number> digits;
   std::size_t size = 0;
@@ -33,7 +35,7 @@ NumberReading read_long_number(const char* first, const char* last, bool negativ
     }
     digits[size++] = *at;
   }
-  const auto result = std::from_chars(digits.data(), digits.data() + size, reading.value, std::chars_format::fixed);
+  const auto result = read_double(digits.data(), digits.data() + size, reading.value);
   if (result.ec == std::errc::result_out_of_range) {
     reading.value = 0;  // too small becomes zero; too large is an error
     if (has_integer_part) reading.status = NumberStatus::too_large;

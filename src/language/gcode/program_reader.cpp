@@ -1,18 +1,14 @@
 #include "passo/gcode/program_reader.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "gcode_sentences.hpp"
-#include <fcntl.h>
+#include "program_bytes.hpp"
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "passo/gcode/foreign_file.hpp"
 
@@ -25,107 +21,9 @@ static_assert(buffer_size >= 2 * (longest_line + 2), "a line and its end fit whe
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 constexpr std::size_t inspected_bytes = 1024;  // enough to tell text from other data
 
-// A file descriptor that closes itself.
-class File {
- public:
-  File() = default;
-  explicit File(int descriptor) : descriptor_(descriptor) {}
-  File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  File& operator=(File&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  ~File() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  bool is_open() const { return descriptor_ >= 0; }
-  int get() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
-
-Diagnostic whole_file(std::string code, const std::string& name, FindingWords message, FindingWords expected) {
-  Diagnostic diagnostic;
-  diagnostic.code = std::move(code);
-  diagnostic.file = name;
-  diagnostic.message = std::move(message);
-  diagnostic.expected = std::move(expected);
-  return diagnostic;
-}
-
 FindingWords kind_in_words(const ForeignFile& foreign) {
   if (foreign.expected.code == gcode_says::from_cam.code) return gcode_says::for_a_printer;
   return gcode_says::not_gcode.with({{"what", std::string(foreign.kind)}});
-}
-
-Diagnostic unreadable(const std::string& name, int error) {
-  return whole_file("file.unreadable", name, fmt::format("cannot be read: {}", std::strerror(error)), "");
-}
-
-// read() that repeats calls interrupted by a signal. Negative: errno tells why.
-ssize_t read_some(int descriptor, char* to, std::size_t size) {
-  for (;;) {
-    const ssize_t count = ::read(descriptor, to, size);
-    if (count >= 0 || errno != EINTR) return count;
-  }
-}
-
-ssize_t read_at(int descriptor, char* to, std::size_t size, std::uint64_t offset) {
-  for (;;) {
-    const ssize_t count = ::pread(descriptor, to, size, static_cast<off_t>(offset));
-    if (count >= 0 || errno != EINTR) return count;
-  }
-}
-
-bool write_all(int descriptor, const char* from, std::size_t size) {
-  while (size > 0) {
-    const ssize_t count = ::write(descriptor, from, size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    from += count;
-    size -= static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
-// Loops and subroutines go back, which a pipe cannot do. So its bytes first go to a file without a name.
-Result<File, Diagnostic> spool(int source, const std::string& name) {
-  std::FILE* const temporary = std::tmpfile();
-  if (temporary == nullptr) return Failure{unreadable(name, errno)};
-  File file(::fcntl(::fileno(temporary), F_DUPFD_CLOEXEC, 0));
-  const int error = errno;
-  std::fclose(temporary);
-  if (!file.is_open()) return Failure{unreadable(name, error)};
-
-  std::vector<char> buffer(buffer_size);
-  for (;;) {
-    const ssize_t count = read_some(source, buffer.data(), buffer.size());
-    if (count < 0) return Failure{unreadable(name, errno)};
-    if (count == 0) return file;
-    if (!write_all(file.get(), buffer.data(), static_cast<std::size_t>(count))) return Failure{unreadable(name, errno)};
-  }
-}
-
-Result<File, Diagnostic> open_file(const std::string& path) {
-  File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.is_open()) {
-    const int error = errno;
-    if (error == ENOENT || error == ENOTDIR) {
-      return Failure{whole_file("file.not-found", path, "there is no such file", "the path of a G-code file")};
-    }
-    return Failure{unreadable(path, error)};
-  }
-  struct stat status = {};
-  if (::fstat(file.get(), &status) != 0) return Failure{unreadable(path, errno)};
-  if (S_ISDIR(status.st_mode)) {
-    return Failure{whole_file("file.is-directory", path, "is a directory", "the path of a G-code file")};
-  }
-  if (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)) return spool(file.get(), path);
-  if (!S_ISREG(status.st_mode)) {
-    return Failure{whole_file("file.unreadable", path, "is a device, not a file", "the path of a G-code file")};
-  }
-  return file;
 }
 
 // The kind of content that the first bytes of a file show.
@@ -144,11 +42,20 @@ Content inspect(std::string_view first) {
 
 }  // namespace
 
+Diagnostic about_whole_file(std::string code, const std::string& name, FindingWords message, FindingWords expected) {
+  Diagnostic diagnostic;
+  diagnostic.code = std::move(code);
+  diagnostic.file = name;
+  diagnostic.message = std::move(message);
+  diagnostic.expected = std::move(expected);
+  return diagnostic;
+}
+
 // The buffer holds the bytes [offset, offset + filled) of the program. In it `cursor` is the first byte of the next
 // line.
 struct ProgramReader::State {
   std::string name;
-  std::shared_ptr<const File> file;  // null: the whole program is in `buffer`. Readers of one program share it
+  std::shared_ptr<const ProgramBytes> file;  // null: the whole program is in `buffer`. Readers of one program share it
   std::vector<char> buffer;
   std::uint64_t size = 0;
   std::uint64_t start = 0;  // the first byte of the first line, after a byte order mark
@@ -183,9 +90,9 @@ bool ProgramReader::State::fill(Diagnostics& diagnostics) {
   filled = kept;
   line_feed = 0;
   while (filled < buffer.size()) {
-    const ssize_t count = read_at(file->get(), buffer.data() + filled, buffer.size() - filled, offset + filled);
+    const std::int64_t count = file->read_at(buffer.data() + filled, buffer.size() - filled, offset + filled);
     if (count < 0) {
-      diagnostics.add(unreadable(name, errno));
+      diagnostics.add(unreadable_program(name));
       failed = true;
       return false;
     }
@@ -268,7 +175,7 @@ void ProgramReader::State::skip_long_line(Diagnostics& diagnostics) {
 
 void ProgramReader::State::report(Diagnostics& diagnostics, std::string code, std::size_t column, FindingWords message,
                                   FindingWords expected, std::string_view text) const {
-  Diagnostic diagnostic = whole_file(std::move(code), name, std::move(message), std::move(expected));
+  Diagnostic diagnostic = about_whole_file(std::move(code), name, std::move(message), std::move(expected));
   diagnostic.place = {line, static_cast<std::uint32_t>(column), 1};
   diagnostic.text = text;
   diagnostics.add(std::move(diagnostic));
@@ -280,34 +187,33 @@ ProgramReader& ProgramReader::operator=(ProgramReader&&) noexcept = default;
 ProgramReader::~ProgramReader() = default;
 
 Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
-  const bool is_standard_input = path == "-";
-  const std::string name = is_standard_input ? "standard input" : path;
-  Result<File, Diagnostic> opened = is_standard_input ? spool(STDIN_FILENO, name) : open_file(path);
+  auto opened = ProgramBytes::open(path);
   if (!opened) return Failure{opened.error()};
+  const std::string name = path == "-" ? "standard input" : path;
 
   auto state = std::make_unique<State>();
   state->name = name;
-  state->file = std::make_shared<const File>(std::move(*opened));
-  struct stat status = {};
-  if (::fstat(state->file->get(), &status) != 0) return Failure{unreadable(name, errno)};
-  state->size = static_cast<std::uint64_t>(status.st_size);
+  state->file = std::move(*opened);
+  state->size = state->file->size();
   state->buffer.resize(buffer_size);
 
   Diagnostics diagnostics;
   if (!state->fill(diagnostics)) return Failure{diagnostics.all().front()};
   const std::string_view first(state->buffer.data(), std::min(state->filled, inspected_bytes));
   if (first.empty() || (first == utf8_mark && state->at_file_end)) {
-    return Failure{whole_file("file.empty", name, gcode_says::empty_file, gcode_says::gcode_file)};
+    return Failure{about_whole_file("file.empty", name, gcode_says::empty_file, gcode_says::gcode_file)};
   }
   if (const ForeignFile foreign = foreign_file(name, first); !foreign.kind.empty()) {
-    return Failure{whole_file(inspect(first) == Content::text ? "file.not-gcode" : "file.binary", name,
-                              kind_in_words(foreign), foreign.expected)};
+    return Failure{about_whole_file(inspect(first) == Content::text ? "file.not-gcode" : "file.binary", name,
+                                    kind_in_words(foreign), foreign.expected)};
   }
   switch (inspect(first)) {
     case Content::text: break;
     case Content::wide_text:
-      return Failure{whole_file("file.binary", name, "the file is UTF-16 text", "the file saved as UTF-8 or ASCII")};
-    case Content::binary: return Failure{whole_file("file.binary", name, gcode_says::not_text, gcode_says::plain_text)};
+      return Failure{
+          about_whole_file("file.binary", name, "the file is UTF-16 text", "the file saved as UTF-8 or ASCII")};
+    case Content::binary:
+      return Failure{about_whole_file("file.binary", name, gcode_says::not_text, gcode_says::plain_text)};
   }
   if (first.starts_with(utf8_mark)) state->start = state->cursor = utf8_mark.size();
   return ProgramReader(std::move(state));

@@ -20,8 +20,9 @@ constexpr auto pairs = [] {
 }();
 
 void write_pair(char* to, std::uint64_t below_hundred) {
-  to[0] = pairs[2 * below_hundred];
-  to[1] = pairs[2 * below_hundred + 1];
+  const auto at = static_cast<std::size_t>(2 * below_hundred);
+  to[0] = pairs[at];
+  to[1] = pairs[at + 1];
 }
 
 constexpr std::uint64_t power_of_ten(int exponent) {

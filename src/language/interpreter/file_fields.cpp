@@ -5,6 +5,8 @@
 
 #include "rules.hpp"
 
+#include "passo/base/read_double.hpp"
+
 namespace passo {
 namespace {
 
@@ -63,7 +65,7 @@ void FieldReader::error(std::string_view code, FindingWords message, FindingWord
 std::optional<double> number_of(std::string_view text) {
   text = without_plus(text);
   double value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, problem] = read_double(text.data(), text.data() + text.size(), value);
   const bool good = problem == std::errc() && end == text.data() + text.size() && std::abs(value) < largest_number;
   return good ? std::optional(value) : std::nullopt;
 }

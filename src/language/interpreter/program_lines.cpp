@@ -1,9 +1,9 @@
 #include "program_lines.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "block_words.hpp"
+#include "file_place.hpp"
 #include "grbl_dialect.hpp"
 #include "interpreter_sentences.hpp"
 #include "whole_number.hpp"
@@ -261,7 +261,7 @@ bool ProgramLines::find_in(File& file, Symbol label) {
 // The first file of that name counts, as in LinuxCNC.
 ProgramLines::File* ProgramLines::open_named(Symbol label) {
   const std::string name = std::string(symbols_.name(label)) + ".ngc";
-  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path().string(), name);
+  File* file = open_in(folder_of_file(files_.front()->name), name);
   for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
     file = open_in(options_.sub_folders[i], name);
   }
@@ -270,13 +270,12 @@ ProgramLines::File* ProgramLines::open_named(Symbol label) {
 
 ProgramLines::File* ProgramLines::open_in(const std::string& folder, const std::string& name) {
   constexpr std::size_t most_files = 64;
-  const std::filesystem::path path = std::filesystem::path(folder) / name;
+  const std::string path = file_in_folder(folder, name);
   for (const auto& file : files_) {
-    if (file->name == path.string()) return file.get();
+    if (file->name == path) return file.get();
   }
-  std::error_code problem;
-  if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
-  auto reader = ProgramReader::open(path.string());
+  if (files_.size() >= most_files || !is_regular_file(path)) return nullptr;
+  auto reader = ProgramReader::open(path);
   if (!reader) return nullptr;
   files_.push_back(std::make_unique<File>(std::move(*reader), files_.size(), symbols_));
   return files_.back().get();
@@ -288,7 +287,7 @@ std::string ProgramLines::places_looked_at(const std::string& file) const {
   for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
   for (const auto& open : files_) {
     if (open.get() == file_) continue;
-    const bool has_its_name = std::filesystem::path(open->name).filename() == file;
+    const bool has_its_name = name_without_folder(open->name) == file;
     places += fmt::format("; {} {}", open->name, has_its_name ? "exists, but does not contain it" : "was searched");
   }
   return places;

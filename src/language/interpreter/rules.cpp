@@ -1,11 +1,13 @@
 #include "rules.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <system_error>
 
 #include "code_table.hpp"
+
+#include "passo/base/read_double.hpp"
 
 namespace passo {
 namespace {
@@ -154,7 +156,7 @@ std::string_view chapter_of_the_code(const Diagnostic& diagnostic) {
   if (place.column == 0 || place.column > diagnostic.text.size()) return {};
   const std::string_view word = std::string_view(diagnostic.text).substr(place.column - 1, place.length);
   double number = 0;
-  const auto [end, problem] = std::from_chars(word.data() + 1, word.data() + word.size(), number);
+  const auto [end, problem] = read_double(word.data() + 1, word.data() + word.size(), number);
   if (problem != std::errc() || end != word.data() + word.size() || !(std::abs(number) < 1000)) return {};
   const char letter = word[0] == 'g' ? 'G' : word[0] == 'm' ? 'M' : word[0];
   const CodeEntry* const entry = find_code(letter, static_cast<CodeNumber>(std::lround(number * 10)));

@@ -1,8 +1,7 @@
 #include "passo/interpreter/settings_file.hpp"
 
-#include <filesystem>
-
 #include "file_fields.hpp"
+#include "file_place.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -114,7 +113,7 @@ bool SettingsFile::read(const std::string& path, Diagnostics& diagnostics) {
     diagnostics.add(std::move(problem));
     return false;
   }
-  folder_ = std::filesystem::path(path).parent_path().string();
+  folder_ = folder_of_file(path);
   const std::size_t before = diagnostics.errors();
   FieldReader fields(std::move(*reader), diagnostics);
   std::string section;
@@ -201,7 +200,7 @@ std::string SettingsFile::path_of(std::string_view section, std::string_view nam
 }
 
 std::string SettingsFile::beside(std::string_view path) const {
-  return (std::filesystem::path(folder_) / path).string();
+  return file_in_folder(folder_, path);
 }
 
 }  // namespace passo

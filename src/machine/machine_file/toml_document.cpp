@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <utility>
 
+#include "toml_parse.hpp"
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include "passo/base/counted.hpp"
 
@@ -99,16 +100,15 @@ struct Attempt {
 };
 
 Attempt attempt(std::string_view text, const TomlReporter& reporter) {
-  try {
-    return {toml::parse(text), 0};
-  } catch (const toml::parse_error& error) {
-    report(error, reporter);
-    const std::string_view description = error.description();
-    const bool begun_before = description.find("parsing array") != std::string_view::npos ||
-                              description.find("parsing inline table") != std::string_view::npos ||
-                              description.find("end-of-file") != std::string_view::npos;
-    return {std::nullopt, begun_before ? 0 : error.source().begin.line};
-  }
+  auto table = parsed_toml(text);
+  if (table) return {std::move(*table), 0};
+  const toml::parse_error& error = table.error();
+  report(error, reporter);
+  const std::string_view description = error.description();
+  const bool begun_before = description.find("parsing array") != std::string_view::npos ||
+                            description.find("parsing inline table") != std::string_view::npos ||
+                            description.find("end-of-file") != std::string_view::npos;
+  return {std::nullopt, begun_before ? 0 : error.source().begin.line};
 }
 
 // Overwrites a line with spaces, so that all other lines keep their places. Returns false where that would not help:

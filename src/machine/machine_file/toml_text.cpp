@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "toml_parse.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 namespace passo {
 namespace {
@@ -20,11 +20,10 @@ Failure<TomlTextError> refusal(std::string message) {
 // What the parser tells of a text, or why it is not TOML.
 Result<toml::table, TomlTextError> parsed(std::string_view text) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    return refusal(fmt::format("this is not TOML: {}, in line {}", error.description(), error.source().begin.line));
-  }
+  auto table = parsed_toml(text);
+  if (table) return std::move(*table);
+  const toml::parse_error& error = table.error();
+  return refusal(fmt::format("this is not TOML: {}, in line {}", error.description(), error.source().begin.line));
 }
 
 // Where the parser's places are in the text, in bytes. The parser counts characters.

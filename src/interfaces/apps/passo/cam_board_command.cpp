@@ -7,11 +7,11 @@
 #include "background_process.hpp"
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
-#include "check_page.hpp"
 #include "progress_display.hpp"
 #include "unfinished_job.hpp"
 
 #include "passo/cam/board_job.hpp"
+#include "passo/judge/check_page.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/probing/probing_cycle.hpp"
 #include "passo/report/board_picture.hpp"

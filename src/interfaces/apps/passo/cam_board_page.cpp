@@ -1,11 +1,11 @@
 #include "cam_board_page.hpp"
 
-#include "check_page.hpp"
 #include "check_style.hpp"
 #include "html_page.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/judge/check_page.hpp"
 #include "passo/report/html.hpp"
 
 namespace passo {

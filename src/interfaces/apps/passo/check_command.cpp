@@ -7,45 +7,32 @@
 #include <utility>
 
 #include "cam_job.hpp"
-#include "check_page.hpp"
 #include "check_report.hpp"
 #include "commands.hpp"
 #include "cut_words.hpp"
-#include "fit_proposals.hpp"
 #include "link_delay.hpp"
 #include "named_files.hpp"
-#include "operator_prompt.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
 #include "progress_display.hpp"
 #include "stock_setup.hpp"
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
-#include "passo/diagnostics/findings_json.hpp"
+#include "passo/judge/check_page.hpp"
+#include "passo/judge/fit_proposals.hpp"
+#include "passo/judge/link_delay_words.hpp"
 #include "passo/judge/motion_trial.hpp"
+#include "passo/judge/program_stops.hpp"
 #include "passo/proof/proof_text.hpp"
 #include "passo/report/motion_picture.hpp"
 #include "passo/report/output_file.hpp"
 
 namespace passo {
 namespace {
-
-nlohmann::ordered_json as_json(const Diagnostics& findings, const ProgramStops& stops) {
-  nlohmann::ordered_json waits = nlohmann::ordered_json::array();
-  for (const OperatorWait& stop : stops.first()) {
-    waits.push_back({{"line", stop.line}, {"for", code_of(stop)}});
-    if (stop.kind == Action::Kind::tool_change) waits.back()["tool"] = stop.tool;
-    if (!stop.words.empty()) waits.back()["message"] = stop.words;
-  }
-  return {{"good", !findings.any_error()},
-          {"errors", findings.errors()},
-          {"findings", findings_json(findings.all())},
-          {"waits", stops.count()},
-          {"waits_first_at", waits}};
-}
 
 int draw(const MotionRecorder& motion, const MotionProof& proof, const CheckArguments& arguments) {
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
@@ -181,7 +168,7 @@ void print(const CheckArguments& arguments, const MachineDescription& machine, c
            const std::vector<Proposal>& proposals) {
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    nlohmann::ordered_json json = as_json(first.findings, first.stops);
+    nlohmann::ordered_json json = findings_as_json(first.findings, first.stops);
     if (page) add_to(json, *page, machine);
     if (cut) json["cut"] = as_json(*cut);
     json["proposals"] = passo::as_json(proposals);

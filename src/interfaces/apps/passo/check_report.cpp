@@ -5,13 +5,13 @@
 
 #include "check_style.hpp"
 #include "html_page.hpp"
-#include "link_delay.hpp"
 #include "time_chart.hpp"
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
 #include "passo/diagnostics/shown_location.hpp"
+#include "passo/judge/link_delay_words.hpp"
 #include "passo/machine_file/machine_kind.hpp"
 #include "passo/report/html.hpp"
 #include "passo/report/picture.hpp"

@@ -6,9 +6,8 @@
 
 #include <string>
 
-#include "check_page.hpp"
-
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/judge/check_page.hpp"
 
 namespace passo {
 

@@ -1,10 +1,7 @@
-// The cost of a serial link to the board, as shown by `passo check`.
+// The cost of a serial link to the board, with a progress line.
 #pragma once
 
 #include <optional>
-#include <string>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "passo/judge/link_delay.hpp"
 
@@ -14,9 +11,5 @@ namespace passo {
 std::optional<LinkDelay> line_cost_with_progress(const ProgramReader& program, const MachineDescription& machine,
                                                  const InterpreterOptions& options, const ProgramCheck& check,
                                                  Seconds without);
-
-// Returns one line for the output of `passo check`, with a final newline.
-std::string to_text(const LinkDelay& cost);
-nlohmann::ordered_json as_json(const LinkDelay& cost);
 
 }  // namespace passo

@@ -16,7 +16,6 @@ namespace {
 
 // How often the machine is heard while the program waits for somebody.
 constexpr Seconds between_looks{0.05};
-constexpr std::size_t most_told = 5;
 
 // Whether Enter is pressed within this time.
 bool enter_was_pressed(Seconds within) {
@@ -26,55 +25,18 @@ bool enter_was_pressed(Seconds within) {
   return read(STDIN_FILENO, typed, sizeof typed) > 0;
 }
 
-std::string what(const OperatorWait& wait) {
-  switch (wait.kind) {
-    case Action::Kind::tool_change: return fmt::format("tool {} (M6)", wait.tool);
-    case Action::Kind::optional_stop: return "optional stop (M1)";
-    default: return "program stop (M0)";
-  }
-}
-
 }  // namespace
 
 bool asks_operator() {
   return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
 }
 
-std::string describe(const OperatorWait& wait) {
-  std::string words = fmt::format("line {}: {}", wait.line, what(wait));
-  if (wait.words.empty()) return words;
-  words += ": " + wait.words;
-  for (std::size_t end = 0; (end = words.find('\n', end)) != std::string::npos;) words.replace(end, 1, ", ");
-  return words;
-}
-
-void ProgramStops::watch(const PathItem& item) {
-  const auto* action = std::get_if<Action>(&item);
-  if (action == nullptr) return;
-  using Kind = Action::Kind;
-  const bool stops =
-      action->kind == Kind::program_stop || action->kind == Kind::optional_stop || action->kind == Kind::tool_change;
-  if (!stops) return;
-  const std::uint32_t line = action->source.line;
-  if (++count_ <= most_told) {
-    stops_.push_back({.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)});
-  }
-  words_.pass(line);
-}
-
-std::string ProgramStops::words() const {
-  std::string words;
-  for (const OperatorWait& stop : stops_) words += (words.empty() ? "" : "; ") + describe(stop);
-  if (count_ > most_told) words += fmt::format("; and {} more", count_ - most_told);
-  return words;
-}
-
-void ProgramStops::tell(const RunArguments& arguments) const {
-  if (count_ == 0 || arguments.quiet) return;
+void tell_stops(const ProgramStops& stops, const RunArguments& arguments) {
+  if (stops.count() == 0 || arguments.quiet) return;
   fmt::print(stderr,
              "passo: note: {} stops for the operator at {}. The simulated machine skips this stop. A real board, or a "
              "run in a terminal, waits; --yes skips it there too\n",
-             arguments.program.program, words());
+             arguments.program.program, stops.words());
 }
 
 Seconds OperatorPrompt::poll(MachineSession& session) {

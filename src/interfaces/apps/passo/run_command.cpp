@@ -404,7 +404,7 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Mac
     start.lead_in = subject.way->lead_in;
   }
   if (resumable != nullptr) resumable->add_to(start);
-  if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
+  if (!start.waits_for_operator && !arguments.yes) tell_stops(stops, arguments);
   Answered answered;
   LatestMotion motion;
   const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion, port.get(), without_line};

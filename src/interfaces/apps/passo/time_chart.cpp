@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "check_page.hpp"
 #include <fmt/format.h>
 
+#include "passo/judge/check_page.hpp"
 #include "passo/report/html.hpp"
 
 namespace passo {

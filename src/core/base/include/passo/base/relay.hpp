@@ -5,22 +5,46 @@
 //
 // Each reader gets every item once, in order, so its results do not depend on thread timing. Memory is bounded: make()
 // waits while the slowest reader is a whole ring behind. An item must not refer to anything that make() changes later.
+//
+// WebAssembly has no threads here: there run() calls each reader with each item.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
+#ifndef __wasi__
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#endif
 
 namespace passo {
 
+#ifdef __wasi__
+template <class Item>
+class Relay {
+ public:
+  using CamService = std::function<bool(Item&)>;
+  using Reader = std::function<void(const Item&)>;
+
+  explicit Relay(std::vector<Reader> readers) : readers_(std::move(readers)) {}
+
+  void run(const CamService& make) {
+    while (make(item_)) {
+      for (const Reader& reader : readers_) reader(item_);
+    }
+  }
+
+ private:
+  const std::vector<Reader> readers_;
+  Item item_;
+};
+#else
 template <class Item>
 class Relay {
  public:
@@ -117,5 +141,6 @@ class Relay {
   std::vector<Block> ring_;
   std::vector<std::thread> threads_;
 };
+#endif
 
 }  // namespace passo

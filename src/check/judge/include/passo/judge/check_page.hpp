@@ -5,7 +5,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "passo/diagnostics/diagnostic.hpp"
 #include "passo/judge/judgement.hpp"
+#include "passo/judge/program_stops.hpp"
 
 namespace passo {
 
@@ -18,6 +20,9 @@ std::string limit_words(const SpeedShare& share);
 // there is no feed move.
 std::string feed_words(const WorkSummary& work, const RunSummary& summary);
 
+// The findings, and where the program stops for the operator: the keys `good`, `errors`, `findings`, `waits` and
+// `waits_first_at`.
+nlohmann::ordered_json findings_as_json(const Diagnostics& findings, const ProgramStops& stops);
 std::string to_text(const Judgement& page, const MachineDescription& machine);
 // Adds the keys `time_s`, `dwell_s`, `tool_changes`, `line`, `axes`, `work`, `speed` and `margin`.
 void add_to(nlohmann::ordered_json& json, const Judgement& page, const MachineDescription& machine);

@@ -1,8 +1,9 @@
-#include "fit_proposals.hpp"
+#include "passo/judge/fit_proposals.hpp"
 
-#include "check_page.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "passo/judge/check_page.hpp"
 
 namespace passo {
 namespace {

@@ -1,15 +1,16 @@
-#include "check_page.hpp"
+#include "passo/judge/check_page.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "link_delay.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
+#include "passo/diagnostics/findings_json.hpp"
+#include "passo/judge/link_delay_words.hpp"
 #include "passo/verdict/margin_words.hpp"
 
 namespace passo {
@@ -199,6 +200,20 @@ nlohmann::ordered_json work_json(const RunSummary& summary) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json findings_as_json(const Diagnostics& findings, const ProgramStops& stops) {
+  nlohmann::ordered_json waits = nlohmann::ordered_json::array();
+  for (const OperatorWait& stop : stops.first()) {
+    waits.push_back({{"line", stop.line}, {"for", code_of(stop)}});
+    if (stop.kind == Action::Kind::tool_change) waits.back()["tool"] = stop.tool;
+    if (!stop.words.empty()) waits.back()["message"] = stop.words;
+  }
+  return {{"good", !findings.any_error()},
+          {"errors", findings.errors()},
+          {"findings", findings_json(findings.all())},
+          {"waits", stops.count()},
+          {"waits_first_at", waits}};
+}
 
 std::string to_text(const Judgement& page, const MachineDescription& machine) {
   const RunSummary& summary = page.summary;
