@@ -30,6 +30,18 @@ double squared_distance(const Point& a, const Point& b) {
   return sums[0] + sums[1] + sums[2];
 }
 
+// The angle between two slopes, and by how much their logarithms differ. A slope that is 0 has no direction.
+double change_of_direction(const Point& a, const Point& b) {
+  const double squares_a = dot(a, a);
+  const double squares_b = dot(b, b);
+  if (!(squares_a > 0) || !(squares_b > 0)) return 0;
+  // The small angle loses no digits: the sine of its half is the distance of the two directions.
+  const double size_a = std::sqrt(squares_a);
+  const double size_b = std::sqrt(squares_b);
+  const double half = std::min(distance(a * (1 / size_a), b * (1 / size_b)) / 2, 1.0);
+  return 2 * std::asin(half) + std::abs(std::log(size_b / size_a));
+}
+
 // An arc's radius and angle at s, and their rates.
 struct Polar {
   double r, g, w;
@@ -107,21 +119,21 @@ Derivatives ExactCurve::at(Axis axis, double s) const {
 double ExactCurve::turning_of_all() const {
   if (curve_.shape() == Curve::Shape::arc) return std::abs(curve_.arc_data().sweep);
   if (curve_.shape() == Curve::Shape::line) return 0;
-  // The integral of |P''| / |P'| by Simpson's rule with eight parts.
   constexpr int parts = 8;
   double sum = 0;
-  for (int i = 0; i <= parts; ++i) {
-    double first = 0;
-    double second = 0;
-    for (const Axis axis : all_axes) {
-      const Derivatives d = at(axis, length() * i / parts);
-      first += d.first * d.first;
-      second += d.second * d.second;
-    }
-    const double weight = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
-    sum += weight * std::sqrt(second / std::max(first, 1e-12));
+  Point before = slope(0);
+  for (int i = 1; i <= parts; ++i) {
+    const Point after = slope(length() * i / parts);
+    sum += change_of_direction(before, after);
+    before = after;
   }
-  return sum * length() / (3 * parts);
+  return sum;
+}
+
+Point ExactCurve::slope(double s) const {
+  Point slope;
+  for (const Axis axis : all_axes) slope[axis] = at(axis, s).first;
+  return slope;
 }
 
 bool ExactCurve::is_circle() const {

@@ -28,8 +28,8 @@ class ExactCurve {
   bool moves(Axis axis) const;
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
-  // Returns approximately the angle by which the direction turns over the whole curve, in radians. For an arc never too
-  // small.
+  // Returns approximately the angle by which the direction turns over the whole curve, in radians, and the change of
+  // the logarithm of |dP/ds|. For an arc never too small.
   double turning() const { return turning_; }
 
   // Returns an upper bound of |dP/ds|: 1, or nearly 1, where s is the length to which the feed applies.
@@ -47,6 +47,7 @@ class ExactCurve {
  private:
   double turning_of_all() const;
   double fastest_of_all() const;
+  Point slope(double s) const;  // dP/ds of a cubic
   bool in_plane(Axis axis) const;
   bool is_circle() const;
   Nearest nearest_of_circle(const Point& point, double from, double to) const;

@@ -20,6 +20,7 @@ PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options)
   for (const ProvenAxis& axis : options.axes) {
     limits_.emplace_back(axis);
     start_stop_.push_back(axis.start_stop.value());
+    backlash_[axis.axis] = axis.backlash.value();
   }
 }
 
@@ -77,6 +78,7 @@ void PhasePeaks::watch(const PlannedMove& move) {
   if (!move.segment.curve.has_length() || move.phase_count == 0) return;
   ++proof_.moves;
   line_ = move.segment.source.line;
+  downs_ = move.segment.downs;
   const ExactCurve curve(move.segment.curve);
   bool begins_segment = move.from() == Mm(0);
   for (const Phase& phase : move) {
@@ -87,16 +89,24 @@ void PhasePeaks::watch(const PlannedMove& move) {
     see_feed(move.segment, phase);
     const Way end = way_at(phase, phase.duration.value());
     for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = motion_of(curve.at(proof_.axes[i].axis, end.s), end);
-    place_ = curve.place(end.s);
+    place_ = motors_at(curve.place(end.s));
     now_ += phase.duration;
   }
-  check_gap(distance(*place_, curve.place(move.to.value())));
+  check_gap(distance(*place_, motors_at(curve.place(move.to.value()))));
+}
+
+// A motor that drives its axis in the negative direction is a backlash behind it.
+Point PhasePeaks::motors_at(Point place) const {
+  for (const Axis axis : all_axes) {
+    if (downs_.has(axis)) place[axis] -= backlash_[axis];
+  }
+  return place;
 }
 
 // Compares the end of the last phase with the start of this one. `rests`: the machine may have rested between.
 void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   const Way start = way_at(phase, 0);
-  if (place_) check_gap(distance(*place_, curve.place(start.s)));
+  if (place_) check_gap(distance(*place_, motors_at(curve.place(start.s))));
   rests = rests || stands();
   for (std::size_t i = 0; i < before_.size(); ++i) {
     meet(i, motion_of(curve.at(proof_.axes[i].axis, start.s), start), rests);

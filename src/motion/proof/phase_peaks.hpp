@@ -47,6 +47,7 @@ class PhasePeaks {
   bool stands() const;
   void meet(std::size_t i, const Motion& motion, bool rests);
   void raise_jump(std::size_t i, double jump, double limit);
+  Point motors_at(Point place) const;
   void check_gap(double gap);
   void raise(Finding& finding, double value, double t) const;
   void raise_acceleration(std::size_t i, const Motion& motion, double t);
@@ -57,10 +58,12 @@ class PhasePeaks {
   std::uint32_t line_ = 0;
   std::vector<SpeedLimit> limits_;  // by axis
   std::vector<double> start_stop_;  // by axis
+  PerAxis<double> backlash_;
+  AxisSet downs_;                   // the axes whose backlash is taken up for the negative direction
   std::vector<Motion> before_;      // by axis, at the end of the last phase
   std::vector<double> stopped_;     // by axis: the velocity just before the latest stop without duration
   bool at_rest_ = true;
-  std::optional<Point> place_;  // position at the end of the last phase
+  std::optional<Point> place_;  // position of the motors at the end of the last phase
 };
 
 }  // namespace passo::proof
