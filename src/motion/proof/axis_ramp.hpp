@@ -47,7 +47,8 @@ class AxisRamp {
   const Step& step_at(double speed) const;
   double way_to(double speed) const;
   double time_to(double speed) const;
-  double speed_after(double way) const;
+  // `least`: a speed that is reached before.
+  double speed_after(double way, double least) const;
 
   double strongest_ = 0;     // the acceleration from rest; 0: no limit
   double width_ = 0;         // speed range of a step

@@ -55,6 +55,22 @@ Polar polar_at(const Curve& curve, double s) {
   return {.r = arc.start_radius + g * s, .g = g, .w = w, .direction = std::polar(1.0, arc.start_angle + w * s)};
 }
 
+struct ArcDerivatives {
+  Complex first, second, third;
+};
+ArcDerivatives derivatives_of(const Polar& polar) {
+  const auto& [r, g, w, direction] = polar;
+  return {.first = Complex(g, r * w) * direction,
+          .second = Complex(-r * w * w, 2 * g * w) * direction,
+          .third = -Complex(3 * g * w * w, r * w * w * w) * direction};
+}
+Derivatives real_part(const ArcDerivatives& arc) {
+  return {arc.first.real(), arc.second.real(), arc.third.real()};
+}
+Derivatives imaginary_part(const ArcDerivatives& arc) {
+  return {arc.first.imag(), arc.second.imag(), arc.third.imag()};
+}
+
 }  // namespace
 
 double distance(const Point& a, const Point& b) {
@@ -100,6 +116,21 @@ Point ExactCurve::place(double s) const {
   return point;
 }
 
+ExactCurve::AllDerivatives ExactCurve::at(std::span<const Axis> axes, double s) const {
+  AllDerivatives all;
+  if (curve_.shape() != Curve::Shape::arc) {
+    for (std::size_t i = 0; i < axes.size(); ++i) all[i] = at(axes[i], s);
+    return all;
+  }
+  const ArcDerivatives arc = derivatives_of(polar_at(curve_, s));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    all[i] = !in_plane(axes[i])                           ? at(axes[i], s)
+             : axes[i] == curve_.arc_data().first ? real_part(arc)
+                                                          : imaginary_part(arc);
+  }
+  return all;
+}
+
 Derivatives ExactCurve::at(Axis axis, double s) const {
   if (curve_.shape() == Curve::Shape::cubic) {
     const Curve::CubicData data = curve_.cubic_data();
@@ -108,12 +139,8 @@ Derivatives ExactCurve::at(Axis axis, double s) const {
             .third = 6 * data.third[axis]};
   }
   if (!in_plane(axis)) return {.first = (curve_.end()[axis] - curve_.start()[axis]) / length()};
-  const auto [r, g, w, direction] = polar_at(curve_, s);
-  const Complex first = Complex(g, r * w) * direction;
-  const Complex second = Complex(-r * w * w, 2 * g * w) * direction;
-  const Complex third = -Complex(3 * g * w * w, r * w * w * w) * direction;
-  if (axis == curve_.arc_data().first) return {first.real(), second.real(), third.real()};
-  return {first.imag(), second.imag(), third.imag()};
+  const ArcDerivatives arc = derivatives_of(polar_at(curve_, s));
+  return axis == curve_.arc_data().first ? real_part(arc) : imaginary_part(arc);
 }
 
 double ExactCurve::turning_of_all() const {

@@ -4,9 +4,12 @@
 //   p' = (g + i r w) e^(iφ),   p'' = (2 i g w − r w²) e^(iφ),   p''' = −(3 g w² + i r w³) e^(iφ).
 #pragma once
 
+#include <array>
 #include <complex>
+#include <span>
 
 #include "passo/geometry/curve.hpp"
+#include "passo/wire/board_segment.hpp"
 
 namespace passo::proof {
 
@@ -28,6 +31,10 @@ class ExactCurve {
   bool moves(Axis axis) const;
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
+  // The same for several axes; for an arc cheaper than one by one.
+  using AllDerivatives = std::array<Derivatives, max_motors>;
+  AllDerivatives at(std::span<const Axis> axes, double s) const;
+  bool in_plane(Axis axis) const;  // of an arc
   // Returns approximately the angle by which the direction turns over the whole curve, in radians, and the change of
   // the logarithm of |dP/ds|. For an arc never too small.
   double turning() const { return turning_; }
@@ -48,7 +55,6 @@ class ExactCurve {
   double turning_of_all() const;
   double fastest_of_all() const;
   Point slope(double s) const;  // dP/ds of a cubic
-  bool in_plane(Axis axis) const;
   bool is_circle() const;
   Nearest nearest_of_circle(const Point& point, double from, double to) const;
   Nearest nearest_of_bent(const Point& point, double from, double to) const;

@@ -17,9 +17,8 @@ LostMotion::LostMotion(const ProofOptions& options, MotionProof& proof) : proof_
   }
 }
 
-void LostMotion::watch(const PlannedMove& move, Seconds now) {
-  if (plays_.empty() || !move.segment.curve.has_length() || move.phase_count == 0) return;
-  const ExactCurve curve(move.segment.curve);
+void LostMotion::watch(const PlannedMove& move, const ExactCurve& curve, Seconds now) {
+  if (plays_.empty()) return;
   const double from = move.from().value();
   for (int i = 0; i <= looks; ++i) {
     const Point place = curve.place(from + (move.to.value() - from) * i / looks);

@@ -23,7 +23,7 @@ class LostMotion {
   // Writes its findings into `proof`, whose axes and limits are already set.
   LostMotion(const ProofOptions& options, MotionProof& proof);
 
-  void watch(const PlannedMove& move, Seconds now);
+  void watch(const PlannedMove& move, const ExactCurve& curve, Seconds now);
 
  private:
   struct Play {

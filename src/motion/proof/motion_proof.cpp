@@ -100,10 +100,12 @@ class MotionProver::Implementation {
       return;
     }
     const auto& move = std::get<PlannedMove>(item);
-    deviation_.planned(move, peaks_.now());
-    bound_.watch(move);
-    backlash_.watch(move, peaks_.now());
-    peaks_.watch(move);
+    if (!move.segment.curve.has_length() || move.phase_count == 0) return;
+    const proof::ExactCurve curve(move.segment.curve);
+    deviation_.planned(move, curve, peaks_.now());
+    bound_.watch(move, curve);
+    backlash_.watch(move, curve, peaks_.now());
+    peaks_.watch(move, curve);
   }
   MotionProof finish() {
     deviation_.finish(peaks_.now());

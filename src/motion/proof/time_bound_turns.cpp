@@ -51,7 +51,7 @@ void TimeBound::find_turning_pairs() {
 // Each |q'| is greatest at an end of the cell. On a cubic T is a parabola.
 void TimeBound::add_turns(const ExactCurve& curve, const Place& from, const Place& middle, const Place& to) {
   const double way = to.s - from.s + rounding_of_way * curve.length();
-  for (const TurningPair& pair : turning_pairs_) {
+  for (const AxisPair& pair : turning_pairs_) {
     const auto steepest = [&](std::size_t axis) {
       return std::max(std::abs(from.slope[axis]), std::abs(to.slope[axis]));
     };
@@ -64,7 +64,7 @@ void TimeBound::add_turns(const ExactCurve& curve, const Place& from, const Plac
 }
 
 // What rounding allows where two curves join: the axes' accelerations and velocities may jump a little.
-TimeBound::Turn TimeBound::jump_of(const TurningPair& pair, const Place& start) const {
+TimeBound::Turn TimeBound::jump_of(const AxisPair& pair, const Place& start) const {
   const ProvenAxis& i = axes_[pair.i];
   const ProvenAxis& j = axes_[pair.j];
   const double strength_i = i.acceleration.value();
@@ -87,7 +87,7 @@ void TimeBound::add_jumps(std::size_t cell, const Place& start) {
 // before it.
 double TimeBound::bend_cap(const Place& before, const Place& after, double scale) const {
   double cap = fastest;
-  for (const TurningPair& pair : turning_pairs_) {
+  for (const AxisPair& pair : turning_pairs_) {
     const double jump = std::abs(after.turn[pair.place] - before.turn[pair.place] / cube_of_speed(scale));
     const Turn allowed = jump_of(pair, after);
     const double speed = std::sqrt(allowed.jump / jump) + std::cbrt(allowed.kink / jump);
