@@ -6,7 +6,6 @@
 namespace passo::proof {
 namespace {
 
-
 // A peak is found to this share of itself.
 constexpr double precision_of_peak = 1e-10;
 constexpr int most_halvings = 40;

@@ -7,7 +7,7 @@ namespace passo::proof {
 namespace {
 
 constexpr int steps_to_top_speed = 10'000;
-constexpr double rounding_of_speed = 1e-9;
+constexpr int entries = 8'192;  // of the table from ways to steps
 
 }  // namespace
 
@@ -23,6 +23,13 @@ AxisRamp::AxisRamp(const ProvenAxis& axis, const SpeedLimit& limit) : strongest_
     }
     steps_.push_back(step);
   }
+  // From rest the speed grows about as the root of the way.
+  std::size_t i = 0;
+  for (int k = 0; k <= entries; ++k) {
+    const double way = squared(static_cast<double>(k) / entries) * steps_.back().way;
+    while (i + 1 < steps_.size() && steps_[i + 1].way <= way) ++i;
+    first_steps_.push_back(static_cast<std::uint32_t>(i > 0 ? i - 1 : 0));
+  }
 }
 
 const AxisRamp::Step& AxisRamp::step_at(double speed) const {
@@ -37,22 +44,17 @@ double AxisRamp::time_to(double speed) const {
   const Step& step = step_at(speed);
   return step.time + (speed - step.speed) / step.strength;
 }
-// The step is near that of `least`, so the search begins there and doubles its width until it has passed the way.
-double AxisRamp::speed_after(double way, double least) const {
-  const auto first = static_cast<std::size_t>(&step_at(least) - steps_.data());
-  std::size_t width = 1;
-  while (first + width < steps_.size() && steps_[first + width].way <= way) width *= 2;
-  const auto begin = steps_.begin() + static_cast<std::ptrdiff_t>(first + width / 2);
-  const auto end = steps_.begin() + static_cast<std::ptrdiff_t>(std::min(first + width, steps_.size()));
-  const auto after = std::ranges::upper_bound(begin, end, way, {}, &Step::way);
-  const Step& step = after == steps_.begin() ? steps_.front() : *(after - 1);
+double AxisRamp::speed_after(double way) const {
+  const double share = std::sqrt(std::max(way, 0.0) / steps_.back().way);
+  std::size_t i = first_steps_[static_cast<std::size_t>(std::min(share, 1.0) * entries)];
+  while (i + 1 < steps_.size() && steps_[i + 1].way <= way) ++i;
+  const Step& step = steps_[i];
   return std::sqrt(step.speed * step.speed + 2 * step.strength * std::max(way - step.way, 0.0));
 }
 
 double AxisRamp::square_after(double square, double way) const {
   if (steps_.empty()) return square + 2 * strongest_ * way;
-  const double before = std::sqrt(square);
-  const double speed = speed_after(way_to(before) + way, before);
+  const double speed = speed_after(way_to(std::sqrt(square)) + way);
   return speed * speed;
 }
 
@@ -73,7 +75,7 @@ double AxisRamp::least_time(Squares squares, double way) const {
     return 2 * rise / (peak + start) + 2 * fall / (peak + end) + (way - rise - fall) / peak;
   }
   const double of_ends = way_to(start) + way_to(end);
-  const double peak = std::min(top, speed_after((of_ends + way) / 2, std::max(start, end) * (1 - rounding_of_speed)));
+  const double peak = std::min(top, speed_after((of_ends + way) / 2));
   const double ramps = 2 * way_to(peak) - of_ends;
   return 2 * time_to(peak) - time_to(start) - time_to(end) + (way - ramps) / peak;
 }

@@ -124,9 +124,9 @@ ExactCurve::AllDerivatives ExactCurve::at(std::span<const Axis> axes, double s) 
   }
   const ArcDerivatives arc = derivatives_of(polar_at(curve_, s));
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    all[i] = !in_plane(axes[i])                           ? at(axes[i], s)
+    all[i] = !in_plane(axes[i])                   ? at(axes[i], s)
              : axes[i] == curve_.arc_data().first ? real_part(arc)
-                                                          : imaginary_part(arc);
+                                                  : imaginary_part(arc);
   }
   return all;
 }
@@ -217,11 +217,14 @@ ExactCurve::Nearest ExactCurve::nearest_of_circle(const Point& point, double fro
   return {.s = s, .distance = distance(point, place(s))};
 }
 
-// Takes the best of a row of points, and a golden section around it.
+// Takes the best of a row of points. Between its neighbours, where the way from the point is at right angles to the
+// curve, it is nearest: Newton's method, and halves where that would leave the part.
 ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from, double to) const {
   constexpr double piece = 0.2;  // radians
+  constexpr int most_steps = 40;
+  constexpr double near = 1e-8;  // a share of the part: its square is the error of the distance
   const double turns = turning_ * (to - from) / length();
-  const int parts = 4 + static_cast<int>(std::min(turns / piece, 1e4));
+  const int parts = 2 + static_cast<int>(std::min(turns / piece, 1e4));
   const double step = (to - from) / parts;
   int best = 0;
   double least = INFINITY;
@@ -232,27 +235,25 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
       best = i;
     }
   }
-  constexpr double golden = 0.6180339887498949;
   double low = from + step * std::max(best - 1, 0);
   double high = from + step * std::min(best + 1, parts);
-  double a = high - golden * (high - low);
-  double b = low + golden * (high - low);
-  double at_a = squared_distance(point, place(a));
-  double at_b = squared_distance(point, place(b));
-  for (int i = 0; i < 44; ++i) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      at_a = squared_distance(point, place(a = high - golden * (high - low)));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      at_b = squared_distance(point, place(b = low + golden * (high - low)));
+  double s = from + step * best;
+  for (int i = 0; i < most_steps && high - low > near * step; ++i) {
+    const Point away = place(s) - point;
+    double pull = 0;   // half of the derivative of the squared distance
+    double steep = 0;  // and its derivative
+    const auto all = at(all_axes, s);
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      pull += away.values[k] * all[k].first;
+      steep += all[k].first * all[k].first + away.values[k] * all[k].second;
     }
+    (pull > 0 ? high : low) = s;
+    const double next = steep > 0 ? s - pull / steep : low;
+    const bool is_inside = next > low && next < high;
+    const double moved = std::abs(next - s);
+    s = is_inside ? next : (low + high) / 2;
+    if (is_inside && moved < near * step) break;
   }
-  const double s = (low + high) / 2;
   const double here = squared_distance(point, place(s));
   return here <= least ? Nearest{s, std::sqrt(here)} : Nearest{from + step * best, std::sqrt(least)};
 }

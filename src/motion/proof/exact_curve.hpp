@@ -9,7 +9,6 @@
 #include <span>
 
 #include "passo/geometry/curve.hpp"
-#include "passo/wire/board_segment.hpp"
 
 namespace passo::proof {
 
@@ -32,7 +31,7 @@ class ExactCurve {
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
   // The same for several axes; for an arc cheaper than one by one.
-  using AllDerivatives = std::array<Derivatives, max_motors>;
+  using AllDerivatives = std::array<Derivatives, axis_count>;
   AllDerivatives at(std::span<const Axis> axes, double s) const;
   bool in_plane(Axis axis) const;  // of an arc
   // Returns approximately the angle by which the direction turns over the whole curve, in radians, and the change of

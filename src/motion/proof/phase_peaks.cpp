@@ -220,7 +220,8 @@ void PhasePeaks::measure(const ExactCurve& curve, const Phase& phase) {
 void PhasePeaks::measure_polynomial(const AxisPolynomial& polynomial, Seconds duration, std::size_t i) {
   using Order = AxisPolynomial::Order;
   const auto see_peak = [&](Finding& finding, Order order) {
-    if (const auto peak = polynomial.peak_above(finding.value, order)) raise(finding, peak->value, peak->u * duration.value());
+    if (const auto peak = polynomial.peak_above(finding.value, order))
+      raise(finding, peak->value, peak->u * duration.value());
   };
   AxisProof& axis = proof_.axes[i];
   see_peak(axis.velocity, Order::velocity);

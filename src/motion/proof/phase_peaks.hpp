@@ -2,8 +2,8 @@
 //
 //   q̇ = q' ṡ      q̈ = q'' ṡ² + q' s̈      q⃛ = q''' ṡ³ + 3 q'' ṡ s̈ + q' s⃛
 //
-// On a line or a cubic these are polynomials of time, whose peaks are found exactly (AxisPolynomial). In the plane of an
-// arc, and under a limit that falls with the speed, many points are evaluated, followed by a golden-section search
+// On a line or a cubic these are polynomials of time, whose peaks are found exactly (AxisPolynomial). In the plane of
+// an arc, and under a limit that falls with the speed, many points are evaluated, followed by a golden-section search
 // between the neighbours of the best one.
 #pragma once
 
@@ -72,9 +72,9 @@ class PhasePeaks {
   std::vector<SpeedLimit> limits_;  // by axis
   std::vector<double> start_stop_;  // by axis
   PerAxis<double> backlash_;
-  AxisSet downs_;                   // the axes whose backlash is taken up for the negative direction
-  std::vector<Motion> before_;      // by axis, at the end of the last phase
-  std::vector<double> stopped_;     // by axis: the velocity just before the latest stop without duration
+  AxisSet downs_;                // the axes whose backlash is taken up for the negative direction
+  std::vector<Motion> before_;   // by axis, at the end of the last phase
+  std::vector<double> stopped_;  // by axis: the velocity just before the latest stop without duration
   bool at_rest_ = true;
   std::optional<Point> place_;  // position of the motors at the end of the last phase
 };

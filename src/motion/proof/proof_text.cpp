@@ -76,10 +76,10 @@ Json json_of(const Finding& finding, double noise) {
 
 Json json_of(const AxisProof& axis) {
   Json json = {{"velocity", json_of(axis.velocity)},
-          {"acceleration", json_of(axis.acceleration)},
-          {"jerk", json_of(axis.jerk)},
-          {"velocity_jump", json_of(axis.velocity_jump)},
-          {"acceleration_jump", json_of(axis.acceleration_jump)},
+               {"acceleration", json_of(axis.acceleration)},
+               {"jerk", json_of(axis.jerk)},
+               {"velocity_jump", json_of(axis.velocity_jump)},
+               {"acceleration_jump", json_of(axis.acceleration_jump)},
                {"step_velocity", json_of(axis.step_velocity, axis.step_velocity_noise)},
                {"step_acceleration", json_of(axis.step_acceleration, axis.step_acceleration_noise)}};
   if (axis.lost_motion.limit > 0) json["lost_motion"] = json_of(axis.lost_motion);

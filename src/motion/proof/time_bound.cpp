@@ -12,8 +12,8 @@ constexpr double turn_of_a_cell = 0.02;  // radians
 constexpr double cells_of_a_ramp = 64;
 constexpr double fewest_cells = 4;
 // The window, and what stays of it when its first part is played.
-constexpr std::size_t most_cells = 49152;
-constexpr std::size_t cells_kept = 16384;
+constexpr std::size_t most_cells = 40960;
+constexpr std::size_t cells_kept = 8192;
 // 1/x of a bend is known to this share of itself, and rather too small than too large.
 constexpr double precision_of_bend = 1e-9;
 constexpr int most_secants = 60;

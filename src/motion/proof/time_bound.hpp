@@ -107,7 +107,7 @@ class TimeBound {
   double turn_at_entry(std::size_t cell, std::size_t pair) const;
   double turn_at_exit(std::size_t cell, std::size_t pair) const;
   double turn_at_joint(std::size_t cell, std::size_t pair) const;
-  void lower_where_it_turns(double at_end);
+  bool lower_where_it_turns(double at_end);
   void lower_caps(double at_end, bool rests);
   double exit_of(std::size_t cell, double entry, double at_end) const;
   void settle(std::size_t cells);

@@ -18,6 +18,9 @@ std::string limit_words(const SpeedShare& share);
 // there is no feed move.
 std::string feed_words(const WorkSummary& work, const RunSummary& summary);
 
+// What limits the speed, and for how much of the time of the motion; and the slowest and the fastest lines.
+std::string speed_words(const SpeedReport& speed, Seconds whole);
+nlohmann::ordered_json as_json(const SpeedReport& speed);
 std::string to_text(const Judgement& page, const MachineDescription& machine);
 // Adds the keys `time_s`, `dwell_s`, `tool_changes`, `line`, `axes`, `work`, `speed` and `margin`.
 void add_to(nlohmann::ordered_json& json, const Judgement& page, const MachineDescription& machine);
