@@ -6,8 +6,8 @@
 namespace passo::proof {
 namespace {
 
-constexpr int steps_to_top_speed = 10'000;
-constexpr int entries = 8'192;  // of the table from ways to steps
+constexpr int steps_to_top_speed = 4000;
+constexpr int entries = 4096;  // of the table from ways to steps
 
 }  // namespace
 

@@ -27,6 +27,8 @@ constexpr double standing = 1e-9;
 constexpr double least_part = 1e-6;
 // A corner turns back if the cosine of its angle is below minus this.
 constexpr double nearly_back = 0.999;
+// Parts of a curve that meet but for this share of its length follow each other.
+constexpr double rounding_of_parts = 1e-12;
 constexpr int halvings = 60;  // of a bisection: down to rounding
 
 template <class Row>
@@ -59,12 +61,16 @@ TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(w
 
 void TimeBound::watch(const PlannedMove& move, const ExactCurve& curve) {
   const Segment& segment = move.segment;
-  // If a curve comes in parts, the first part counts for all of it.
-  const bool begins = !inside_curve_ || (move.from() == Mm(0) && reached_ > Mm(0));
-  if (begins) add_curve(segment, curve);
+  // If a curve comes in parts, the first part counts for all of it. The last one may be as short as rounding.
+  const double length = curve.length();
+  const double nothing = rounding_of_parts * length;
+  const bool goes_on =
+      move.from() > Mm(0) && length == length_ && std::abs((move.from() - reached_).value()) <= nothing;
+  const bool begins_again = move.from() == Mm(0) && reached_ == Mm(0) && length == length_;
+  if (!goes_on && !begins_again) add_curve(segment, curve);
   reached_ = move.to;
-  inside_curve_ = move.to.value() < segment.curve.length().value() * (1 - 1e-12);
-  if (!inside_curve_ && segment.mode == PathMode::exact_stop) end_stretch();
+  length_ = length;
+  if (length - move.to.value() <= nothing && segment.mode == PathMode::exact_stop) end_stretch();
 }
 
 void TimeBound::rest(Seconds dwell) {
@@ -303,6 +309,7 @@ double TimeBound::most_at(const End& end, const End& other, double at_other, con
   double most = end.cap;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (!ramps_[i].limits() || !(end.slope[i] > cell.standing)) continue;
+    if (other.slope[i] * at_other >= most * end.slope[i]) continue;  // it need not speed up for that
     most = std::min(most, ramps_[i].square_after(other.slope[i] * at_other, std::abs(cell.way[i])) / end.slope[i]);
   }
   return most;

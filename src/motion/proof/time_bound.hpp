@@ -154,8 +154,8 @@ class TimeBound {
     double jerk = 0;
   };
   std::optional<Line> line_ = Line();  // empty: the section is not straight
-  bool inside_curve_ = false;          // a part of the curve was added, but not its end
-  Mm reached_{0};                      // the length of the curve that was added
+  double length_ = 0;                  // of the last curve
+  Mm reached_{0};                      // and how far the motion has come on it
 };
 
 }  // namespace passo::proof
