@@ -3,7 +3,8 @@
 #
 #   --all    what CI wants, before that: what reads what others wrote, and the whole street, by clang under
 #            AddressSanitizer and UndefinedBehaviorSanitizer; all else looked at by clang. Without benchmarks
-#   --full   slow tests make all of their trials and not a part: an hour and more
+#   --full   slow tests make all of their trials and not a part: an hour and more. Random tests draw new cases, from
+#            PASSO_SEED_OFFSET if it is set
 #
 # The last lines are the summary of ctest, and its exit code is the script's. Before it stands what each part took.
 set -euo pipefail
@@ -12,7 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 case "${1-}" in
   "" | --all | --full) ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' scripts/test.sh
+    sed -n '2,9s/^# \{0,1\}//p' scripts/test.sh
     exit 2
     ;;
 esac
@@ -49,7 +50,11 @@ fi
 benchmarks=ON
 if [[ ${1-} == --all ]]; then benchmarks=OFF; fi
 in_full=OFF
-if [[ ${1-} == --full ]]; then in_full=ON; fi
+if [[ ${1-} == --full ]]; then
+  in_full=ON
+  export PASSO_SEED_OFFSET=${PASSO_SEED_OFFSET-$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')}
+  printf 'The random tests draw new cases: PASSO_SEED_OFFSET=%s\n' "$PASSO_SEED_OFFSET"
+fi
 cmake --preset release -DPASSO_BUILD_TESTS=ON -DPASSO_BUILD_BENCHMARKS=$benchmarks -DPASSO_TESTS_IN_FULL=$in_full
 build release
 ends build

@@ -60,6 +60,36 @@ TEST_F(CheckMotion, knows_a_time_that_no_path_in_the_tolerance_can_beat) {
   EXPECT_LT(json["time_over_tube_bound"], 1.015);
 }
 
+// A gap, an infinite deviation and exit code 1 were reported.
+TEST_F(CheckMotion, knows_backlash) {
+  const std::string machine =
+      write("worn.toml", passo::test::read(bench) + "\n[axis.X.screw]\nbacklash_mm = 0.2\n");
+  const std::string program = write("p.ngc", "G21 G90 G64\nG1 X-10 F600\nX5 Y5\nX0\nM2\n");
+  const Outcome outcome = passo("check " + program + " -m " + machine + " --motion");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("backlash not taken up"));
+  EXPECT_THAT(outcome.out, testing::HasSubstr("good: within every limit"));
+  const auto json = nlohmann::json::parse(passo("check " + program + " -m " + machine + " --motion --json").out);
+  EXPECT_LT(json["axes"]["X"]["lost_motion"]["value"], 1e-9);
+  EXPECT_FALSE(json["axes"]["Y"].contains("lost_motion"));
+  EXPECT_GE(json["time_over_bound"], 1 - 1e-6);
+}
+
+TEST_F(CheckMotion, says_what_limits_the_speed) {
+  const Outcome outcome = check("G21 G1 X60 F600\nM2\n");
+  EXPECT_THAT(outcome.out, testing::HasSubstr("the programmed feed; first in line 1"));
+  const auto json = nlohmann::json::parse(check("G21 G0 X60\nM2\n", "--json").out);
+  EXPECT_EQ(json["speed"]["bounds"][0]["axis"], "X");
+}
+
+// The turning of a cubic whose slope is nearly 0 had no end.
+TEST_F(CheckMotion, ends_where_a_rotary_axis_does_nearly_all_of_the_motion) {
+  const std::string cases = PASSO_SOURCE_DIR "/../shared/cases/motion/check_hang";
+  if (!std::filesystem::exists(cases + ".ngc")) GTEST_SKIP() << "no ../shared/cases beside this checkout";
+  const Outcome outcome = passo("check " + cases + ".ngc -m " + cases + ".toml --motion");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+}
+
 TEST_F(CheckMotion, draws_the_motion) {
   const std::string picture = path("motion.svg");
   const Outcome outcome = check("G21 G0 X5\nY5\nM2\n", "--picture " + picture);

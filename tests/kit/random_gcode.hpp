@@ -311,17 +311,18 @@ struct RandomJob {
 // only on its number.
 template <class Try>
 void for_each_job(int runs_otherwise, const Try& try_one, Machines machines = Machines::as_drawn) {
-  const std::uint64_t first = number_of("PASSO_SEED", 1);
+  const std::uint64_t first = first_seed(1);
   const std::uint64_t runs = number_of("PASSO_RUNS", static_cast<std::uint64_t>(runs_otherwise));
   for (std::uint64_t number = first; number < first + runs && !testing::Test::HasFailure(); ++number) {
     Random random = Random::of(number);
     const RandomJob job = RandomJob::of(machines, number, random);
-    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number) + "\n" + describe(job.machine) + job.program);
+    SCOPED_TRACE(command_again(number, "PASSO_RUNS=1") + "\n" + describe(job.machine) + job.program);
     if (runs == 1) std::printf("%s%s", describe(job.machine).c_str(), job.program.c_str());
     try_one(number, job, random);
   }
-  std::printf("%llu programs from %llu on\n", static_cast<unsigned long long>(runs),
-              static_cast<unsigned long long>(first));
+  std::printf("%llu programs from %llu on: %s\n", static_cast<unsigned long long>(runs),
+              static_cast<unsigned long long>(first),
+              command_again(first, "PASSO_RUNS=" + std::to_string(runs)).c_str());
 }
 
 }  // namespace passo::test

@@ -247,10 +247,10 @@ std::string mixed_program(test::Random& random) {
 
 // PASSO_SEED=S PASSO_RUNS=N hunts for programs that take long to plan.
 TEST(HardPrograms, of_any_mixture_are_planned_in_a_bounded_number_of_phases) {
-  const std::uint64_t first = test::number_of("PASSO_SEED", 1);
+  const std::uint64_t first = test::first_seed(1);
   const std::uint64_t runs = test::number_of("PASSO_RUNS", 2);
   for (std::uint64_t number = first; number < first + runs; ++number) {
-    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    SCOPED_TRACE(test::command_again(number, "PASSO_RUNS=1"));
     test::Random random = test::Random::of(number);
     const MachineDescription machine = mixed_machine(random);
     const Planned planned = plan(mixed_program(random), machine, smoothness(machine));

@@ -61,15 +61,16 @@ std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
                              sensible_number(axis.acceleration.value(), 4), fmt::arg("unit", unit));
 }
 
+}  // namespace
+
 // The axes whose limits are reached, and for how much of the time. The motion's bounds with less than half a percent of
 // the time are left out.
-std::string speed_words(const Judgement& page) {
-  const Seconds whole = page.summary.cutting_time + page.summary.rapid_time;
+std::string speed_words(const SpeedReport& speed, Seconds whole) {
   if (!(whole > Seconds(0))) return "";
   std::string words = "speed limits    % of the motion time\n";
   constexpr std::size_t most_shares = 6;
   std::size_t shown = 0;
-  for (const SpeedShare& share : page.speed.shares) {
+  for (const SpeedShare& share : speed.shares) {
     const double percent = 100 * (share.time / whole);
     if (percent < 0.5 || ++shown > most_shares) break;
     words += fmt::format("  {:3.0f} %         {}; first in line {}\n", percent, limit_words(share), share.first_line);
@@ -85,16 +86,18 @@ std::string speed_words(const Judgement& page) {
     }
     words += fmt::format("; {}\n", describe(part.bound));
   };
-  for (std::size_t i = 0; i < std::min(most_parts, page.speed.slowest.size()); ++i) {
-    if (page.speed.slowest[i].is_slow()) add("slowest", page.speed.slowest[i]);
+  for (std::size_t i = 0; i < std::min(most_parts, speed.slowest.size()); ++i) {
+    if (speed.slowest[i].is_slow()) add("slowest", speed.slowest[i]);
   }
   std::size_t feeds = 0;
-  for (SpeedPart part : page.speed.fastest) {
+  for (SpeedPart part : speed.fastest) {
     part.lost = Seconds(0);
     if (part.rapid || ++feeds <= most_parts) add("fastest", part);
   }
   return words;
 }
+
+namespace {
 
 std::string motor_words(const Judgement& page) {
   if (!page.knows_motors) return "";
@@ -150,6 +153,8 @@ nlohmann::ordered_json as_json(const std::vector<SpeedPart>& parts) {
   return list;
 }
 
+}  // namespace
+
 nlohmann::ordered_json as_json(const SpeedReport& speed) {
   nlohmann::ordered_json bounds = nlohmann::ordered_json::array();
   for (const SpeedShare& share : speed.shares) {
@@ -161,6 +166,8 @@ nlohmann::ordered_json as_json(const SpeedReport& speed) {
   }
   return {{"bounds", bounds}, {"slowest", as_json(speed.slowest)}, {"fastest", as_json(speed.fastest)}};
 }
+
+namespace {
 
 nlohmann::ordered_json as_json(const MarginSpot& spot) {
   const char* const wants[] = {"torque", "jump", "calm"};
@@ -228,7 +235,7 @@ std::string to_text(const Judgement& page, const MachineDescription& machine) {
     const std::string feeds = feed_words(work, summary);
     if (!feeds.empty()) text += fmt::format("{:16}{} at feed\n", name_of_system(work.system), feeds);
   }
-  return text + speed_words(page) + motor_words(page);
+  return text + speed_words(page.speed, summary.cutting_time + summary.rapid_time) + motor_words(page);
 }
 
 void add_to(nlohmann::ordered_json& json, const Judgement& page, const MachineDescription& machine) {

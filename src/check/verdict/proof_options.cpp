@@ -22,6 +22,7 @@ ProofOptions proof_options(const MachineDescription& machine) {
                             .acceleration = axis.acceleration,
                             .jerk = axis.jerk,
                             .start_stop = axis.start_stop,
+                            .backlash = Mm(axis.screw ? axis.screw->backlash : 0),
                             .acceleration_at = proven_limit(axis)});
   }
   options.tick_rate = machine.board.clock;

@@ -6,7 +6,8 @@
 namespace passo::proof {
 namespace {
 
-constexpr int steps_to_top_speed = 10'000;
+constexpr int steps_to_top_speed = 4000;
+constexpr int entries = 4096;  // of the table from ways to steps
 
 }  // namespace
 
@@ -21,6 +22,13 @@ AxisRamp::AxisRamp(const ProvenAxis& axis, const SpeedLimit& limit) : strongest_
       step.time = before.time + width_ / before.strength;
     }
     steps_.push_back(step);
+  }
+  // From rest the speed grows about as the root of the way.
+  std::size_t i = 0;
+  for (int k = 0; k <= entries; ++k) {
+    const double way = squared(static_cast<double>(k) / entries) * steps_.back().way;
+    while (i + 1 < steps_.size() && steps_[i + 1].way <= way) ++i;
+    first_steps_.push_back(static_cast<std::uint32_t>(i > 0 ? i - 1 : 0));
   }
 }
 
@@ -37,8 +45,10 @@ double AxisRamp::time_to(double speed) const {
   return step.time + (speed - step.speed) / step.strength;
 }
 double AxisRamp::speed_after(double way) const {
-  const auto after = std::ranges::upper_bound(steps_, way, {}, &Step::way);
-  const Step& step = after == steps_.begin() ? steps_.front() : *(after - 1);
+  const double share = std::sqrt(std::max(way, 0.0) / steps_.back().way);
+  std::size_t i = first_steps_[static_cast<std::size_t>(std::min(share, 1.0) * entries)];
+  while (i + 1 < steps_.size() && steps_[i + 1].way <= way) ++i;
+  const Step& step = steps_[i];
   return std::sqrt(step.speed * step.speed + 2 * step.strength * std::max(way - step.way, 0.0));
 }
 
@@ -64,8 +74,9 @@ double AxisRamp::least_time(Squares squares, double way) const {
     // Ways divided by mean speeds: a small change of a high speed loses no digits.
     return 2 * rise / (peak + start) + 2 * fall / (peak + end) + (way - rise - fall) / peak;
   }
-  const double peak = std::min(top, speed_after((way_to(start) + way_to(end) + way) / 2));
-  const double ramps = 2 * way_to(peak) - way_to(start) - way_to(end);
+  const double of_ends = way_to(start) + way_to(end);
+  const double peak = std::min(top, speed_after((of_ends + way) / 2));
+  const double ramps = 2 * way_to(peak) - of_ends;
   return 2 * time_to(peak) - time_to(start) - time_to(end) + (way - ramps) / peak;
 }
 

@@ -6,6 +6,7 @@
 // is replaced by a step function that is nowhere below the limit.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "speed_limit.hpp"
@@ -49,9 +50,10 @@ class AxisRamp {
   double time_to(double speed) const;
   double speed_after(double way) const;
 
-  double strongest_ = 0;     // the acceleration from rest; 0: no limit
-  double width_ = 0;         // speed range of a step
-  std::vector<Step> steps_;  // empty: the limit is constant
+  double strongest_ = 0;                    // the acceleration from rest; 0: no limit
+  double width_ = 0;                        // speed range of a step
+  std::vector<Step> steps_;                 // empty: the limit is constant
+  std::vector<std::uint32_t> first_steps_;  // for even steps of the root of the way: a step that is not beyond it
 };
 
 }  // namespace passo::proof

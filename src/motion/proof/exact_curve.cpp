@@ -30,6 +30,18 @@ double squared_distance(const Point& a, const Point& b) {
   return sums[0] + sums[1] + sums[2];
 }
 
+// The angle between two slopes, and by how much their logarithms differ. A slope that is 0 has no direction.
+double change_of_direction(const Point& a, const Point& b) {
+  const double squares_a = dot(a, a);
+  const double squares_b = dot(b, b);
+  if (!(squares_a > 0) || !(squares_b > 0)) return 0;
+  // The small angle loses no digits: the sine of its half is the distance of the two directions.
+  const double size_a = std::sqrt(squares_a);
+  const double size_b = std::sqrt(squares_b);
+  const double half = std::min(distance(a * (1 / size_a), b * (1 / size_b)) / 2, 1.0);
+  return 2 * std::asin(half) + std::abs(std::log(size_b / size_a));
+}
+
 // An arc's radius and angle at s, and their rates.
 struct Polar {
   double r, g, w;
@@ -41,6 +53,22 @@ Polar polar_at(const Curve& curve, double s) {
   const double g = (arc.end_radius - arc.start_radius) / length;
   const double w = arc.sweep / length;
   return {.r = arc.start_radius + g * s, .g = g, .w = w, .direction = std::polar(1.0, arc.start_angle + w * s)};
+}
+
+struct ArcDerivatives {
+  Complex first, second, third;
+};
+ArcDerivatives derivatives_of(const Polar& polar) {
+  const auto& [r, g, w, direction] = polar;
+  return {.first = Complex(g, r * w) * direction,
+          .second = Complex(-r * w * w, 2 * g * w) * direction,
+          .third = -Complex(3 * g * w * w, r * w * w * w) * direction};
+}
+Derivatives real_part(const ArcDerivatives& arc) {
+  return {arc.first.real(), arc.second.real(), arc.third.real()};
+}
+Derivatives imaginary_part(const ArcDerivatives& arc) {
+  return {arc.first.imag(), arc.second.imag(), arc.third.imag()};
 }
 
 }  // namespace
@@ -88,6 +116,21 @@ Point ExactCurve::place(double s) const {
   return point;
 }
 
+ExactCurve::AllDerivatives ExactCurve::at(std::span<const Axis> axes, double s) const {
+  AllDerivatives all;
+  if (curve_.shape() != Curve::Shape::arc) {
+    for (std::size_t i = 0; i < axes.size(); ++i) all[i] = at(axes[i], s);
+    return all;
+  }
+  const ArcDerivatives arc = derivatives_of(polar_at(curve_, s));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    all[i] = !in_plane(axes[i])                   ? at(axes[i], s)
+             : axes[i] == curve_.arc_data().first ? real_part(arc)
+                                                  : imaginary_part(arc);
+  }
+  return all;
+}
+
 Derivatives ExactCurve::at(Axis axis, double s) const {
   if (curve_.shape() == Curve::Shape::cubic) {
     const Curve::CubicData data = curve_.cubic_data();
@@ -96,32 +139,28 @@ Derivatives ExactCurve::at(Axis axis, double s) const {
             .third = 6 * data.third[axis]};
   }
   if (!in_plane(axis)) return {.first = (curve_.end()[axis] - curve_.start()[axis]) / length()};
-  const auto [r, g, w, direction] = polar_at(curve_, s);
-  const Complex first = Complex(g, r * w) * direction;
-  const Complex second = Complex(-r * w * w, 2 * g * w) * direction;
-  const Complex third = -Complex(3 * g * w * w, r * w * w * w) * direction;
-  if (axis == curve_.arc_data().first) return {first.real(), second.real(), third.real()};
-  return {first.imag(), second.imag(), third.imag()};
+  const ArcDerivatives arc = derivatives_of(polar_at(curve_, s));
+  return axis == curve_.arc_data().first ? real_part(arc) : imaginary_part(arc);
 }
 
 double ExactCurve::turning_of_all() const {
   if (curve_.shape() == Curve::Shape::arc) return std::abs(curve_.arc_data().sweep);
   if (curve_.shape() == Curve::Shape::line) return 0;
-  // The integral of |P''| / |P'| by Simpson's rule with eight parts.
   constexpr int parts = 8;
   double sum = 0;
-  for (int i = 0; i <= parts; ++i) {
-    double first = 0;
-    double second = 0;
-    for (const Axis axis : all_axes) {
-      const Derivatives d = at(axis, length() * i / parts);
-      first += d.first * d.first;
-      second += d.second * d.second;
-    }
-    const double weight = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
-    sum += weight * std::sqrt(second / std::max(first, 1e-12));
+  Point before = slope(0);
+  for (int i = 1; i <= parts; ++i) {
+    const Point after = slope(length() * i / parts);
+    sum += change_of_direction(before, after);
+    before = after;
   }
-  return sum * length() / (3 * parts);
+  return sum;
+}
+
+Point ExactCurve::slope(double s) const {
+  Point slope;
+  for (const Axis axis : all_axes) slope[axis] = at(axis, s).first;
+  return slope;
 }
 
 bool ExactCurve::is_circle() const {
@@ -178,11 +217,14 @@ ExactCurve::Nearest ExactCurve::nearest_of_circle(const Point& point, double fro
   return {.s = s, .distance = distance(point, place(s))};
 }
 
-// Takes the best of a row of points, and a golden section around it.
+// Takes the best of a row of points. Between its neighbours, where the way from the point is at right angles to the
+// curve, it is nearest: Newton's method, and halves where that would leave the part.
 ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from, double to) const {
   constexpr double piece = 0.2;  // radians
+  constexpr int most_steps = 40;
+  constexpr double near = 1e-8;  // a share of the part: its square is the error of the distance
   const double turns = turning_ * (to - from) / length();
-  const int parts = 4 + static_cast<int>(std::min(turns / piece, 1e4));
+  const int parts = 2 + static_cast<int>(std::min(turns / piece, 1e4));
   const double step = (to - from) / parts;
   int best = 0;
   double least = INFINITY;
@@ -193,27 +235,25 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
       best = i;
     }
   }
-  constexpr double golden = 0.6180339887498949;
   double low = from + step * std::max(best - 1, 0);
   double high = from + step * std::min(best + 1, parts);
-  double a = high - golden * (high - low);
-  double b = low + golden * (high - low);
-  double at_a = squared_distance(point, place(a));
-  double at_b = squared_distance(point, place(b));
-  for (int i = 0; i < 44; ++i) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      at_a = squared_distance(point, place(a = high - golden * (high - low)));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      at_b = squared_distance(point, place(b = low + golden * (high - low)));
+  double s = from + step * best;
+  for (int i = 0; i < most_steps && high - low > near * step; ++i) {
+    const Point away = place(s) - point;
+    double pull = 0;   // half of the derivative of the squared distance
+    double steep = 0;  // and its derivative
+    const auto all = at(all_axes, s);
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      pull += away.values[k] * all[k].first;
+      steep += all[k].first * all[k].first + away.values[k] * all[k].second;
     }
+    (pull > 0 ? high : low) = s;
+    const double next = steep > 0 ? s - pull / steep : low;
+    const bool is_inside = next > low && next < high;
+    const double moved = std::abs(next - s);
+    s = is_inside ? next : (low + high) / 2;
+    if (is_inside && moved < near * step) break;
   }
-  const double s = (low + high) / 2;
   const double here = squared_distance(point, place(s));
   return here <= least ? Nearest{s, std::sqrt(here)} : Nearest{from + step * best, std::sqrt(least)};
 }

@@ -4,7 +4,9 @@
 //   p' = (g + i r w) e^(iφ),   p'' = (2 i g w − r w²) e^(iφ),   p''' = −(3 g w² + i r w³) e^(iφ).
 #pragma once
 
+#include <array>
 #include <complex>
+#include <span>
 
 #include "passo/geometry/curve.hpp"
 
@@ -28,8 +30,12 @@ class ExactCurve {
   bool moves(Axis axis) const;
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
-  // Returns approximately the angle by which the direction turns over the whole curve, in radians. For an arc never too
-  // small.
+  // The same for several axes; for an arc cheaper than one by one.
+  using AllDerivatives = std::array<Derivatives, axis_count>;
+  AllDerivatives at(std::span<const Axis> axes, double s) const;
+  bool in_plane(Axis axis) const;  // of an arc
+  // Returns approximately the angle by which the direction turns over the whole curve, in radians, and the change of
+  // the logarithm of |dP/ds|. For an arc never too small.
   double turning() const { return turning_; }
 
   // Returns an upper bound of |dP/ds|: 1, or nearly 1, where s is the length to which the feed applies.
@@ -47,7 +53,7 @@ class ExactCurve {
  private:
   double turning_of_all() const;
   double fastest_of_all() const;
-  bool in_plane(Axis axis) const;
+  Point slope(double s) const;  // dP/ds of a cubic
   bool is_circle() const;
   Nearest nearest_of_circle(const Point& point, double from, double to) const;
   Nearest nearest_of_bent(const Point& point, double from, double to) const;

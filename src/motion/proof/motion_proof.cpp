@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lost_motion.hpp"
 #include "path_deviation.hpp"
 #include "phase_peaks.hpp"
 #include "rounding.hpp"
@@ -28,6 +29,7 @@ MotionProof begun(const ProofOptions& options) {
     own.acceleration.limit = own.step_acceleration.limit = axis.acceleration.value();
     own.jerk.limit = axis.jerk.value();
     own.velocity_jump.limit = proof::velocity_rounding * axis.velocity.value();
+    if (axis.backlash > Mm(0)) own.lost_motion.limit = axis.step.value() + place_rounding;
     if (axis.jerk > MmPerSecond3(0))
       own.acceleration_jump.limit = proof::acceleration_rounding * axis.acceleration.value();
     proof.axes.push_back(own);
@@ -64,6 +66,7 @@ std::vector<std::string> MotionProof::faults() const {
     list.add(name + "jerk", own.jerk);
     list.add(name + "velocity jumps", own.velocity_jump);
     list.add(name + "acceleration jumps", own.acceleration_jump);
+    list.add(name + "backlash that is not taken up", own.lost_motion);
     list.add(name + "velocity of the steps", own.step_velocity, own.step_velocity_noise);
     list.add(name + "acceleration of the steps", own.step_acceleration, own.step_acceleration_noise);
   }
@@ -81,7 +84,8 @@ class MotionProver::Implementation {
         steps_(options, proof_),
         deviation_(proof_),
         bound_(options),
-        tube_(options) {}
+        tube_(options),
+        backlash_(options, proof_) {}
 
   void watch(const PathItem& item) {
     deviation_.programmed(item);
@@ -96,9 +100,12 @@ class MotionProver::Implementation {
       return;
     }
     const auto& move = std::get<PlannedMove>(item);
-    deviation_.planned(move, peaks_.now());
-    bound_.watch(move);
-    peaks_.watch(move);
+    if (!move.segment.curve.has_length() || move.phase_count == 0) return;
+    const proof::ExactCurve curve(move.segment.curve);
+    deviation_.planned(move, curve, peaks_.now());
+    bound_.watch(move, curve);
+    backlash_.watch(move, curve, peaks_.now());
+    peaks_.watch(move, curve);
   }
   MotionProof finish() {
     deviation_.finish(peaks_.now());
@@ -124,6 +131,7 @@ class MotionProver::Implementation {
   proof::PathDeviation deviation_;
   proof::TimeBound bound_;
   proof::TubeBound tube_;
+  proof::LostMotion backlash_;
 };
 
 MotionProver::MotionProver(const ProofOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}

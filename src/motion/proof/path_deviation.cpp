@@ -50,9 +50,8 @@ void PathDeviation::programmed(const PathItem& item) {
   }
 }
 
-void PathDeviation::planned(const PlannedMove& move, Seconds time) {
-  if (!move.segment.curve.has_length() || move.phase_count == 0) return;
-  const ExactCurve curve(move.segment.curve);
+void PathDeviation::planned(const PlannedMove& move, const ExactCurve& curve, Seconds time) {
+  if (move.segment.takes_up_backlash) return;  // the tool stays where it is
   const double from = move.from().value();
   const double way = move.to.value() - from;
   if (reached_ == 0) begin(curve.place(from), time);

@@ -29,7 +29,7 @@ class PathDeviation {
   explicit PathDeviation(MotionProof& proof) : proof_(proof) {}
 
   void programmed(const PathItem& item);
-  void planned(const PlannedMove& move, Seconds time);
+  void planned(const PlannedMove& move, const ExactCurve& curve, Seconds time);
   // Processes an action of the planned motion, or its end: everything programmed before it must have been executed.
   void rest(Seconds time);
   // Ends the measurement: any remaining programmed path was never executed.

@@ -18,8 +18,10 @@ constexpr double most_looks = 4096;
 PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options)
     : proof_(proof), before_(proof.axes.size()), stopped_(proof.axes.size()) {
   for (const ProvenAxis& axis : options.axes) {
+    letters_.push_back(axis.axis);
     limits_.emplace_back(axis);
     start_stop_.push_back(axis.start_stop.value());
+    backlash_[axis.axis] = axis.backlash.value();
   }
 }
 
@@ -46,11 +48,21 @@ void PhasePeaks::raise(Finding& finding, double value, double t) const {
   finding.line = line_;
 }
 
-// The share of its limit that an acceleration takes, expressed as mm/s² of the constant limit.
-double PhasePeaks::severity(std::size_t i, const Motion& motion) const {
+// An absolute value. That of an acceleration under a falling limit is the share of the limit that it takes, expressed
+// as mm/s² of the constant limit.
+double PhasePeaks::severity(std::size_t i, const Motion& motion, Kind kind) const {
+  if (kind != Kind::acceleration) return std::abs(kind == Kind::velocity ? motion.velocity : motion.jerk);
   const SpeedLimit& limit = limits_[i];
   const double value = std::abs(motion.acceleration);
   return limit.falls() ? value * limit.constant() / limit.at(motion.velocity) : value;
+}
+
+// The same for the worst motion so far.
+double PhasePeaks::worst(std::size_t i, Kind kind) const {
+  const AxisProof& axis = proof_.axes[i];
+  if (kind == Kind::velocity) return axis.velocity.value;
+  if (kind == Kind::jerk) return axis.jerk.value;
+  return limits_[i].falls() ? axis.acceleration.multiple() * limits_[i].constant() : axis.acceleration.value;
 }
 
 void PhasePeaks::raise_acceleration(std::size_t i, const Motion& motion, double t) {
@@ -66,18 +78,19 @@ void PhasePeaks::raise_acceleration(std::size_t i, const Motion& motion, double 
   raise(finding, motion.acceleration, t);
 }
 
-void PhasePeaks::see(std::size_t i, const Motion& motion, double t) {
+void PhasePeaks::see(std::size_t i, const Motion& motion, double t, Kind kind) {
   AxisProof& axis = proof_.axes[i];
-  raise(axis.velocity, motion.velocity, t);
-  raise_acceleration(i, motion, t);
-  raise(axis.jerk, motion.jerk, t);
+  switch (kind) {
+    case Kind::velocity: return raise(axis.velocity, motion.velocity, t);
+    case Kind::acceleration: return raise_acceleration(i, motion, t);
+    case Kind::jerk: return raise(axis.jerk, motion.jerk, t);
+  }
 }
 
-void PhasePeaks::watch(const PlannedMove& move) {
-  if (!move.segment.curve.has_length() || move.phase_count == 0) return;
+void PhasePeaks::watch(const PlannedMove& move, const ExactCurve& curve) {
   ++proof_.moves;
   line_ = move.segment.source.line;
-  const ExactCurve curve(move.segment.curve);
+  downs_ = move.segment.downs;
   bool begins_segment = move.from() == Mm(0);
   for (const Phase& phase : move) {
     ++proof_.phases;
@@ -86,20 +99,30 @@ void PhasePeaks::watch(const PlannedMove& move) {
     measure(curve, phase);
     see_feed(move.segment, phase);
     const Way end = way_at(phase, phase.duration.value());
-    for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = motion_of(curve.at(proof_.axes[i].axis, end.s), end);
-    place_ = curve.place(end.s);
+    const ExactCurve::AllDerivatives slopes = curve.at(letters_, end.s);
+    for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = motion_of(slopes[i], end);
+    place_ = motors_at(curve.place(end.s));
     now_ += phase.duration;
   }
-  check_gap(distance(*place_, curve.place(move.to.value())));
+  check_gap(distance(*place_, motors_at(curve.place(move.to.value()))));
+}
+
+// A motor that drives its axis in the negative direction is a backlash behind it.
+Point PhasePeaks::motors_at(Point place) const {
+  for (const Axis axis : all_axes) {
+    if (downs_.has(axis)) place[axis] -= backlash_[axis];
+  }
+  return place;
 }
 
 // Compares the end of the last phase with the start of this one. `rests`: the machine may have rested between.
 void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   const Way start = way_at(phase, 0);
-  if (place_) check_gap(distance(*place_, curve.place(start.s)));
+  if (place_) check_gap(distance(*place_, motors_at(curve.place(start.s))));
   rests = rests || stands();
+  const ExactCurve::AllDerivatives slopes = curve.at(letters_, start.s);
   for (std::size_t i = 0; i < before_.size(); ++i) {
-    meet(i, motion_of(curve.at(proof_.axes[i].axis, start.s), start), rests);
+    meet(i, motion_of(slopes[i], start), rests);
     stopped_[i] = 0;
   }
 }
@@ -170,66 +193,102 @@ void PhasePeaks::see_feed(const Segment& segment, const Phase& phase) {
 }
 
 void PhasePeaks::measure(const ExactCurve& curve, const Phase& phase) {
-  const double duration = phase.duration.value();
-  const double turn = phase.jerk.value() != 0 ? -phase.acceleration.value() / phase.jerk.value() : 0;
-  for (std::size_t i = 0; i < proof_.axes.size(); ++i) {
-    for (const double t : {0.0, std::clamp(turn, 0.0, duration), duration}) {
-      const Way way = way_at(phase, t);
-      see(i, motion_of(curve.at(proof_.axes[i].axis, way.s), way), t);
+  const Seconds duration = phase.duration;
+  const ExactCurve::AllDerivatives slopes = curve.at(letters_, phase.start.value());
+  if (!(duration > Seconds(0))) {
+    for (std::size_t i = 0; i < letters_.size(); ++i) {
+      for (const Kind kind : all_kinds) see(i, motion_of(slopes[i], way_at(phase, 0)), 0, kind);
     }
-    // Under a falling limit the worst place of a phase with jerk may be anywhere, also on a line.
-    if (!curve.is_line() || (limits_[i].falls() && phase.jerk.value() != 0)) measure_curved(curve, phase, i);
+    return;
+  }
+  for (std::size_t i = 0; i < letters_.size(); ++i) {
+    if (!curve.in_plane(letters_[i])) {
+      if (slopes[i].first != 0 || slopes[i].second != 0 || slopes[i].third != 0)
+        measure_polynomial(AxisPolynomial(slopes[i], phase), duration, i);
+      continue;
+    }
+    const auto motion_at = [&](double t) {
+      const Way way = way_at(phase, t);
+      return motion_of(curve.at(letters_[i], way.s), way);
+    };
+    const double share = (way_at(phase, duration.value()).s - phase.start.value()) / curve.length();
+    const double looks = std::clamp(curve.turning() * share / turn_between_looks, fewest_looks, most_looks);
+    measure_looks(motion_at, duration.value(), static_cast<int>(looks), i, all_kinds);
   }
 }
 
-void PhasePeaks::measure_curved(const ExactCurve& curve, const Phase& phase, std::size_t i) {
-  const double duration = phase.duration.value();
-  const auto motion_at = [&](double t) {
-    const Way way = way_at(phase, t);
-    return motion_of(curve.at(proof_.axes[i].axis, way.s), way);
+void PhasePeaks::measure_polynomial(const AxisPolynomial& polynomial, Seconds duration, std::size_t i) {
+  using Order = AxisPolynomial::Order;
+  const auto see_peak = [&](Finding& finding, Order order) {
+    if (const auto peak = polynomial.peak_above(finding.value, order))
+      raise(finding, peak->value, peak->u * duration.value());
   };
-  const double share = (way_at(phase, duration).s - phase.start.value()) / curve.length();
-  const int looks =
-      static_cast<int>(std::clamp(curve.turning() * share / turn_between_looks, fewest_looks, most_looks));
-  constexpr double Motion::*kinds[] = {&Motion::velocity, &Motion::acceleration, &Motion::jerk};
-  Finding AxisProof::*const findings[] = {&AxisProof::velocity, &AxisProof::acceleration, &AxisProof::jerk};
+  AxisProof& axis = proof_.axes[i];
+  see_peak(axis.velocity, Order::velocity);
+  see_peak(axis.jerk, Order::jerk);
+  if (!limits_[i].falls()) return see_peak(axis.acceleration, Order::acceleration);
+  // Nowhere in the phase is the limit below that of the highest speed.
+  const double fastest = polynomial.highest(Order::velocity);
+  const double strongest = polynomial.highest(Order::acceleration);
+  if (strongest <= axis.acceleration.multiple() * limits_[i].at(fastest)) return;
+  const auto motion_at = [&](double t) {
+    const double u = t / duration.value();
+    return Motion{.velocity = polynomial.value(u, Order::velocity),
+                  .acceleration = polynomial.value(u, Order::acceleration)};
+  };
+  measure_looks(motion_at, duration.value(), static_cast<int>(fewest_looks), i, std::array{Kind::acceleration});
+}
+
+// Looks at points of a phase at even times. If the best of them could be a new peak, it looks closely around it.
+template <class MotionAt>
+void PhasePeaks::measure_looks(const MotionAt& motion_at, double duration, int looks, std::size_t i,
+                               std::span<const Kind> kinds) {
   std::array<double, 3> best{};
   std::array<double, 3> where{};
   for (int k = 0; k <= looks; ++k) {
     const double t = duration * k / looks;
     const Motion motion = motion_at(t);
-    for (std::size_t kind = 0; kind < 3; ++kind) {
-      const double here = kind == 1 ? severity(i, motion) : std::abs(motion.*kinds[kind]);
-      if (!(here > best[kind])) continue;
-      best[kind] = here;
-      where[kind] = t;
+    for (std::size_t n = 0; n < kinds.size(); ++n) {
+      const double here = severity(i, motion, kinds[n]);
+      if (!(here > best[n])) continue;
+      best[n] = here;
+      where[n] = t;
     }
   }
   constexpr double worth_a_look = 0.9;
-  constexpr double golden = 0.6180339887498949;
-  for (std::size_t kind = 0; kind < 3; ++kind) {
-    Finding& finding = proof_.axes[i].*findings[kind];
-    const bool falling = kind == 1 && limits_[i].falls();
-    const double worst = falling ? finding.multiple() * limits_[i].constant() : finding.value;
-    if (best[kind] < worth_a_look * worst) continue;
-    const auto value = [&](double t) {
-      return falling ? severity(i, motion_at(t)) : std::abs(motion_at(t).*kinds[kind]);
-    };
-    double low = std::max(where[kind] - duration / looks, 0.0);
-    double high = std::min(where[kind] + duration / looks, duration);
-    for (int pass = 0; pass < 30; ++pass) {
-      const double a = high - golden * (high - low);
-      const double b = low + golden * (high - low);
-      (value(a) > value(b) ? high : low) = value(a) > value(b) ? b : a;
-    }
-    if (falling) {
-      raise_acceleration(i, motion_at(where[kind]), where[kind]);
-      raise_acceleration(i, motion_at((low + high) / 2), (low + high) / 2);
-      continue;
-    }
-    raise(finding, best[kind], where[kind]);
-    raise(finding, value((low + high) / 2), (low + high) / 2);
+  for (std::size_t n = 0; n < kinds.size(); ++n) {
+    if (best[n] < worth_a_look * worst(i, kinds[n])) continue;
+    see(i, motion_at(where[n]), where[n], kinds[n]);
+    look_closely(motion_at, std::max(where[n] - duration / looks, 0.0), std::min(where[n] + duration / looks, duration),
+                 i, kinds[n]);
   }
+}
+
+// A golden-section search. A peak is flat: half of its digits are enough for the time.
+template <class MotionAt>
+void PhasePeaks::look_closely(const MotionAt& motion_at, double low, double high, std::size_t i, Kind kind) {
+  constexpr double golden = 0.6180339887498949;
+  constexpr int passes = 20;
+  const auto value = [&](double t) { return severity(i, motion_at(t), kind); };
+  double a = high - golden * (high - low);
+  double b = low + golden * (high - low);
+  double at_a = value(a);
+  double at_b = value(b);
+  for (int pass = 0; pass < passes; ++pass) {
+    if (at_a > at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      at_a = value(a = high - golden * (high - low));
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      at_b = value(b = low + golden * (high - low));
+    }
+  }
+  const double t = (low + high) / 2;
+  see(i, motion_at(t), t, kind);
 }
 
 }  // namespace passo::proof

@@ -47,6 +47,7 @@ std::string text_of(const AxisProof& axis) {
   text += row("jerk inside phases", axis.jerk, speed3);
   text += jump_row("jump of velocity", axis.velocity_jump, speed);
   text += jump_row("jump of acceleration", axis.acceleration_jump, speed2);
+  if (axis.lost_motion.limit > 0) text += row("backlash not taken up", axis.lost_motion, turns ? "deg" : "mm");
   text += step_row("velocity of the steps", axis.step_velocity, axis.step_velocity_noise, speed);
   text += step_row("acceleration of the steps", axis.step_acceleration, axis.step_acceleration_noise, speed2);
   return text;
@@ -74,13 +75,15 @@ Json json_of(const Finding& finding, double noise) {
 }
 
 Json json_of(const AxisProof& axis) {
-  return {{"velocity", json_of(axis.velocity)},
-          {"acceleration", json_of(axis.acceleration)},
-          {"jerk", json_of(axis.jerk)},
-          {"velocity_jump", json_of(axis.velocity_jump)},
-          {"acceleration_jump", json_of(axis.acceleration_jump)},
-          {"step_velocity", json_of(axis.step_velocity, axis.step_velocity_noise)},
-          {"step_acceleration", json_of(axis.step_acceleration, axis.step_acceleration_noise)}};
+  Json json = {{"velocity", json_of(axis.velocity)},
+               {"acceleration", json_of(axis.acceleration)},
+               {"jerk", json_of(axis.jerk)},
+               {"velocity_jump", json_of(axis.velocity_jump)},
+               {"acceleration_jump", json_of(axis.acceleration_jump)},
+               {"step_velocity", json_of(axis.step_velocity, axis.step_velocity_noise)},
+               {"step_acceleration", json_of(axis.step_acceleration, axis.step_acceleration_noise)}};
+  if (axis.lost_motion.limit > 0) json["lost_motion"] = json_of(axis.lost_motion);
+  return json;
 }
 
 }  // namespace

@@ -7,8 +7,16 @@ namespace passo::proof {
 namespace {
 
 constexpr double turn_of_a_cell = 0.02;  // radians
-constexpr double fewest_cells = 64;      // in a curve, and in a line under falling limits
-constexpr std::size_t most_cells = 65536;
+// In a curve, and in a line under falling limits: so many in the distance from rest to the highest speed, and never
+// fewer than the second number.
+constexpr double cells_of_a_ramp = 64;
+constexpr double fewest_cells = 4;
+// The window, and what stays of it when its first part is played.
+constexpr std::size_t most_cells = 40960;
+constexpr std::size_t cells_kept = 8192;
+// 1/x of a bend is known to this share of itself, and rather too small than too large.
+constexpr double precision_of_bend = 1e-9;
+constexpr int most_secants = 60;
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
 // The path rests where a kink may be passed only below this share of the lowest velocity limit.
@@ -19,6 +27,8 @@ constexpr double standing = 1e-9;
 constexpr double least_part = 1e-6;
 // A corner turns back if the cosine of its angle is below minus this.
 constexpr double nearly_back = 0.999;
+// Parts of a curve that meet but for this share of its length follow each other.
+constexpr double rounding_of_parts = 1e-12;
 constexpr int halvings = 60;  // of a bisection: down to rounding
 
 template <class Row>
@@ -40,6 +50,7 @@ std::vector<ProvenAxis> without_jumps(std::vector<ProvenAxis> axes) {
 
 TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(without_jumps(options.axes)) {
   for (const ProvenAxis& axis : axes_) {
+    letters_.push_back(axis.axis);
     limits_.emplace_back(axis);
     ramps_.emplace_back(axis, limits_.back());
     any_falls_ |= limits_.back().falls();
@@ -48,15 +59,18 @@ TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(w
   find_turning_pairs();
 }
 
-void TimeBound::watch(const PlannedMove& move) {
+void TimeBound::watch(const PlannedMove& move, const ExactCurve& curve) {
   const Segment& segment = move.segment;
-  if (!segment.curve.has_length() || move.phase_count == 0) return;
-  // If a curve comes in parts, the first part counts for all of it.
-  const bool begins = !inside_curve_ || (move.from() == Mm(0) && reached_ > Mm(0));
-  if (begins) add_curve(segment);
+  // If a curve comes in parts, the first part counts for all of it. The last one may be as short as rounding.
+  const double length = curve.length();
+  const double nothing = rounding_of_parts * length;
+  const bool goes_on =
+      move.from() > Mm(0) && length == length_ && std::abs((move.from() - reached_).value()) <= nothing;
+  const bool begins_again = move.from() == Mm(0) && reached_ == Mm(0) && length == length_;
+  if (!goes_on && !begins_again) add_curve(segment, curve);
   reached_ = move.to;
-  inside_curve_ = move.to.value() < segment.curve.length().value() * (1 - 1e-12);
-  if (!inside_curve_ && segment.mode == PathMode::exact_stop) end_stretch();
+  length_ = length;
+  if (length - move.to.value() <= nothing && segment.mode == PathMode::exact_stop) end_stretch();
 }
 
 void TimeBound::rest(Seconds dwell) {
@@ -65,10 +79,9 @@ void TimeBound::rest(Seconds dwell) {
   line_->began = time_;
 }
 
-void TimeBound::add_curve(const Segment& segment) {
-  const ExactCurve curve(segment.curve);
+void TimeBound::add_curve(const Segment& segment, const ExactCurve& curve) {
   const double feed = std::min(squared(segment.speed.value()), fastest);
-  Place from = place_at(curve, 0);
+  Place from = place_at(curve, 0, feed);
   Joint start = joint_at(from);
   double scale = 1;
   double kink = fastest;
@@ -95,10 +108,9 @@ void TimeBound::add_curve(const Segment& segment) {
   if (joint_) kink = std::min(kink, bend_cap(joint_->place, from, scale));
   const std::size_t first = cells_.size();
   const Place start_place = from;
-  const bool one_cell = curve.is_line() && !any_falls_;
-  const double cells = one_cell ? 1 : std::ceil(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
+  const double cells = cells_in(curve, from, feed);
   for (double i = 1; i <= cells; ++i) {
-    const Place to = place_at(curve, curve.length() * (i / cells));
+    const Place to = place_at(curve, curve.length() * (i / cells), feed);
     add_cells(curve, from, to, feed);
     from = to;
   }
@@ -107,7 +119,19 @@ void TimeBound::add_curve(const Segment& segment) {
   entry.entry_scale = scale;
   entry.entry.cap = std::min({entry.entry.cap, kink, first > 0 ? cells_[first - 1].exit.cap * scale : fastest});
   joint_ = joint_at(from);
-  if (cells_.size() >= 2 * most_cells) settle(most_cells);
+  if (cells_.size() >= most_cells) settle(cells_.size() - cells_kept);
+}
+
+// In a distance that is short compared with the ramps, all speeds are much the same, and few cells do.
+double TimeBound::cells_in(const ExactCurve& curve, const Place& start, double feed) const {
+  if (curve.is_line() && !any_falls_) return 1;
+  double strongest = fastest;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (ramps_[i].limits() && start.slope[i] != 0)
+      strongest = std::min(strongest, limits_[i].at(0) / std::abs(start.slope[i]));
+  }
+  const double ramps = std::min(2 * strongest * curve.length() / std::min(start.cap, feed), 1.0);
+  return std::ceil(std::max({fewest_cells, cells_of_a_ramp * ramps, curve.turning() / turn_of_a_cell}));
 }
 
 // Cuts where an axis turns back, and where its q' is steepest or flattest.
@@ -136,13 +160,13 @@ TimeBound::Place TimeBound::place_of_turn(const ExactCurve& curve, const Place& 
     const Derivatives q = curve.at(axes_[axis].axis, middle);
     ((bend ? q.second : q.first) * at_start > 0 ? low : high) = middle;
   }
-  Place place = place_at(curve, high);
+  Place place = place_at(curve, high, fastest);
   (bend ? place.bend : place.slope)[axis] = 0;
   return place;
 }
 
 void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place& to, double feed) {
-  const Place middle = curve.is_line() ? from : place_at(curve, (from.s + to.s) / 2);
+  const Place middle = curve.is_line() ? from : place_at(curve, (from.s + to.s) / 2, feed);
   Cell cell;
   cell.length = to.s - from.s;
   cell.cap = std::min(feed, cap_within(from, middle, to));
@@ -159,10 +183,12 @@ void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place
   add_turns(curve, from, middle, to);
 }
 
-TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
+// A bend that leaves more than the feed is not looked at closely.
+TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s, double feed) const {
   Place place{.s = s, .cap = fastest};
+  const ExactCurve::AllDerivatives all = curve.at(letters_, s);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Derivatives q = curve.at(axes_[i].axis, s);
+    const Derivatives& q = all[i];
     place.slope[i] = q.first;
     place.bend[i] = q.second;
     const double velocity = axes_[i].velocity.value();
@@ -173,7 +199,7 @@ TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j, ++pair) {
       place.turn[pair] = place.bend[i] * place.slope[j] - place.bend[j] * place.slope[i];
-      place.turning[pair] = turning_at(place, i, j, place.turn[pair]);
+      place.turning[pair] = turning_at(place, {.i = i, .j = j, .place = pair}, std::min(feed, place.cap));
       if (place.turning[pair] != 0) place.cap = std::min(place.cap, 1 / std::abs(place.turning[pair]));
     }
   }
@@ -181,21 +207,43 @@ TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
 }
 
 // u = s̈ drops out of |q'ᵢ u + q''ᵢ x| ≤ Aᵢ and |q'ⱼ u + q''ⱼ x| ≤ Aⱼ: what is left is
-// |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ| x ≤ Aᵢ |q'ⱼ| + Aⱼ |q'ᵢ|. The right side falls as x grows, if a limit falls with the speed.
-double TimeBound::turning_at(const Place& place, std::size_t i, std::size_t j, double turn) const {
+// |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ| x ≤ Aᵢ |q'ⱼ| + Aⱼ |q'ᵢ|. The right side falls as x grows, if a limit falls with the speed: the
+// solution lies between the first x that is too large and that of the right side there. If even the latter is above
+// `enough`, the former is returned.
+double TimeBound::turning_at(const Place& place, const AxisPair& pair, double enough) const {
+  const auto [i, j, number] = pair;
+  const double turn = std::abs(place.turn[number]);
   if (!ramps_[i].limits() || !ramps_[j].limits() || turn == 0) return 0;
   const auto strength = [&](double x) {
-    return limits_[i].at(place.slope[i] * std::sqrt(x)) * std::abs(place.slope[j]) +
-           limits_[j].at(place.slope[j] * std::sqrt(x)) * std::abs(place.slope[i]);
+    const double speed = std::sqrt(x);
+    return limits_[i].at(speed * place.slope[i]) * std::abs(place.slope[j]) +
+           limits_[j].at(speed * place.slope[j]) * std::abs(place.slope[i]);
   };
-  double high = strength(0) / std::abs(turn);
-  if (!any_falls_ || !(strength(high) < strength(0))) return std::copysign(1 / high, turn);
-  double low = 0;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (std::abs(turn) * middle <= strength(middle) ? low : high) = middle;
+  double high = strength(0) / turn;
+  double low = limits_[i].falls() || limits_[j].falls() ? strength(high) / turn : high;
+  if (low < enough && low < high) {
+    // The false position, by the Illinois method.
+    double at_low = strength(low) - turn * low;
+    double at_high = strength(high) - turn * high;
+    int kept = 0;
+    for (int k = 0; k < most_secants && high - low > precision_of_bend * high; ++k) {
+      double x = high - at_high * (high - low) / (at_high - at_low);
+      if (!(x > low && x < high)) x = (low + high) / 2;
+      const double here = strength(x) - turn * x;
+      if (here > 0) {
+        low = x;
+        at_low = here;
+        if (kept > 0) at_high /= 2;
+        kept = 1;
+      } else {
+        high = x;
+        at_high = here;
+        if (kept < 0) at_low /= 2;
+        kept = -1;
+      }
+    }
   }
-  return std::copysign(1 / high, turn);
+  return std::copysign(1 / high, place.turn[number]);
 }
 
 // The least distance from 0 of the parabola through three values at even distances.
@@ -261,6 +309,7 @@ double TimeBound::most_at(const End& end, const End& other, double at_other, con
   double most = end.cap;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (!ramps_[i].limits() || !(end.slope[i] > cell.standing)) continue;
+    if (other.slope[i] * at_other >= most * end.slope[i]) continue;  // it need not speed up for that
     most = std::min(most, ramps_[i].square_after(other.slope[i] * at_other, std::abs(cell.way[i])) / end.slope[i]);
   }
   return most;

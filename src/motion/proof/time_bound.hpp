@@ -39,7 +39,8 @@ class TimeBound {
  public:
   explicit TimeBound(const ProofOptions& options);
 
-  void watch(const PlannedMove& move);
+  // `curve` is that of the move, which has a length and phases.
+  void watch(const PlannedMove& move, const ExactCurve& curve);
   void rest(Seconds dwell);
 
   Seconds time() const { return Seconds(time_); }
@@ -70,8 +71,8 @@ class TimeBound {
     double standing = 0;      // an axis with a smaller q'² does not move, except for rounding
     Row way{};                // Δq
   };
-  // Two axes that both have a jerk limit.
-  struct TurningPair {
+  // Two axes. turning_pairs_ has those that both have a jerk limit.
+  struct AxisPair {
     std::size_t i = 0;
     std::size_t j = 0;
     std::size_t place = 0;  // index among all pairs
@@ -93,20 +94,20 @@ class TimeBound {
     double rest_cap = 0;   // the largest x with which the path can end here
   };
 
-  void add_curve(const Segment& segment);
+  void add_curve(const Segment& segment, const ExactCurve& curve);
   void add_cells(const ExactCurve& curve, const Place& from, const Place& to, double feed);
   void add_cell(const ExactCurve& curve, const Place& from, const Place& to, double feed);
   static double least_through(double first, double second, double third);
   void find_turning_pairs();
   void add_turns(const ExactCurve& curve, const Place& from, const Place& middle, const Place& to);
-  Turn jump_of(const TurningPair& pair, const Place& start) const;
+  Turn jump_of(const AxisPair& pair, const Place& start) const;
   double bend_cap(const Place& before, const Place& after, double scale) const;
   void add_jumps(std::size_t cell, const Place& start);
   const Turn& turn_of(std::size_t cell, std::size_t pair) const { return turns_[cell * turning_pairs_.size() + pair]; }
   double turn_at_entry(std::size_t cell, std::size_t pair) const;
   double turn_at_exit(std::size_t cell, std::size_t pair) const;
   double turn_at_joint(std::size_t cell, std::size_t pair) const;
-  void lower_where_it_turns(double at_end);
+  bool lower_where_it_turns(double at_end);
   void lower_caps(double at_end, bool rests);
   double exit_of(std::size_t cell, double entry, double at_end) const;
   void settle(std::size_t cells);
@@ -117,9 +118,10 @@ class TimeBound {
   JerkTimeBound::Rides rides_in(const Cell& cell, double entry, double exit) const;
   void plan_backwards(double last);
 
-  Place place_at(const ExactCurve& curve, double s) const;
+  double cells_in(const ExactCurve& curve, const Place& start, double feed) const;
+  Place place_at(const ExactCurve& curve, double s, double feed) const;
   Place place_of_turn(const ExactCurve& curve, const Place& from, const Place& to, std::size_t axis, bool bend) const;
-  double turning_at(const Place& place, std::size_t i, std::size_t j, double turn) const;
+  double turning_at(const Place& place, const AxisPair& pair, double enough) const;
   double cap_within(const Place& from, const Place& middle, const Place& to) const;
   Joint joint_at(const Place& place) const;
   double kink_cap(const Joint& before, const Joint& after) const;
@@ -128,11 +130,12 @@ class TimeBound {
   double least_time(const Cell& cell, double entry, double exit) const;
 
   std::vector<ProvenAxis> axes_;
+  std::vector<Axis> letters_;
   std::vector<SpeedLimit> limits_;
   std::vector<AxisRamp> ramps_;
   bool any_falls_ = false;
   bool any_jumps_ = false;  // some axis has a start-stop velocity
-  std::vector<TurningPair> turning_pairs_;
+  std::vector<AxisPair> turning_pairs_;
   std::vector<Cell> cells_;
   std::vector<Turn> turns_;  // for each cell, one for each of those pairs
   std::optional<Joint> joint_;
@@ -151,8 +154,8 @@ class TimeBound {
     double jerk = 0;
   };
   std::optional<Line> line_ = Line();  // empty: the section is not straight
-  bool inside_curve_ = false;          // a part of the curve was added, but not its end
-  Mm reached_{0};                      // the length of the curve that was added
+  double length_ = 0;                  // of the last curve
+  Mm reached_{0};                      // and how far the motion has come on it
 };
 
 }  // namespace passo::proof

@@ -21,16 +21,20 @@ constexpr double rounding_of_way = 1e-9;
 // Lower speeds in one place give lower speeds in others, by turning and by the axes' accelerations in turn. Three
 // rounds take the worst of 2,000 programs from 1.62 times the bound to 1.18; a single one leaves it there.
 constexpr int rounds = 3;
+// A further round that lowers T ṡ³ by no more than this share of it is the last.
+constexpr double trifle = 1e-3;
 
 double cube_of_speed(double x) {
   return x * std::sqrt(x);
 }
 
-// Lowers x so far that turn ṡ³ is at most `most`.
-void lower(double& x, double turn, double most) {
-  if (!(turn * cube_of_speed(x) > most)) return;
+// Lowers x so far that turn ṡ³ is at most `most`. Returns whether that is more than a trifle.
+bool lower(double& x, double turn, double most) {
+  const double here = turn * cube_of_speed(x);
+  if (!(here > most)) return false;
   const double root = std::cbrt(most / turn);
   x = std::min(x, root * root);
+  return here > most * (1 + trifle);
 }
 
 }  // namespace
@@ -51,7 +55,7 @@ void TimeBound::find_turning_pairs() {
 // Each |q'| is greatest at an end of the cell. On a cubic T is a parabola.
 void TimeBound::add_turns(const ExactCurve& curve, const Place& from, const Place& middle, const Place& to) {
   const double way = to.s - from.s + rounding_of_way * curve.length();
-  for (const TurningPair& pair : turning_pairs_) {
+  for (const AxisPair& pair : turning_pairs_) {
     const auto steepest = [&](std::size_t axis) {
       return std::max(std::abs(from.slope[axis]), std::abs(to.slope[axis]));
     };
@@ -64,7 +68,7 @@ void TimeBound::add_turns(const ExactCurve& curve, const Place& from, const Plac
 }
 
 // What rounding allows where two curves join: the axes' accelerations and velocities may jump a little.
-TimeBound::Turn TimeBound::jump_of(const TurningPair& pair, const Place& start) const {
+TimeBound::Turn TimeBound::jump_of(const AxisPair& pair, const Place& start) const {
   const ProvenAxis& i = axes_[pair.i];
   const ProvenAxis& j = axes_[pair.j];
   const double strength_i = i.acceleration.value();
@@ -87,7 +91,7 @@ void TimeBound::add_jumps(std::size_t cell, const Place& start) {
 // before it.
 double TimeBound::bend_cap(const Place& before, const Place& after, double scale) const {
   double cap = fastest;
-  for (const TurningPair& pair : turning_pairs_) {
+  for (const AxisPair& pair : turning_pairs_) {
     const double jump = std::abs(after.turn[pair.place] - before.turn[pair.place] / cube_of_speed(scale));
     const Turn allowed = jump_of(pair, after);
     const double speed = std::sqrt(allowed.jump / jump) + std::cbrt(allowed.kink / jump);
@@ -107,38 +111,41 @@ double TimeBound::turn_at_joint(std::size_t cell, std::size_t pair) const {
   return turn_of(cell, pair).jump * std::sqrt(cells_[cell].entry.cap) + turn_of(cell, pair).kink;
 }
 
-// Lowers the caps of all cells, forwards and backwards. `at_end` is the largest x at the end of the last cell.
-void TimeBound::lower_where_it_turns(double at_end) {
+// Lowers the caps of all cells, forwards and backwards. Returns whether any of them falls by more than a trifle.
+// `at_end` is the largest x at the end of the last cell.
+bool TimeBound::lower_where_it_turns(double at_end) {
+  bool lowers = false;
   const std::size_t pairs = turning_pairs_.size();
   cells_.front().entry.cap = std::min(cells_.front().entry.cap, x_);
   cells_.back().exit.cap = std::min(cells_.back().exit.cap, at_end);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     for (std::size_t k = 0; i > 0 && k < pairs; ++k) {
-      lower(cells_[i].entry.cap, turn_of(i, k).entry, turn_at_exit(i - 1, k) + turn_at_joint(i, k));
+      lowers |= lower(cells_[i].entry.cap, turn_of(i, k).entry, turn_at_exit(i - 1, k) + turn_at_joint(i, k));
     }
     for (std::size_t k = 0; k < pairs; ++k) {
-      lower(cells_[i].exit.cap, turn_of(i, k).exit, turn_at_entry(i, k) + turn_of(i, k).change);
+      lowers |= lower(cells_[i].exit.cap, turn_of(i, k).exit, turn_at_entry(i, k) + turn_of(i, k).change);
     }
   }
   for (std::size_t i = cells_.size(); i-- > 0;) {
     for (std::size_t k = 0; i + 1 < cells_.size() && k < pairs; ++k) {
-      lower(cells_[i].exit.cap, turn_of(i, k).exit, turn_at_entry(i + 1, k) + turn_at_joint(i + 1, k));
+      lowers |= lower(cells_[i].exit.cap, turn_of(i, k).exit, turn_at_entry(i + 1, k) + turn_at_joint(i + 1, k));
     }
     for (std::size_t k = 0; k < pairs; ++k) {
-      lower(cells_[i].entry.cap, turn_of(i, k).entry, turn_at_exit(i, k) + turn_of(i, k).change);
+      lowers |= lower(cells_[i].entry.cap, turn_of(i, k).entry, turn_at_exit(i, k) + turn_of(i, k).change);
     }
     for (std::size_t k = 0; k < pairs; ++k) {
       const Turn& turn = turn_of(i, k);
-      lower(cells_[i].cap, turn.least, (turn_at_entry(i, k) + turn_at_exit(i, k) + turn.change) / 2);
+      lowers |= lower(cells_[i].cap, turn.least, (turn_at_entry(i, k) + turn_at_exit(i, k) + turn.change) / 2);
     }
   }
+  return lowers;
 }
 
 // Lowers the caps by turning, and by what the axes' accelerations then allow. `at_end` is the largest x at the end,
 // where the path rests or goes on.
 void TimeBound::lower_caps(double at_end, bool rests) {
   for (int round = 0; round < rounds; ++round) {
-    lower_where_it_turns(rests ? at_end : fastest);
+    if (!lower_where_it_turns(rests ? at_end : fastest) && round > 0) return;
     plan_backwards(at_end);
     double x = x_;
     for (std::size_t i = 0; i < cells_.size(); ++i) {

@@ -105,6 +105,7 @@ double TubeBound::time_until(std::size_t station, std::size_t direction, bool re
   const std::vector<Station>& path = path_.stations();
   double until = unused;
   for (std::size_t k = station > stations_seen ? station - stations_seen : 0; k < station; ++k) {
+    if (!is_seen(station - k)) continue;
     const double time = speeds_.axis_time(path, k, station, direction, {.first = false, .last = rests});
     if (!(time > 0)) continue;
     until = std::max(until, from_[k][direction] + time);

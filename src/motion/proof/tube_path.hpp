@@ -34,8 +34,12 @@ struct Station {
       0;  // the axes to which the feed applies, one bit each; 0: segments differ, so that the feed is unknown
 };
 
-// A bound at a station considers this many previous stations.
+// A bound at a station considers previous stations up to this distance: each of the nearest ones, and every fourth of
+// the others. Any choice is a bound, and what lies in between adds little.
 inline constexpr std::size_t stations_seen = 32;
+constexpr bool is_seen(std::size_t back) {
+  return back <= 4 || (back <= stations_seen && back % 4 == 0);
+}
 
 class TubePath {
  public:

@@ -89,6 +89,7 @@ TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::siz
     if (j < i && lowest <= known) break;
     feed = std::max(feed, leg.feed);
     if (leg.group != group) group = 0;
+    if (!is_seen(i - j + 1)) continue;
     const double time = least_time(walk, j - 1, i, feed, group);
     if (time >= ramps_[axis].least_time({.start = 0, .end = endless, .top = endless}, latest - lowest)) {
       known = std::max(known, lowest);

@@ -30,9 +30,13 @@
 #include "passo/proof/proof_text.hpp"
 #include "passo/report/motion_picture.hpp"
 #include "passo/report/output_file.hpp"
+#include "passo/verdict/speed_survey.hpp"
 
 namespace passo {
 namespace {
+
+// The first look at the program: interpreter and path. About so much of the time goes into it, the rest into planning.
+constexpr double share_of_first_look = 0.3;
 
 int draw(const MotionRecorder& motion, const MotionProof& proof, const CheckArguments& arguments) {
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
@@ -62,18 +66,29 @@ int draw(const PathRecorder& path, const MachineDescription& machine, const Chec
 
 // `machine` and `program` are good.
 int measure(const CheckArguments& arguments, const MachineDescription& machine, ProgramReader program,
-            const InterpreterOptions& options, Seconds nominal, Diagnostics& findings) {
+            const InterpreterOptions& options, Seconds nominal, Diagnostics& findings, ProgressDisplay& progress) {
   MotionRecorder recorder(motion_limits(machine));
+  AxisSet axes;
+  for (const AxisDescription& axis : machine.axes) axes.add(axis.axis);
+  SpeedSurvey survey(motion_limits(machine), axes);
   const bool draws = !arguments.picture.empty();
-  ProgressDisplay progress(program.name());
-  TrialWatchers watchers{.progress = [&](double share) { progress.update(share); }};
-  if (draws) {
-    watchers.path = [&](const PathItem& item) { recorder.watch(item); };
-    watchers.motion = [&](const MotionItem& item) { recorder.watch(item); };
-  }
+  const WorkProgress proving = progress.work().part(share_of_first_look, 1);
+  TrialWatchers watchers{.progress = proving};
+  if (draws) watchers.path = [&](const PathItem& item) { recorder.watch(item); };
+  watchers.motion = [&](const MotionItem& item) {
+    if (const auto* move = std::get_if<PlannedMove>(&item)) survey.watch(*move);
+    if (draws) recorder.watch(item);
+  };
   const MotionProof proof = prove_motion(std::move(program), machine, options, nominal, findings, watchers);
   progress.clear();
-  std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
+  const SpeedReport speed = survey.report();
+  if (arguments.json) {
+    auto json = nlohmann::ordered_json::parse(to_json(proof));
+    json["speed"] = as_json(speed);
+    std::puts(json.dump(2).c_str());
+  } else {
+    std::fputs((to_text(proof) + speed_words(speed, proof.time)).c_str(), stdout);
+  }
   if (draws) {
     const int code = draw(recorder, proof, arguments);
     if (code != exit_done) return code;
@@ -128,9 +143,6 @@ class ReadShare {
   std::uint64_t read_ = 0;
   std::uint32_t line_ = 0;
 };
-
-// The first look at the program: interpreter and path. About so much of the time goes into it, the rest into planning.
-constexpr double share_of_first_look = 0.3;
 
 struct FirstLook {
   Diagnostics findings;
@@ -254,7 +266,8 @@ int check(const CheckArguments& arguments) {
   ProgressDisplay progress(program->name());
   look(arguments, *machine, *program, *options, progress, first);
   if (first.result.good && measures_motion(arguments)) {
-    return measure(arguments, *machine, std::move(*program), *options, first.result.nominal_time, first.findings);
+    return measure(arguments, *machine, std::move(*program), *options, first.result.nominal_time, first.findings,
+                   progress);
   }
   std::optional<CutOutcome> stock;
   if (first.result.good && arguments.cutting_force) {

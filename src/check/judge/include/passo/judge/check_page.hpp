@@ -23,6 +23,9 @@ std::string feed_words(const WorkSummary& work, const RunSummary& summary);
 // The findings, and where the program stops for the operator: the keys `good`, `errors`, `findings`, `waits` and
 // `waits_first_at`.
 nlohmann::ordered_json findings_as_json(const Diagnostics& findings, const ProgramStops& stops);
+// What limits the speed, and for how much of the time of the motion; and the slowest and the fastest lines.
+std::string speed_words(const SpeedReport& speed, Seconds whole);
+nlohmann::ordered_json as_json(const SpeedReport& speed);
 std::string to_text(const Judgement& page, const MachineDescription& machine);
 // Adds the keys `time_s`, `dwell_s`, `tool_changes`, `line`, `axes`, `work`, `speed` and `margin`.
 void add_to(nlohmann::ordered_json& json, const Judgement& page, const MachineDescription& machine);

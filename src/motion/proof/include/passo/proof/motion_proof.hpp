@@ -32,6 +32,8 @@ struct ProvenAxis {
   // At a stop point, the velocity may jump between two values, of which neither exceeds this and which differ by at
   // most this. 0: no jump.
   MmPerSecond start_stop = MmPerSecond(0);
+  // Travel of the motor at a reversal before the axis moves. The motor must take it up while the tool is stopped.
+  Mm backlash{0};
   // A limit that falls with the speed: monotonically falling, and above 0 up to `velocity`. Empty: `acceleration` at
   // all speeds.
   std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
@@ -61,6 +63,8 @@ struct AxisProof {
   // Between two phases.
   Finding velocity_jump;      // the limit is the rounding tolerance, or the start-stop velocity at a stop point
   Finding acceleration_jump;  // no limit where the jerk has no limit
+  // How far the tool is behind the plan because backlash was not taken up. The limit is a step.
+  Finding lost_motion;
   // Measured from the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add
   // `..._noise`. Permitted jumps at stop points do not count as acceleration.
   Finding step_velocity;

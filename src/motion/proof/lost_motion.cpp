@@ -1,0 +1,49 @@
+#include "lost_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo::proof {
+namespace {
+
+constexpr int looks = 8;  // in each move; between two of them an axis of a smooth path turns back by little
+
+}  // namespace
+
+LostMotion::LostMotion(const ProofOptions& options, MotionProof& proof) : proof_(proof) {
+  for (std::size_t i = 0; i < options.axes.size(); ++i) {
+    const ProvenAxis& axis = options.axes[i];
+    if (axis.backlash > Mm(0)) plays_.push_back({.number = i, .axis = axis.axis, .backlash = axis.backlash.value()});
+  }
+}
+
+void LostMotion::watch(const PlannedMove& move, const ExactCurve& curve, Seconds now) {
+  if (plays_.empty()) return;
+  const double from = move.from().value();
+  for (int i = 0; i <= looks; ++i) {
+    const Point place = curve.place(from + (move.to.value() - from) * i / looks);
+    for (Play& play : plays_) {
+      if (!begun_) play.place = motor_of(play, move, place[play.axis]);
+      follow(play, move, place[play.axis], now);
+    }
+    begun_ = true;
+  }
+}
+
+double LostMotion::motor_of(const Play& play, const PlannedMove& move, double at) {
+  return move.segment.downs.has(play.axis) ? at - play.backlash : at;
+}
+
+void LostMotion::follow(Play& play, const PlannedMove& move, double at, Seconds now) {
+  const double motor = motor_of(play, move, at);
+  play.place = std::clamp(play.place, motor, motor + play.backlash);
+  const double planned = move.segment.takes_up_backlash ? move.segment.curve.end()[play.axis] : at;
+  const double behind = std::abs(planned - play.place);
+  Finding& finding = proof_.axes[play.number].lost_motion;
+  if (!(behind > finding.value)) return;
+  finding.value = behind;
+  finding.time = now;
+  finding.line = move.segment.source.line;
+}
+
+}  // namespace passo::proof

@@ -1,0 +1,43 @@
+// LostMotion: how far the tool is behind the plan because the backlash of an axis was not taken up.
+//
+// It computes the place of the tool from the place of the motor, and from nothing else that the plan says about
+// backlash. A motor at m pushes its axis up to m, or pulls it down to m + backlash; in between, the axis does not move:
+//
+//   place = max(place, m)                going up
+//   place = min(place, m + backlash)     going down
+//
+// The difference between this place and the planned one must stay within a step, for the reversals that are too small
+// to be taken up. A path begins with all backlash taken up for motion in the positive direction.
+#pragma once
+
+#include <vector>
+
+#include "exact_curve.hpp"
+
+#include "passo/proof/motion_proof.hpp"
+
+namespace passo::proof {
+
+class LostMotion {
+ public:
+  // Writes its findings into `proof`, whose axes and limits are already set.
+  LostMotion(const ProofOptions& options, MotionProof& proof);
+
+  void watch(const PlannedMove& move, const ExactCurve& curve, Seconds now);
+
+ private:
+  struct Play {
+    std::size_t number = 0;  // of the axis
+    Axis axis = Axis::x;
+    double backlash = 0;
+    double place = 0;  // of the tool
+  };
+  static double motor_of(const Play& play, const PlannedMove& move, double at);
+  void follow(Play& play, const PlannedMove& move, double at, Seconds now);
+
+  MotionProof& proof_;
+  std::vector<Play> plays_;
+  bool begun_ = false;
+};
+
+}  // namespace passo::proof
