@@ -21,6 +21,10 @@ target_compile_options(passo_compiler INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 finds overlapping copies in std::string where there are none (GCC bug 105651).
   target_compile_options(passo_compiler INTERFACE -Wno-restrict)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+    # It notes at each pair of numbers that its calls changed in version 10.
+    target_compile_options(passo_compiler INTERFACE -Wno-psabi)
+  endif()
 endif()
 if(PASSO_WERROR)
   target_compile_options(passo_compiler INTERFACE -Werror)
