@@ -21,10 +21,10 @@ build_packages=(
   libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
   libminizip-dev             # zip archives of board files
+  pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
   lld libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc libclang-rt-14-dev-wasm32  # the lab of the page, as WebAssembly
-  pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(
