@@ -35,10 +35,10 @@ build_packages=(
   libexpat1-dev              # SVG drawings in passo cam
   libyaml-cpp-dev            # FluidNC configurations in passo machine --from
   libminizip-dev             # zip archives of board files
+  pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
   lld wasi-libc "${wasm_packages[@]}"  # the lab of the page, as WebAssembly
-  pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(

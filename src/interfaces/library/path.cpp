@@ -129,9 +129,9 @@ class PathErrors {
           fmt::format("{:g} to {:g}", -farthest_mm, farthest_mm));
       return;
     }
-    const auto [first, second, normal] = axes_of(piece.plane);
+    const passo::PlaneAxes axes = axes_of(piece.plane);
     const auto radius = [&](const Position& place) {
-      return std::hypot(place[outer(first)] - piece.first_centre, place[outer(second)] - piece.second_centre);
+      return std::hypot(place[outer(axes.first)] - piece.first_centre, place[outer(axes.second)] - piece.second_centre);
     };
     if (radius(from) < least_limit || radius(piece.end) < least_limit) {
       add("plan.radius",
