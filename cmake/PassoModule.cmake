@@ -27,7 +27,7 @@ target_compile_options(passo_together INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:
 
 # What waits for people, files and lines: a third less time to compile, and it runs hardly longer.
 set(PASSO_LESS_OPTIMISED $<$<CONFIG:Release>:-O1>)
-set(PASSO_LESS_OPTIMISED_MODULES job judge machine_file operations probing session surface_file verdict)
+set(PASSO_LESS_OPTIMISED_MODULES controller_file job judge machine_file machine_import operations probing session surface_file verdict)
 # Those that call ensure(), whose message names the source. It does not name the folder in which the program was built;
 # a test of the installed program finds a module that is missing here.
 set(PASSO_MODULES_WITH_PLACES drive journal link stepgen trajectory)
