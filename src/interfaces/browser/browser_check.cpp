@@ -22,7 +22,7 @@
 namespace passo {
 namespace {
 
-std::optional<TomlText::Setting> setting_of(const Json& value) {
+std::optional<TomlText::Setting> setting_of(const CheckJson& value) {
   if (value.is_number()) return value.get<double>();
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_string()) return value.get<std::string>();
@@ -30,7 +30,7 @@ std::optional<TomlText::Setting> setting_of(const Json& value) {
 }
 
 // The machine's text with these keys of [axis.X.torque] for each axis that has no motor yet.
-std::string text_with(std::string text, const MachineDescription& machine, const Json& motor) {
+std::string text_with(std::string text, const MachineDescription& machine, const CheckJson& motor) {
   auto edited = TomlText::read(text);
   if (!edited) return text;
   for (const AxisDescription& axis : machine.axes) {
@@ -46,10 +46,10 @@ std::string text_with(std::string text, const MachineDescription& machine, const
   return edited->text();
 }
 
-std::optional<MachineDescription> machine_of(const Json& request, Json& answer) {
+std::optional<MachineDescription> machine_of(const CheckJson& request, CheckJson& answer) {
   const auto part = request.find("machine");
-  const Json none = Json::object();
-  const Json& asked = part != request.end() && part->is_object() ? *part : none;
+  const CheckJson none = CheckJson::object();
+  const CheckJson& asked = part != request.end() && part->is_object() ? *part : none;
   const auto name = value_of<std::string>(asked, "name", "machine.toml");
   auto text = value_of<std::string>(asked, "text", "");
   Diagnostics findings;
@@ -60,11 +60,11 @@ std::optional<MachineDescription> machine_of(const Json& request, Json& answer) 
     findings.clear();
     machine = parse_machine(text, name, findings);
   }
-  Json told = {{"good", machine.has_value()}, {"findings", findings_with_sentences(findings)}};
+  CheckJson told = {{"good", machine.has_value()}, {"findings", findings_with_sentences(findings)}};
   if (machine) {
     told["name"] = machine->name;
     told["lathe"] = is_lathe(*machine);
-    Json axes = Json::array();
+    CheckJson axes = CheckJson::array();
     for (const AxisDescription& axis : machine->axes) {
       axes.push_back({{"axis", std::string(1, letter_of(axis.axis))},
                       {"rotary", is_rotary(axis.axis)},
@@ -78,7 +78,7 @@ std::optional<MachineDescription> machine_of(const Json& request, Json& answer) 
 }
 
 // As `passo check` sets them.
-std::optional<InterpreterOptions> options_of(const Json& request, Diagnostics& findings) {
+std::optional<InterpreterOptions> options_of(const CheckJson& request, Diagnostics& findings) {
   InterpreterOptions options;
   options.on_machine = true;
   options.dialect = value_of<std::string>(request, "dialect", "") == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
@@ -90,23 +90,23 @@ std::optional<InterpreterOptions> options_of(const Json& request, Diagnostics& f
   return options;
 }
 
-Json as_json(const ProgramPath::Range& range) {
-  if (range.empty()) return Json();
+CheckJson as_json(const ProgramPath::Range& range) {
+  if (range.empty()) return CheckJson();
   return {{"low", range.low}, {"high", range.high}};
 }
 
-Json path_json(const ProgramPath& path, const MachineDescription& machine, const ToolTable& table) {
-  Json tools = Json::array();
+CheckJson path_json(const ProgramPath& path, const MachineDescription& machine, const ToolTable& table) {
+  CheckJson tools = CheckJson::array();
   for (const ProgramPath::UsedTool& used : path.tools()) {
     const Tool* const tool = table.find(used.number);
     const double by_table = tool == nullptr ? 0 : std::abs(tool->diameter.value());
     const double diameter = by_table > 0 ? by_table : machine.tool.diameter.value();
     tools.push_back({{"tool", used.number},
-                     {"diameter", diameter > 0 ? Json(diameter) : Json()},
+                     {"diameter", diameter > 0 ? CheckJson(diameter) : CheckJson()},
                      {"zero_z", used.zero_z},
                      {"feeds", used.feeds}});
   }
-  Json speeds;
+  CheckJson speeds;
   if (!path.speeds().empty()) {
     speeds = {{"low", path.speeds().low.value() * seconds_per_minute},
               {"high", path.speeds().high.value() * seconds_per_minute}};
@@ -145,9 +145,10 @@ struct Looked {
 
 std::string BrowserCheck::check(const std::string& request_text) {
   path_ = ProgramPath();
-  Json answer;
-  const Json request = Json::parse(request_text, nullptr, false);
-  const std::optional<MachineDescription> machine = machine_of(request.is_object() ? request : Json::object(), answer);
+  CheckJson answer;
+  const CheckJson request = CheckJson::parse(request_text, nullptr, false);
+  const std::optional<MachineDescription> machine =
+      machine_of(request.is_object() ? request : CheckJson::object(), answer);
   if (!machine) return written(answer);
 
   Looked first;
@@ -196,7 +197,7 @@ std::string BrowserCheck::check(const std::string& request_text) {
   }
   answer["path"] = path_json(path_, *machine, options->tools);
   // They take several times as long as the check, so the page asks for them alone.
-  answer["proposals"] = Json::array();
+  answer["proposals"] = CheckJson::array();
   if (value_of(request, "proposals", true)) {
     progress_(CheckStage::proposals, 0);
     answer["proposals"] = passo::as_json(

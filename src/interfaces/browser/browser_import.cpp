@@ -12,7 +12,7 @@
 namespace passo {
 namespace {
 
-std::uint32_t place_in(const Json& node, const char* key) {
+std::uint32_t place_in(const CheckJson& node, const char* key) {
   const auto found = node.find(key);
   return found != node.end() && found->is_number_unsigned() && *found <= std::uint32_t{1} << 24U
              ? found->get<std::uint32_t>()
@@ -20,7 +20,7 @@ std::uint32_t place_in(const Json& node, const char* key) {
 }
 
 // False: there are too many nodes, or they are too deep.
-bool read_tree(const Json& json, SourceNode& node, std::size_t depth, std::size_t& nodes) {
+bool read_tree(const CheckJson& json, SourceNode& node, std::size_t depth, std::size_t& nodes) {
   if (++nodes > most_source_nodes || depth > deepest_source_node) return false;
   if (!json.is_object()) return true;
   node.name = value_of<std::string>(json, "name", "");
@@ -29,11 +29,12 @@ bool read_tree(const Json& json, SourceNode& node, std::size_t depth, std::size_
   node.column = place_in(json, "column");
   const auto children = json.find("children");
   if (children == json.end() || !children->is_array()) return true;
-  return std::ranges::all_of(
-      *children, [&](const Json& child) { return read_tree(child, node.children.emplace_back(), depth + 1, nodes); });
+  return std::ranges::all_of(*children, [&](const CheckJson& child) {
+    return read_tree(child, node.children.emplace_back(), depth + 1, nodes);
+  });
 }
 
-std::optional<SourceNode> tree_of(const Json& request, ImportFormat format, const ImportSource& source,
+std::optional<SourceNode> tree_of(const CheckJson& request, ImportFormat format, const ImportSource& source,
                                   Diagnostics& findings) {
   if (format == ImportFormat::settings) return parse_settings_dump(source, findings);
   if (format == ImportFormat::linuxcnc) return parse_ini(source, findings);
@@ -49,10 +50,10 @@ std::optional<SourceNode> tree_of(const Json& request, ImportFormat format, cons
   return std::nullopt;
 }
 
-Json lines_json(const ImportedMachine& machine) {
-  Json assumed = Json::array();
+CheckJson lines_json(const ImportedMachine& machine) {
+  CheckJson assumed = CheckJson::array();
   for (const AssumedValue& one : machine.assumed) assumed.push_back({{"target", one.target}, {"reason", one.reason}});
-  Json unmapped = Json::array();
+  CheckJson unmapped = CheckJson::array();
   for (const UnmappedValue& one : machine.unmapped) {
     unmapped.push_back({{"source", one.source}, {"value", one.value}, {"reason", one.reason}, {"line", one.line}});
   }
@@ -64,13 +65,13 @@ Json lines_json(const ImportedMachine& machine) {
 }  // namespace
 
 std::string import_in_browser(const std::string& request_text) {
-  const Json parsed = Json::parse(request_text, nullptr, false);
-  const Json request = parsed.is_object() ? parsed : Json::object();
+  const CheckJson parsed = CheckJson::parse(request_text, nullptr, false);
+  const CheckJson request = parsed.is_object() ? parsed : CheckJson::object();
   const auto text = value_of<std::string>(request, "text", "");
   const ImportSource source{.file = value_of<std::string>(request, "file", ""), .text = text};
   const auto named = value_of<std::string>(request, "format", "");
   const std::optional<ImportFormat> format = named.empty() ? detect_import_format(text) : import_format_of(named);
-  Json answer = {{"good", false}, {"format", nullptr}, {"findings", Json::array()}};
+  CheckJson answer = {{"good", false}, {"format", nullptr}, {"findings", CheckJson::array()}};
   if (!format) return written(answer);
   answer["format"] = name_of(*format);
   const bool wants_tree = *format == ImportFormat::fluidnc || *format == ImportFormat::mach3;

@@ -11,11 +11,11 @@
 
 namespace passo {
 
-using Json = nlohmann::ordered_json;
+using CheckJson = nlohmann::ordered_json;
 
 // A value of the request, or what it is if it lacks or is of another kind.
 template <class Value>
-Value value_of(const Json& request, const char* key, Value otherwise) {
+Value value_of(const CheckJson& request, const char* key, Value otherwise) {
   const auto found = request.find(key);
   if (found == request.end()) return otherwise;
   if constexpr (std::is_same_v<Value, bool>) {
@@ -25,19 +25,19 @@ Value value_of(const Json& request, const char* key, Value otherwise) {
   }
 }
 
-inline std::string written(const Json& answer) {
-  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+inline std::string written(const CheckJson& answer) {
+  return answer.dump(-1, ' ', false, CheckJson::error_handler_t::replace);
 }
 
 // With the line of the file, and the words in a form that the page can translate.
-inline Json findings_with_sentences(const Diagnostics& findings) {
+inline CheckJson findings_with_sentences(const Diagnostics& findings) {
   const auto sentence_json = [](const FindingWords& words) {
     const Sentence sentence = words.sentence();
-    Json arguments = Json::object();
+    CheckJson arguments = CheckJson::object();
     for (const auto& [name, value] : sentence.arguments) arguments[name] = value;
-    return Json{{"code", sentence.code}, {"arguments", std::move(arguments)}};
+    return CheckJson{{"code", sentence.code}, {"arguments", std::move(arguments)}};
   };
-  Json list = findings_json(findings.all());
+  CheckJson list = findings_json(findings.all());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Diagnostic& finding = findings.all()[i];
     list[i]["text"] = finding.text;
