@@ -22,7 +22,10 @@ names=()
 mutate() {  # FILE NAME FROM TO; MUTANT in TO is true if this mutation is chosen
   count=$((count + 1))
   names[count]=$2
-  FROM=$3 TO=${4//MUTANT/mutant($count)} perl -0777 -i -pe \
+  and_also "$1" "$3" "$4"
+}
+and_also() {  # FILE FROM TO: a further place of the last mutation
+  FROM=$2 TO=${3//MUTANT/mutant($count)} perl -0777 -i -pe \
     '$n = s/\Q$ENV{FROM}\E/$ENV{TO}/g; die "$ARGV: found ", $n || 0, " times: $ENV{FROM}\n" if $n != 1' \
     "$copy/motion/$1"
 }
@@ -48,8 +51,10 @@ mutate trajectory/acceleration_law.cpp 'the backward pass shifted by one cell' \
 mutate trajectory/acceleration_law.cpp 'the speed after a shortened move 1 % too high' \
   'speed_squared_ = squared(rest->begin()->velocity.value());' \
   'speed_squared_ = (MUTANT ? 1.02 : 1) * squared(rest->begin()->velocity.value());'
-mutate trajectory/rest.hpp 'corners of up to 3 degrees passed at speed' \
-  'std::abs(part) > tangent_tolerance;' 'std::abs(part) > (MUTANT ? 0.05 : tangent_tolerance);'
+mutate trajectory/rest.hpp 'corners of up to 60 degrees passed at speed' \
+  'std::abs(part) > tangent_tolerance;' 'std::abs(part) > (MUTANT ? 1 : tangent_tolerance);'
+and_also path/path_smoother.cpp \
+  'if (last.rest_after && knot.along >= last.length)' 'if (last.rest_after && knot.along >= last.length && !MUTANT)'
 mutate trajectory/rest.hpp 'exact stops forgotten' \
   'if (before.mode == PathMode::exact_stop) return true;' 'if (before.mode == PathMode::exact_stop && !MUTANT) return true;'
 mutate trajectory/rest.hpp 'the start-stop velocity raised by 10 %' \
@@ -68,8 +73,11 @@ mutate trajectory/jerk_cell.cpp 'with jerk: the slope at the end of a cell is th
   '.slope_out = row.of(there.first),' '.slope_out = row.of(MUTANT ? here_.first : there.first),'
 mutate trajectory/jerk_cell.cpp 'with jerk: the velocity of the axes forgotten on lines' \
   '.top_squared = straight_ ? top_ * top_' '.top_squared = straight_ && !MUTANT ? top_ * top_'
-mutate trajectory/jerk_profile.cpp 'with jerk: a jump of the bend may be 30 times as large' \
-  'cap = unseen_jump * axes_[k].acceleration / jump;' 'cap = (MUTANT ? 30 : 1) * unseen_jump * axes_[k].acceleration / jump;'
+mutate trajectory/jerk_profile.cpp 'with jerk: a jump of the bend may be a thousand times as large' \
+  'cap = unseen_jump * axes_[k].acceleration / jump;' 'cap = (MUTANT ? 1000 : 1) * unseen_jump * axes_[k].acceleration / jump;'
+and_also trajectory/jerk_cell.cpp \
+  'cap = std::min(cap, unseen_jump * axis.acceleration / jump);' \
+  'cap = std::min(cap, (MUTANT ? 1000 : 1) * unseen_jump * axis.acceleration / jump);'
 mutate path/run_reader.cpp 'the tolerance doubled' \
   'piece.tube = tube - deviation;' 'piece.tube = (MUTANT ? 2 : 1) * tube - deviation;'
 mutate path/line_merger.cpp 'lines merged within four times their tolerance' \
@@ -111,15 +119,17 @@ done < <(jq -r '.[] | select(.file | test("passo_(path|trajectory)\\.dir/|src/mo
 link=$(ninja -C "$release" -t commands "$program" | tail -1)
 (cd "$release" && eval "${link/ -o $program / ${objects[*]} -o $copy/random_motion_tests }")
 
-# Where there is no test that fails, it prints nothing.
+# Prints the first failure, or nothing. The tests with the prover come first.
 failure_of() {  # NUMBER
-  local output
-  if ! output=$(PASSO_MUTANT=$1 PASSO_RUNS=${PASSO_RUNS-60} timeout 900 "$copy/random_motion_tests" \
-    --gtest_fail_fast --gtest_filter="RandomMotion.*:RandomHalt.*" 2>&1); then
-    local test
-    test=$(grep -m 1 -oP '^\[  FAILED  \] \K\S+' <<<"$output" || echo 'a test that was killed')
-    printf '%s: %s' "$test" "$(grep -m 1 -A 3 'Failure$' <<<"$output" | grep -v -e Failure -e '^Failed$' -e '^--' | head -1)"
-  fi
+  local output tests test
+  for tests in 'RandomMotion.*' 'RandomHalt.*'; do
+    if ! output=$(PASSO_MUTANT=$1 PASSO_RUNS=${PASSO_RUNS-60} timeout 900 "$copy/random_motion_tests" \
+      --gtest_fail_fast --gtest_filter="$tests" 2>&1); then
+      test=$(grep -m 1 -oP '^\[  FAILED  \] \K\S+' <<<"$output" || echo 'a test that was killed')
+      printf '%s: %s' "$test" "$(grep -m 1 -A 3 'Failure$' <<<"$output" | grep -v -e Failure -e '^Failed$' -e '^--' | head -1)"
+      return
+    fi
+  done
 }
 
 if [[ $# == 0 || " $* " == *" 0 "* ]]; then

@@ -62,8 +62,7 @@ TEST_F(CheckMotion, knows_a_time_that_no_path_in_the_tolerance_can_beat) {
 
 // A gap, an infinite deviation and exit code 1 were reported.
 TEST_F(CheckMotion, knows_backlash) {
-  const std::string machine =
-      write("worn.toml", passo::test::read(bench) + "\n[axis.X.screw]\nbacklash_mm = 0.2\n");
+  const std::string machine = write("worn.toml", passo::test::read(bench) + "\n[axis.X.screw]\nbacklash_mm = 0.2\n");
   const std::string program = write("p.ngc", "G21 G90 G64\nG1 X-10 F600\nX5 Y5\nX0\nM2\n");
   const Outcome outcome = passo("check " + program + " -m " + machine + " --motion");
   EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;

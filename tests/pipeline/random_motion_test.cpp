@@ -265,6 +265,18 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_veloc
   acts.print();
 }
 
+// Only the mode of the lines says that the machine stops between them.
+TEST(RandomMotion, stops_exactly_on_a_straight_line) {
+  for (const MmPerSecond3 jerk : {MmPerSecond3(0), MmPerSecond3(25'000)}) {
+    MachineDescription machine = even_machine({Axis::x, Axis::y}, 400, MmPerSecond(100), MmPerSecond2(500));
+    for (AxisDescription& axis : machine.axes) axis.jerk = jerk;
+    const test::Ending ending =
+        test::run("G21 G90 G61.1\nG1 X3 Y1 F6000\nG1 X6 Y2\nG1 X9 Y3\nM2\n", machine, {.live = endless_commitment});
+    for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+    EXPECT_NEAR(ending.proof.times_bound(), 1, 1e-3);
+  }
+}
+
 // The last part of an arc was as short as rounding, and the arc counted twice in the bound.
 TEST(RandomMotion, is_not_faster_than_the_bound_where_backlash_cuts_an_arc) {
   test::Random random = test::Random::of(2462);

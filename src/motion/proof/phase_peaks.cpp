@@ -10,6 +10,7 @@ namespace passo::proof {
 namespace {
 
 constexpr double turn_between_looks = 0.05;  // radians
+constexpr double end_of_curve = 1e-12;       // a share of its length
 constexpr double fewest_looks = 12;
 constexpr double most_looks = 4096;
 
@@ -105,6 +106,16 @@ void PhasePeaks::watch(const PlannedMove& move, const ExactCurve& curve) {
     now_ += phase.duration;
   }
   check_gap(distance(*place_, motors_at(curve.place(move.to.value()))));
+  const bool ends_curve = move.to.value() >= curve.length() * (1 - end_of_curve);
+  if (move.segment.mode == PathMode::exact_stop && ends_curve) stop_exactly();
+}
+
+// At an exact stop no axis may move, or none faster than it may stop at once.
+void PhasePeaks::stop_exactly() {
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    const double rounding = velocity_rounding * proof_.axes[i].velocity.limit;
+    raise_jump(i, std::abs(before_[i].velocity), std::max(start_stop_[i], rounding));
+  }
 }
 
 // A motor that drives its axis in the negative direction is a backlash behind it.

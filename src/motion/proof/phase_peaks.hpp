@@ -60,6 +60,7 @@ class PhasePeaks {
   bool stands() const;
   void meet(std::size_t i, const Motion& motion, bool rests);
   void raise_jump(std::size_t i, double jump, double limit);
+  void stop_exactly();
   Point motors_at(Point place) const;
   void check_gap(double gap);
   void raise(Finding& finding, double value, double t) const;

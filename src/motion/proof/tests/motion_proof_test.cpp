@@ -334,6 +334,21 @@ TEST(MotionProof, finds_a_gap) {
   EXPECT_NEAR(inside.gap.value, 0.1, 1e-12);
 }
 
+TEST(MotionProof, finds_an_exact_stop_that_is_passed_at_speed) {
+  Segment first = line(xyz(0, 0), xyz(10, 0));
+  const Segment second = line(xyz(10, 0), xyz(20, 0));
+  const double top = 50;  // half of each line at 125 mm/s²
+  const auto motion = [&] {
+    return proof_of({move(first, {phase(2 * 10 / top, 0, 0, top * top / 20)}),
+                     move(second, {phase(2 * 10 / top, 0, top, -top * top / 20)})});
+  };
+  EXPECT_TRUE(motion().good());
+  first.mode = PathMode::exact_stop;
+  const MotionProof proof = motion();
+  EXPECT_NEAR(proof.axes[0].velocity_jump.value, top, 1e-9);
+  EXPECT_FALSE(proof.good());
+}
+
 TEST(MotionProof, tells_how_much_too_slow_a_motion_is) {
   const MotionProof proof = proof_of({triangle(line(xyz(0, 0), xyz(8, 0)), 125)});
   EXPECT_TRUE(proof.good()) << to_text(proof);
