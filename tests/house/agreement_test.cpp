@@ -3,10 +3,11 @@
 #include <regex>
 #include <string>
 
+#include "source_tree.hpp"
+
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/port/parallel_port.hpp"
 #include "passo/wire/board_segment.hpp"
-#include "source_tree.hpp"
 
 namespace passo {
 namespace {
