@@ -18,13 +18,14 @@ target_compile_options(passo_compiler INTERFACE
   -fno-math-errno
   # The same program gives the same bytes on every compiler: no fused multiply-add behind our back.
   -ffp-contract=off)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # g++ 12 finds overlapping copies in std::string where there are none (GCC bug 105651).
-  target_compile_options(passo_compiler INTERFACE -Wno-restrict)
-  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
-    # It notes at each pair of numbers that its calls changed in version 10.
-    target_compile_options(passo_compiler INTERFACE -Wno-psabi)
-  endif()
+# Where g++ compiles the program, clang may compile the tests: passo_by_clang().
+define_property(TARGET PROPERTY PASSO_BY_CLANG BRIEF_DOCS "clang compiles it, whatever compiles the rest")
+set(by_gcc "$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<BOOL:$<TARGET_PROPERTY:PASSO_BY_CLANG>>>>")
+# g++ 12 finds overlapping copies in std::string where there are none (GCC bug 105651).
+target_compile_options(passo_compiler INTERFACE $<${by_gcc}:-Wno-restrict>)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  # g++ notes at each pair of numbers that its calls changed in version 10.
+  target_compile_options(passo_compiler INTERFACE $<${by_gcc}:-Wno-psabi>)
 endif()
 if(PASSO_WERROR)
   target_compile_options(passo_compiler INTERFACE -Werror)
@@ -45,13 +46,21 @@ if(PASSO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # headers, so that a source that it does not know is not preprocessed first.
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
     "${PASSO_CCACHE}")
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(passo_compiler INTERFACE -fpch-preprocess)
-  else()
-    # What the cache returns was compiled from another file of the same contents.
-    target_compile_options(passo_compiler INTERFACE "SHELL:-Xclang -fno-pch-timestamp")
-  endif()
+  # What clang's cache returns was compiled from another file of the same contents.
+  target_compile_options(passo_compiler INTERFACE $<IF:${by_gcc},-fpch-preprocess,SHELL:-Xclang -fno-pch-timestamp>)
 endif()
+
+# clang compiles tests in less than half of g++'s time. g++ compiles them where they make all of their trials
+# (scripts/test.sh --full), and where there is no clang: decision 0183.
+find_program(PASSO_CLANG NAMES clang++ clang++-14)
+function(passo_by_clang target)
+  if(NOT PASSO_CLANG OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR NOT PASSO_TOGETHER OR PASSO_TESTS_IN_FULL)
+    return()
+  endif()
+  set(launcher "${PROJECT_SOURCE_DIR}/cmake/compile_by.sh" "${CMAKE_CXX_COMPILER}" "${PASSO_CLANG}"
+    ${CMAKE_CXX_COMPILER_LAUNCHER})
+  set_target_properties(${target} PROPERTIES PASSO_BY_CLANG ON CXX_COMPILER_LAUNCHER "${launcher}")
+endfunction()
 
 # lld, which is here for WebAssembly, links three times as fast as ld. A cross compiler does not find it.
 find_program(PASSO_LLD NAMES ld.lld ld.lld-14)

@@ -19,7 +19,7 @@ case "${1-}" in
 esac
 
 # What each part takes on two cores without a compiler cache, in minutes: a part that takes longer is named.
-declare -A budget=([format]=1 [sanitize]=7 [look]=3 [build]=16)
+declare -A budget=([format]=1 [sanitize]=4 [look]=3 [build]=11)
 times=()
 begun=$SECONDS
 ends() {  # PART: it ends now
@@ -40,11 +40,19 @@ begun=$SECONDS
 scripts/format.sh --check
 ends format
 if [[ ${1-} == --all ]]; then
-  cmake --preset sanitize
+  # Without lines of the source in a stack: a fifth less to compile.
+  cmake --preset sanitize -DCMAKE_CXX_FLAGS_DEBUG=-O0
   build sanitize
-  run_tests sanitize --label-exclude slow
   ends sanitize
-  scripts/look_by_clang.sh
+  # The last of these tests leave a processor idle: clang looks meanwhile.
+  run_tests sanitize --label-exclude slow >build/sanitize/tests.log 2>&1 &
+  sanitized=$!
+  looked=0
+  scripts/look_by_clang.sh || looked=$?
+  passed=0
+  wait "$sanitized" || passed=$?
+  cat build/sanitize/tests.log
+  [[ $looked$passed == 00 ]] || exit 1
   ends look
 fi
 benchmarks=ON

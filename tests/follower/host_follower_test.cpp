@@ -68,7 +68,7 @@ TEST(FollowerVectors, say_where_their_text_is_wrong) {
       read_follower_vector(file);
       FAIL() << wrong;
     } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(":2: expected"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(", line 2: expected"), std::string::npos) << error.what();
     }
   }
   std::ofstream(file) << "1000 in clock.x 1\n";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -15,42 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Nanoseconds nanoseconds(double microseconds) {
-  return std::llround(microseconds * 1000);
-}
-
 std::string in_microseconds(Nanoseconds time) {
   std::ostringstream text;
   text << static_cast<double>(time) / 1000 << " us";
   return text.str();
-}
-
-// One line of the text form. False where it is none.
-bool read_line(const std::string& text, FollowerVector& vector) {
-  std::istringstream words(text);
-  if (text.starts_with("drive ")) {
-    std::string drive;
-    return static_cast<bool>(words >> drive >> vector.drive);
-  }
-  double time = 0;
-  std::string what;
-  if (!(words >> time >> what)) return false;
-  if (what == "end") {
-    vector.end = nanoseconds(time);
-    return true;
-  }
-  std::string name;
-  std::string value;
-  if (!(words >> name >> value)) return false;
-  if (what == "in") {
-    vector.lines.push_back({nanoseconds(time), name, value == "1"});
-    return value == "0" || value == "1";
-  }
-  std::string within;
-  double span = 0;
-  if (what != "out" || !(words >> within >> span) || within != "within") return false;
-  vector.expected.push_back({{nanoseconds(time), name, value}, nanoseconds(span)});
-  return true;
 }
 
 // Two windings on, and the pair goes round.
@@ -67,21 +34,9 @@ bool FollowerVector::needs_keypad() const {
 }
 
 FollowerVector read_follower_vector(const fs::path& file) {
-  std::ifstream in(file);
-  FollowerVector vector;
-  vector.name = file.stem().string();
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.empty() || line.starts_with('#')) continue;
-    if (!read_line(line, vector)) {
-      throw std::runtime_error(file.string() + ":" + std::to_string(number) +
-                               ": expected TIME in|out NAME VALUE, TIME end or drive NAME: " + line);
-    }
-  }
-  if (vector.end == 0) throw std::runtime_error(file.string() + ": has no end");
-  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
-  return vector;
+  auto read = read_board_case(file.stem().string(), text_of_file(file));
+  if (!read) throw std::runtime_error(read.error());
+  return {.name = read->name, .drive = read->drive, .lines = read->lines, .expected = read->due, .end = read->end};
 }
 
 std::vector<FollowerVector> follower_vectors(const fs::path& directory) {

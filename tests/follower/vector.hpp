@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "passo/emulator/emulated_follower.hpp"
+#include "passo/grading/board_case.hpp"
 
 namespace passo {
 
-struct ExpectedChange {
-  OutputChange change;  // at the earliest
-  Nanoseconds within = 0;
-};
+using ExpectedChange = DueChange;
 
 struct FollowerVector {
   std::string name;
@@ -27,7 +25,7 @@ struct FollowerVector {
   bool needs_keypad() const;
 };
 
-// Throws std::runtime_error with file and line where the text is wrong.
+// Throws std::runtime_error with name and line where the text is wrong.
 FollowerVector read_follower_vector(const std::filesystem::path& file);
 // The hand-made ones, by name.
 std::vector<FollowerVector> follower_vectors(const std::filesystem::path& directory);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "kit/random_point.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/session_kit.hpp"
 
@@ -89,8 +90,8 @@ TEST_P(Jog, with_random_renewals_never_outlives_its_lease_nor_leaves_the_travel)
     SessionRun run(description, on());
     run.make_ready();
     for (int i = 0; i < (GetParam() ? 25 : 100); ++i) {
-      const Point direction =
-          test::xyz(random.between(-1, 1), random.between(-1, 1), random.chance(0.5) ? random.between(-1, 1) : 0);
+      Point direction = test::random_point(random, 1);
+      if (random.chance(0.5)) direction[Axis::z] = 0;
       const double lease = random.between(0.1, 0.5);
       run.taken(request::Jog{.way = {.direction = direction,
                                      .speed = MmPerSecond(random.between(1, 120)),
@@ -153,9 +154,7 @@ TEST_P(JogStories, end_at_rest_within_0_3_s) {
   run.make_ready();
   const auto asked = [&](Request what) { static_cast<void>(run.ask(std::move(what)).has_value()); };
   for (int story = 0; story < stories; ++story) {
-    const auto direction = [&] {
-      return test::xyz(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-    };
+    const auto direction = [&] { return test::random_point(random, 1); };
     const auto wanted = [&] {
       return request::Jog{.way = {.direction = direction(),
                                   .speed = MmPerSecond(random.between(1, 25)),

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kit/in_full.hpp"
+#include "kit/random_point.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/session_kit.hpp"
 
@@ -294,16 +295,16 @@ TEST_P(Session, does_not_drift_in_a_long_chain_of_activities) {
     SCOPED_TRACE(i);
     const Point from = run.session().status().position.place;
     Point goal = from;
-    const auto somewhere = [&] {
-      goal = xyz(random.between(-20, 20), random.between(-20, 20), random.between(-20, 20));
-    };
+    const auto somewhere = [&] { goal = test::random_point(random, 20); };
     Ticket ticket = 0;
     const double kind = random.between(0, 1);
     const bool whole = random.chance(0.6);
     if (kind < 0.03) {
       ticket = run.taken(request::Home{});
     } else if (kind < 0.4) {
-      ticket = run.taken(request::Jog{.way = {.direction = xyz(random.between(-1, 1), random.between(-1, 1)),
+      Point direction = test::random_point(random, 1);
+      direction[Axis::z] = 0;
+      ticket = run.taken(request::Jog{.way = {.direction = direction,
                                               .speed = MmPerSecond(random.between(1, 60)),
                                               .distance = Mm(random.between(0.001, 5))},
                                       .lease = Seconds(random.between(0.1, 1))});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/random_point.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/session_kit.hpp"
 
@@ -401,7 +402,7 @@ TEST_P(Trouble, a_homing_that_was_stopped_anywhere_leaves_no_watch_behind) {
 }
 
 Request any_request(test::Random& random) {
-  const auto place = [&] { return xyz(random.between(-10, 10), random.between(-10, 10), random.between(-10, 10)); };
+  const auto place = [&] { return test::random_point(random, 10); };
   switch (static_cast<int>(random.between(0, 17))) {
     case 0: return start_of("G21 G90 M3 S500 G1 F1800 X5\nM0\nX-5 Y3\nT1 M6\nG4 P0.5\nG1 Y-5\nM2\n");
     case 1: return start_of(cutting);

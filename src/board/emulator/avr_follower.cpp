@@ -6,9 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "passo/chip/follower_pins.hpp"
+#include "passo/confinement/temporary_folder.hpp"
 #include "passo/emulator/emulated_avr.hpp"
 #include "passo/emulator/emulated_follower.hpp"
 #include "passo/emulator/emulator_process.hpp"
@@ -147,21 +147,6 @@ bool is_first_board(std::string_view follower) {
   return follower.starts_with("first_board");
 }
 
-// A folder for the emulator's files, removed in the end.
-class WorkFolder {
- public:
-  WorkFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("passo-follower-{}", ::getpid())) {}
-  WorkFolder(const WorkFolder&) = delete;
-  ~WorkFolder() {
-    std::error_code none;
-    std::filesystem::remove_all(path_, none);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 std::vector<std::string> emulated_followers() {
@@ -199,9 +184,10 @@ Result<FollowerRun, std::string> run_follower(std::string_view follower, const s
   if (follower.starts_with("uno") || follower.starts_with("mega")) {
     return run_avr_follower(follower.starts_with("mega"), image, lines, end);
   }
-  const WorkFolder work;
+  TemporaryFolder work;
+  if (!work.make()) return Failure{std::string("there is no folder for the emulator's files")};
   const auto board = is_first_board(follower) ? PicFollower::first_board : PicFollower::at_20_mhz;
-  return run_pic_follower(board, image, lines, end, work.path());
+  return run_pic_follower(board, image, lines, end, work.name());
 }
 
 }  // namespace passo

@@ -194,29 +194,46 @@ void MotorPath::look_ahead_round(unsigned motor, double target, double step, dou
   Lanes outward;
   Lanes around;
   Lanes left;
-  for (int round = 0; round < most_search_rounds && ahead.count == 0; ++round) {
-    for (std::size_t i = 0; i < lane_count; ++i) {
-      const double sine = near_sine(turn_ * way[i]);
-      const double cosine = near_cosine(turn_ * way[i]);
-      const Arm there{start.outward * cosine + start.around * sine, start.around * cosine - start.outward * sine};
-      const double radius = radius_at(from + way[i]);
-      const double straight = term.base + term.drift * (from + way[i]);
-      const double off = target + lane_numbers[i] * step - (straight + term.scale * radius * there.outward);
-      const double more = off / slope_round(term, there, radius);
-      const double angle = turn_ * more;
-      const double still = 1 - angle * angle / 2;
-      way[i] += more;
-      left[i] = std::fabs(angle);
-      outward[i] = there.outward * still + there.around * angle;
-      around[i] = there.around * still - there.outward * angle;
+  const auto search = [&](const auto& straight_at) {
+    for (int round = 0; round < most_search_rounds && ahead.count == 0; ++round) {
+      for (std::size_t i = 0; i < lane_count; ++i) {
+        const double sine = near_sine(turn_ * way[i]);
+        const double cosine = near_cosine(turn_ * way[i]);
+        const Arm there{start.outward * cosine + start.around * sine, start.around * cosine - start.outward * sine};
+        const double radius = radius_at(from + way[i]);
+        const double off =
+            target + lane_numbers[i] * step - (straight_at(from + way[i]) + term.scale * radius * there.outward);
+        const double more = off / slope_round(term, there, radius);
+        const double angle = turn_ * more;
+        const double still = 1 - angle * angle / 2;
+        way[i] += more;
+        left[i] = std::fabs(angle);
+        outward[i] = there.outward * still + there.around * angle;
+        around[i] = there.around * still - there.outward * angle;
+      }
+      const auto last = left.begin() + static_cast<std::ptrdiff_t>(near);
+      if (*std::max_element(left.begin(), last) <= last_turn) ahead.count = near;
     }
-    const auto last = left.begin() + static_cast<std::ptrdiff_t>(near);
-    if (*std::max_element(left.begin(), last) <= last_turn) ahead.count = near;
+  };
+  // The loop is compiled twice: most motors do not drift.
+  if (term.drift == 0) {
+    search([&](double) { return term.base; });
+  } else {
+    search([&](double s) { return term.base + term.drift * s; });
   }
-  for (std::size_t i = 0; i < lane_count; ++i) {
-    ahead.s[i] = from + (way[i] > 0 ? way[i] : 0);
-    ahead.cosine[i] = term.cosine * outward[i] + term.sine * around[i];
-    ahead.sine[i] = term.sine * outward[i] - term.cosine * around[i];
+  for (std::size_t i = 0; i < lane_count; ++i) ahead.s[i] = from + (way[i] > 0 ? way[i] : 0);
+  // The same as below, without products.
+  if (term.sine == 0) {
+    ahead.cosine = outward;
+    for (std::size_t i = 0; i < lane_count; ++i) ahead.sine[i] = -around[i];
+  } else if (term.cosine == 0) {
+    ahead.cosine = around;
+    ahead.sine = outward;
+  } else {
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      ahead.cosine[i] = term.cosine * outward[i] + term.sine * around[i];
+      ahead.sine[i] = term.sine * outward[i] - term.cosine * around[i];
+    }
   }
 }
 
@@ -240,6 +257,15 @@ void MotorPath::places(unsigned motor, const Spots& spots, Lanes& places) const 
   const auto fill = [&](const auto& place) {
     for (std::size_t i = 0; i < lane_count; ++i) places[i] = place(spots[i]);
   };
+  if (term.way == Way::round && is_of_one_axis(term)) {
+    const Lanes& outward = term.sine == 0 ? spots.cosine : spots.sine;
+    const double radius = radius_;
+    const double growth = growth_;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      places[i] = term.base + term.scale * (radius + growth * spots.s[i]) * outward[i];
+    }
+    return;
+  }
   switch (term.way) {
     case Way::round: return fill([&](const Spot& spot) { return place_round(term, spot); });
     case Way::cubic: return fill([&](const Spot& spot) { return cubic.at(spot.s); });
@@ -253,6 +279,17 @@ void MotorPath::slopes(unsigned motor, const Spots& spots, Lanes& slopes) const 
   const auto fill = [&](const auto& slope) {
     for (std::size_t i = 0; i < lane_count; ++i) slopes[i] = slope(spots[i]);
   };
+  if (term.way == Way::round && is_of_one_axis(term)) {
+    const Lanes& outward = term.sine == 0 ? spots.cosine : spots.sine;
+    const Lanes& around = term.sine == 0 ? spots.sine : spots.cosine;
+    const double turn = term.sine == 0 ? -turn_ : turn_;
+    const double radius = radius_;
+    const double growth = growth_;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      slopes[i] = term.scale * (growth * outward[i] + (radius + growth * spots.s[i]) * turn * around[i]);
+    }
+    return;
+  }
   switch (term.way) {
     case Way::round: return fill([&](const Spot& spot) { return slope_round(term, spot); });
     case Way::cubic: return fill([&](const Spot& spot) { return cubic.slope(spot.s); });

@@ -130,6 +130,8 @@ class MotorPath {
     double outward = 0;
     double around = 0;
   };
+  // Most motors are: their arm is a spot's cosine and sine as they are, and the loops below need no products for it.
+  static bool is_of_one_axis(const Term& term) { return term.drift == 0 && (term.sine == 0 || term.cosine == 0); }
   static Arm arm(const Term& term, const Spot& spot) {
     return {term.cosine * spot.cosine + term.sine * spot.sine, term.sine * spot.cosine - term.cosine * spot.sine};
   }

@@ -132,8 +132,6 @@ void CellCutter::begin(const Segment& segment, double entry_squared, double from
   for (const LimitedAxis& axis : limited_) {
     if (axis.row.most_of(steepest) > 0) moving_.push_back(axis);
   }
-  find_shares(curve, moving_, shares_);
-  find_place(curve, moving_, from, at_);
   const auto steepest_of = [&](const LimitedAxis& axis) { return axis.row.most_of(steepest); };
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest_of));
   const double strongest_here = top_acceleration(moving_, steepest_of);
@@ -147,6 +145,11 @@ void CellCutter::begin(const Segment& segment, double entry_squared, double from
     const double most_cells = is_short ? most_graded_of_short : most_graded;
     grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_cells);
     straight_ = false;
+  }
+  at_.s = from;
+  if (!straight_) {
+    find_shares(curve, moving_, shares_);
+    find_place(curve, moving_, from, at_);
   }
   if (line) return;
   const double turning = curve.turning(steepest);

@@ -26,7 +26,7 @@ class LevelledWriterTest : public testing::Test {
  protected:
   // 0.1 higher every 10 mm of X.
   const HeightMap map_{{0, 100}, {0, 100}, {0, 1, 0, 1}};
-  const LevelOptions wish_;
+  const LevelOptions wish_{};
   std::string text_;
   const std::function<void(std::string_view)> write_ = [this](std::string_view text) { text_ += text; };
   LevelledWriter writer_{map_, wish_, 5, write_};

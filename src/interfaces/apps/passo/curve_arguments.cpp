@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "argument_units.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -15,7 +16,6 @@ template <class T>
 using Parsed = Result<T, std::string>;
 using Built = Result<AnyCurve, std::string>;
 
-constexpr double radians_per_degree = std::numbers::pi / 180;
 // How far a place may be from the curve on which it should lie. Programs and people round their numbers.
 constexpr double rounding_mm = 0.01;
 

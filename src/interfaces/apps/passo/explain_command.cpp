@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t most_lines = 10'000;
 
-struct Place {
+struct ExplainedPlace {
   std::string file;
   LineRange lines;
   bool whole_file = false;
@@ -39,7 +39,7 @@ bool read_range(std::string_view text, LineRange& range) {
 
 // Reads FILE, FILE:LINE or FILE:FROM-TO. A colon may also be a part of the file's name. The text after the last colon
 // decides.
-bool read_place(const std::string& text, Place& place) {
+bool read_place(const std::string& text, ExplainedPlace& place) {
   const std::size_t colon = text.rfind(':');
   const bool has_range =
       colon != std::string::npos && colon + 1 < text.size() && text.find('/', colon) == std::string::npos;
@@ -162,7 +162,7 @@ nlohmann::ordered_json as_json(const Explanation& line) {
 }  // namespace
 
 int explain(const ExplainArguments& arguments) {
-  Place place;
+  ExplainedPlace place;
   if (!read_place(arguments.program.program, place)) {
     return fail(exit_bad_program,
                 fmt::format("{}: expected FILE, FILE:LINE or FILE:FROM-TO, lines from 1", arguments.program.program));

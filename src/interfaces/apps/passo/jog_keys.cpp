@@ -106,7 +106,7 @@ class RawTerminal {
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
     char typed[64];
     if (poll(&input, 1, static_cast<int>(within.value() * 1e3)) <= 0) return {};
-    const ssize_t size = read(STDIN_FILENO, typed, sizeof typed);
+    const ssize_t size = ::read(STDIN_FILENO, typed, sizeof typed);
     return size > 0 ? key_of({typed, static_cast<std::size_t>(size)}) : Key{.kind = Key::Kind::quit, .direction = {}};
   }
 

@@ -2,9 +2,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string_view>
 
+#include "argument_units.hpp"
 #include "commands.hpp"
 #include "machine_motor.hpp"
 #include "named_files.hpp"
@@ -20,8 +20,6 @@
 
 namespace passo {
 namespace {
-
-constexpr double radians_per_degree = std::numbers::pi / 180;
 
 Result<MotorSetup, std::string> motor_of(const LoopArguments& arguments) {
   if (arguments.machine.empty()) {

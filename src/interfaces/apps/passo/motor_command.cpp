@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "argument_units.hpp"
 #include "commands.hpp"
 #include "motor_trial.hpp"
 #include "named_files.hpp"
@@ -20,7 +21,6 @@ namespace passo {
 namespace {
 
 constexpr double kg_m2_per_g_cm2 = 1e-7;
-constexpr double henries_per_millihenry = 1e-3;
 
 // Reads the whole text as a number, which need not be finite. Whether the value is sensible is checked later, where its
 // meaning is known.

@@ -21,7 +21,7 @@ extern "C" void end_on_signal(int signal) {
 
 extern "C" void leave_on_signal(int signal) {
   constexpr std::string_view words = "\npasso: interrupted; nothing moved, and nothing was written\n";
-  static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
+  static_cast<void>(!::write(STDERR_FILENO, words.data(), words.size()));
   end_on_signal(signal);
 }
 
@@ -39,7 +39,7 @@ extern "C" void brake_on_signal(int signal) {
   note_signal(signal);
   if (!is_first) return;
   constexpr std::string_view words = "\npasso: stopping on the path; press Ctrl-C again to quit immediately\n";
-  static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
+  static_cast<void>(!::write(STDERR_FILENO, words.data(), words.size()));
 }
 
 using Handler = void (*)(int);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "argument_units.hpp"
 #include "commands.hpp"
 #include "machine_motor.hpp"
 #include "picture_names.hpp"
@@ -80,7 +81,6 @@ Timed ramp_move(const RampArguments& arguments) {
   return timed;
 }
 
-constexpr double henries_per_millihenry = 1e-3;
 constexpr Volts diode_drop{0.7};
 
 // The motor and the stage that switches it; empty: they are not known, and the currents do not rise.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "kit/random_point.hpp"
 #include "kit/stage_test.hpp"
 #include <gtest/gtest.h>
 
@@ -33,9 +34,7 @@ class RandomPlaces : public testing::Test {
  protected:
   test::Random random_;
 
-  Point random_place() {
-    return xyz(random_.between(-300, 300), random_.between(-300, 300), random_.between(-300, 300));
-  }
+  Point random_place() { return test::random_point(random_, 300); }
   // Motors at random counts, the axes where these are, and the motors there.
   void expect_counts_come_back(const Kinematics& kinematics, AxisSet downs = {}) {
     for (int i = 0; i < 2000; ++i) {
