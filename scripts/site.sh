@@ -30,7 +30,8 @@ lacking() {
 command -v mkdocs >/dev/null || lacking "there is no mkdocs (apt-get install mkdocs-material python3-markdown-it)"
 scripts/page.sh >/dev/null  # fetches what the pages need, and builds the modules
 [[ -e page/node_modules/.passo-lock ]] || lacking "its pages could not be built"
-
+# The module of "Check a program" is for the site alone.
+[[ ! -e build/release/build.ninja ]] || cmake --build build/release --target check >/dev/null || lacking "check.wasm could not be built"
 [[ -e ${PASSO_LAB_WASM:-build/release/src/study/lab/lab.wasm} ]] || lacking "the module of the Lab is missing (cmake --build build/release --target lab)"
 
 version=$(sed -n 's/^project(passo VERSION \([0-9]*\.[0-9]*\).*/\1/p' CMakeLists.txt)
