@@ -80,14 +80,15 @@ and_also trajectory/jerk_cell.cpp \
   'cap = std::min(cap, (MUTANT ? 1000 : 1) * unseen_jump * axis.acceleration / jump);'
 mutate path/run_reader.cpp 'the tolerance doubled' \
   'piece.tube = tube - deviation;' 'piece.tube = (MUTANT ? 2 : 1) * tube - deviation;'
-mutate path/line_merger.cpp 'lines merged within four times their tolerance' \
+mutate path/line_merger.cpp 'lines merged within four times the tolerance that is then taken off the tube' \
   'return std::max(tolerance, rounding);' 'return (MUTANT ? 4 : 1) * std::max(tolerance, rounding);'
+and_also path/line_merger.cpp 'deviation = cone_.tolerance;' 'deviation = (MUTANT ? 0.25 : 1) * cone_.tolerance;'
 mutate path/backlash_compensator.cpp 'half of the backlash taken up' \
   'start[axis] += down ? options_.backlash[axis] : -options_.backlash[axis];' \
   'start[axis] += (MUTANT ? 0.5 : 1) * (down ? options_.backlash[axis] : -options_.backlash[axis]);'
-mutate path/backlash_compensator.cpp 'a reversal on an arc seen 0.1 radians late' \
+mutate path/backlash_compensator.cpp 'a reversal on an arc seen half a radian late' \
   'return s + later > from ? s + later : s;' \
-  'return (s + later > from ? s + later : s) + (MUTANT ? 0.1 / std::abs(turn) : 0);'
+  'return (s + later > from ? s + later : s) + (MUTANT ? 0.5 / std::abs(turn) : 0);'
 
 cat >"$copy/mutant.hpp" <<'END'
 #pragma once
