@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# scripts/package_test.sh [RELEASE ARCHITECTURE]: makes the Debian packages twice, compares them, and installs them in a
+# scripts/package_test.sh [--library] [RELEASE ARCHITECTURE]: makes the Debian packages twice, compares them, and installs them in a
 # bare Debian 12. There it runs a first job, opens the web interface, upgrades, removes and purges. What each step takes is
 # printed.
 #
+#   --library              installs libpasso and the Python package, too, builds their examples there and runs them
 #   RELEASE ARCHITECTURE   takes the packages that scripts/package_elsewhere.sh has made for them, and installs them there
 #
 # The bare system is made by debootstrap, once, in build/packages/bookworm-amd64.tar. Exit code 77, "skipped": not root,
@@ -38,6 +39,11 @@ fail() {
 packages=build/packages
 make_packages=(scripts/package.sh)
 release=bookworm arch=$(dpkg --print-architecture)
+library= tested="passo passo-emulators"
+if [[ ${1-} == --library ]]; then
+  library=yes tested="libpasso1 libpasso-dev passo passo-emulators python3-passo"
+  shift
+fi
 if (($# > 0)); then
   release=$1 arch=$2
   packages=build/packages/$release-$arch
@@ -48,7 +54,7 @@ rm -rf "$packages"/*.deb "$packages/before" "$packages/next"
 ends "packages made"
 (($# > 0)) || scripts/library_test.sh --packages "$packages"
 ends "programs built with the library's packages"
-first=("$packages"/passo_*.deb "$packages"/passo-emulators_*.deb)
+first=("$packages"/*.deb)
 mkdir -p "$packages/before"
 mv "${first[@]}" "$packages/before/"
 PASSO_NO_LINTIAN=1 "${make_packages[@]}" >/dev/null
@@ -56,19 +62,19 @@ for file in "$packages/before"/*.deb; do
   cmp "$file" "$packages/${file##*/}" || fail "${file##*/} is another one when it is made again"
 done
 ends "made again, the same bytes"
-version=$(dpkg-deb --field "${first[0]}" Version)
+version=$(dpkg-deb --field "$packages"/before/passo_*.deb Version)
 # The next version: the same files.
 mkdir -p "$packages/next"
 for file in "$packages/before"/*.deb; do
   rm -rf "$packages/raw"
   dpkg-deb --raw-extract "$file" "$packages/raw"
-  sed -i "s/^Version: .*/&+1/; s/passo (= $version)/passo (= $version+1)/" "$packages/raw/DEBIAN/control"
+  sed -i "s/^Version: .*/&+1/; s/(= $version)/(= $version+1)/g" "$packages/raw/DEBIAN/control"
   dpkg-deb -Znone --build "$packages/raw" "$packages/next/${file##*/}" >/dev/null
 done
 ends "the next version"
 
 # --- a bare system, with the libraries that the packages ask for
-mapfile -t needed < <(scripts/package_needs.sh "$packages/before"/*.deb)
+mapfile -t needed < <(scripts/package_needs.sh "$packages/before"/passo{,-emulators}_*.deb)
 root=$(mktemp -d /tmp/passo-root.XXXXXX)
 server=
 trap '[[ -z $server ]] || kill "$server"; umount -R "$root" && rmdir "$root"' EXIT
@@ -77,6 +83,13 @@ scripts/bare_debian.sh "$release" "$arch" "$root" "${needed[@]}" || exit
 ends "bare $release"
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
+if [[ -n $library ]]; then
+  cp /etc/resolv.conf "$root/etc/"
+  mapfile -t needed < <(scripts/package_needs.sh "$packages/before"/*.deb)
+  chroot "$root" sh -c "apt-get update && apt-get install --yes --no-install-recommends cmake g++ make ${needed[*]}" \
+    >"$packages/compiler.log" 2>&1 || fail "there is no compiler or no Python: see $packages/compiler.log"
+  ends "a compiler and Python"
+fi
 
 inside() {
   chroot "$root" env HOME=/root DEBIAN_FRONTEND=noninteractive "$@"
@@ -91,7 +104,11 @@ list_files() {
 mkdir "$root/packages"
 cp -r "$packages/before" "$packages/next" "$root/packages/"
 list_files >"$packages/files.before"
-inside sh -c "dpkg --install /packages/before/*.deb" >"$packages/install.log" 2>&1 ||
+files_in() {  # FOLDER: those that are tested
+  (cd "$root/packages" && for name in $tested; do echo "/packages/$(echo "$1/${name}"_*.deb)"; done)
+}
+# shellcheck disable=SC2046  # names without blanks
+inside dpkg --install $(files_in before) >"$packages/install.log" 2>&1 ||
   fail "the packages cannot be installed: see $packages/install.log"
 ends "installed"
 examples=/usr/share/passo/examples
@@ -104,6 +121,18 @@ inside passo board info sim:uno >"$packages/info" || fail "there is no emulated 
 inside passo run /tmp/short.ngc --machine "$examples/machines/uno.toml" --board sim:uno --from-here --yes -q ||
   fail "the emulated Uno does not run"
 ends "a job on the emulated Uno"
+
+if [[ -n $library ]]; then
+  cp -r examples/library examples/python/plan_path.py "$root/tmp/"
+  inside sh -c "cmake -S /tmp/library -B /tmp/built && cmake --build /tmp/built" >"$packages/examples.log" 2>&1 ||
+    fail "the examples cannot be built: see $packages/examples.log"
+  inside /tmp/built/check_program "$examples/engrave.ngc" "$examples/machines/pantograph.toml" | grep --quiet '^X: ' ||
+    fail "check_program prints no extents"
+  ends "the library's examples"
+  inside env PYTHONDONTWRITEBYTECODE=1 python3 /tmp/plan_path.py | grep --quiet ' steps; the first of X at ' ||
+    fail "the Python package does not plan"
+  ends "a path planned in Python"
+fi
 
 # --- the web interface, and what a server keeps
 serve() {
@@ -134,16 +163,19 @@ ends "passo serve with its page"
 cp "$root$examples/machines/router.toml" "$root/etc/passo/machine.toml"
 echo '# mine' >>"$root/etc/default/passo"
 sha256sum "$root/var/lib/passo/jobs.sqlite" "$root/etc/passo/machine.toml" "$root/etc/default/passo" >"$packages/state"
-inside sh -c "dpkg --install /packages/next/*.deb" >>"$packages/install.log" 2>&1 || fail "the upgrade fails"
+# shellcheck disable=SC2046
+inside dpkg --install $(files_in next) >>"$packages/install.log" 2>&1 || fail "the upgrade fails"
 sha256sum --check --quiet "$packages/state" || fail "the upgrade changed what a user has"
 # shellcheck disable=SC2016  # the braces are dpkg-query's
 [[ $(inside dpkg-query -W -f '${Version}' passo) == "$version+1" ]] || fail "the upgrade left the version before"
 serve
 end_server
 ends "upgraded, state kept"
-inside dpkg --remove passo-emulators passo >>"$packages/install.log" 2>&1
+# shellcheck disable=SC2086
+inside dpkg --remove $tested >>"$packages/install.log" 2>&1
 [[ ! -e $root/usr/bin/passo && -s $root/var/lib/passo/jobs.sqlite && -s $root/etc/passo/machine.toml ]] ||
   fail "removal leaves the program, or takes what a user has"
-inside dpkg --purge passo-emulators passo >>"$packages/install.log" 2>&1
+# shellcheck disable=SC2086
+inside dpkg --purge $tested >>"$packages/install.log" 2>&1
 list_files | diff "$packages/files.before" - || fail "the purge leaves these files"
 ends "removed and purged, nothing left"
