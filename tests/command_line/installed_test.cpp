@@ -175,11 +175,16 @@ TEST_F(CommandDocuments, bash_proposes_commands_values_and_files) {
 TEST_F(Installed, the_version_is_the_same_everywhere) {
   const std::string said = installed("--version").out;  // "passo 1.2.3\n"
   const std::string version = said.substr(6, said.size() - 7);
-  EXPECT_THAT(read(checkout + "/CMakeLists.txt"), HasSubstr("project(passo VERSION " + version + " "));
+  const std::string release = version.substr(0, version.find('-'));
+  EXPECT_THAT(read(checkout + "/CMakeLists.txt"), HasSubstr("project(passo VERSION " + release + " "));
+  EXPECT_THAT(read(checkout + "/README.md"), HasSubstr("**Status.** Version " + version + ","));
+  EXPECT_THAT(read(checkout + "/CHANGELOG.md"), HasSubstr("\n## " + version + ","));
+  EXPECT_THAT(read(checkout + "/docs/api/openapi.json"), HasSubstr("\"version\": \"" + version + "\""));
   EXPECT_THAT(read(checkout + "/CITATION.cff"), HasSubstr("\nversion: " + version + "\n"));
   EXPECT_THAT(read(root("usr/share/man/man1/passo.1")), HasSubstr("\"Passo " + version + "\""));
   // A Debian package of a release candidate is 1.2.3~rc1.
-  EXPECT_TRUE(read(checkout + "/debian/changelog").starts_with("passo (" + version));
+  const std::string package = std::regex_replace(version, std::regex("-"), "~");
+  EXPECT_TRUE(read(checkout + "/debian/changelog").starts_with("passo (" + package + ")"));
 }
 
 }  // namespace
