@@ -118,10 +118,9 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
       "Examples:\n  passo machine examples/machines/router.toml     show its axes, board and tool\n"
       "  passo machine mine.toml                         check your own file: show its errors, or what it describes\n"
       "  passo machine --from settings.txt -o mine.toml  make a machine file from the answer of Grbl to $$\n"
-      "  passo machine --from config.yaml > mine.toml    make one from FluidNC's configuration; the report (values "
-      "used, "
-      "assumed, not used)\n"
-      "                                                  goes to standard error\n"
+      "  passo machine --from config.yaml > mine.toml    make one from FluidNC's configuration; the report of "
+      "values used,\n"
+      "                                                  assumed and not used goes to standard error\n"
       "docs/manual/machine-file.md explains every key, docs/manual/machine-import.md the formats");
 }
 
