@@ -43,7 +43,7 @@ mutate trajectory/acceleration_law.cpp 'the feed raised by 1 %' \
   'std::min(entry.cell.top_squared, feed_squared);' 'std::min(entry.cell.top_squared, (MUTANT ? 1.02 : 1) * feed_squared);'
 mutate trajectory/cell.cpp 'the sign of the second derivative of the path reversed' \
   'place.bend[k] = axes[k].row.of(here.second);' 'place.bend[k] = (MUTANT ? -1 : 1) * axes[k].row.of(here.second);'
-mutate trajectory/cell.cpp 'the acceleration limit ignored between the ends of a cell' \
+mutate trajectory/cell.cpp 'no reserve for the acceleration between the ends of a cell' \
   '.limit = axis.acceleration - slack}' '.limit = axis.acceleration - (MUTANT ? 0 : slack)}'
 mutate trajectory/acceleration_law.cpp 'the backward pass shifted by one cell' \
   'cells_[i].entry_if_rest = entry_to(i, if_rest);' \
