@@ -41,9 +41,9 @@ mutate trajectory/acceleration_curve.cpp 'the torque of a motor raised by 1 %' \
   '.at_rest = from.acceleration + fall * from.w,' '.at_rest = (MUTANT ? 1.01 : 1) * (from.acceleration + fall * from.w),'
 mutate trajectory/acceleration_law.cpp 'the feed raised by 1 %' \
   'std::min(entry.cell.top_squared, feed_squared);' 'std::min(entry.cell.top_squared, (MUTANT ? 1.02 : 1) * feed_squared);'
-mutate trajectory/cell.cpp 'the sign of the bend turned' \
+mutate trajectory/cell.cpp 'the sign of the second derivative of the path reversed' \
   'place.bend[k] = axes[k].row.of(here.second);' 'place.bend[k] = (MUTANT ? -1 : 1) * axes[k].row.of(here.second);'
-mutate trajectory/cell.cpp 'the acceleration between the ends of a cell forgotten' \
+mutate trajectory/cell.cpp 'no reserve for the acceleration between the ends of a cell' \
   '.limit = axis.acceleration - slack}' '.limit = axis.acceleration - (MUTANT ? 0 : slack)}'
 mutate trajectory/acceleration_law.cpp 'the backward pass shifted by one cell' \
   'cells_[i].entry_if_rest = entry_to(i, if_rest);' \
@@ -55,7 +55,7 @@ mutate trajectory/rest.hpp 'corners of up to 60 degrees passed at speed' \
   'std::abs(part) > tangent_tolerance;' 'std::abs(part) > (MUTANT ? 1 : tangent_tolerance);'
 and_also path/path_smoother.cpp \
   'if (last.rest_after && knot.along >= last.length)' 'if (last.rest_after && knot.along >= last.length && !MUTANT)'
-mutate trajectory/rest.hpp 'exact stops forgotten' \
+mutate trajectory/rest.hpp 'exact stops ignored' \
   'if (before.mode == PathMode::exact_stop) return true;' 'if (before.mode == PathMode::exact_stop && !MUTANT) return true;'
 mutate trajectory/rest.hpp 'the start-stop velocity raised by 10 %' \
   'std::min(velocity / std::abs(part), fastest);' 'std::min((MUTANT ? 1.1 : 1) * velocity / std::abs(part), fastest);'
@@ -63,30 +63,30 @@ mutate trajectory/planner.cpp 'a hold that starts 100 moves late' \
   'if (!wishes.any()) return false;' 'static int late = 0;
     if (!wishes.any()) return false;
     if (MUTANT && ++late % 100 != 0) return false;'
-mutate trajectory/planner.cpp 'an override that acts 1.3 times' \
+mutate trajectory/planner.cpp 'an override with 1.3 times its effect' \
   'wishes.feeds.override = factor;' 'wishes.feeds.override = (MUTANT ? 1.3 : 1) * factor;'
 mutate trajectory/shorten.cpp 'a shortened move that ends a millionth of a millimetre too far' \
   'move.to = after.start;' 'move.to = after.start + Mm(MUTANT ? 1e-6 : 0);'
-mutate trajectory/jerk_cell.cpp 'with jerk: the sign of the third derivative turned' \
+mutate trajectory/jerk_cell.cpp 'with jerk limits: the sign of the third derivative reversed' \
   '.third_in = row.of(here_.third),' '.third_in = (MUTANT ? -1 : 1) * row.of(here_.third),'
-mutate trajectory/jerk_cell.cpp 'with jerk: the slope at the end of a cell is that at its start' \
+mutate trajectory/jerk_cell.cpp 'with jerk limits: at the end of a cell, the slope of its start used' \
   '.slope_out = row.of(there.first),' '.slope_out = row.of(MUTANT ? here_.first : there.first),'
-mutate trajectory/jerk_cell.cpp 'with jerk: the velocity of the axes forgotten on lines' \
+mutate trajectory/jerk_cell.cpp 'with jerk limits: the velocity limits of the axes ignored on lines' \
   '.top_squared = straight_ ? top_ * top_' '.top_squared = straight_ && !MUTANT ? top_ * top_'
-mutate trajectory/jerk_profile.cpp 'with jerk: a jump of the bend may be a thousand times as large' \
+mutate trajectory/jerk_profile.cpp 'with jerk limits: the second derivative may jump a thousand times as far' \
   'cap = unseen_jump * axes_[k].acceleration / jump;' 'cap = (MUTANT ? 1000 : 1) * unseen_jump * axes_[k].acceleration / jump;'
 and_also trajectory/jerk_cell.cpp \
   'cap = std::min(cap, unseen_jump * axis.acceleration / jump);' \
   'cap = std::min(cap, (MUTANT ? 1000 : 1) * unseen_jump * axis.acceleration / jump);'
 mutate path/run_reader.cpp 'the tolerance doubled' \
   'piece.tube = tube - deviation;' 'piece.tube = (MUTANT ? 2 : 1) * tube - deviation;'
-mutate path/line_merger.cpp 'lines merged within four times the tolerance that is then taken off the tube' \
+mutate path/line_merger.cpp 'lines merged within four times the tolerance that is then subtracted from the tube' \
   'return std::max(tolerance, rounding);' 'return (MUTANT ? 4 : 1) * std::max(tolerance, rounding);'
 and_also path/line_merger.cpp 'deviation = cone_.tolerance;' 'deviation = (MUTANT ? 0.25 : 1) * cone_.tolerance;'
-mutate path/backlash_compensator.cpp 'half of the backlash taken up' \
+mutate path/backlash_compensator.cpp 'only half of the backlash taken up' \
   'start[axis] += down ? options_.backlash[axis] : -options_.backlash[axis];' \
   'start[axis] += (MUTANT ? 0.5 : 1) * (down ? options_.backlash[axis] : -options_.backlash[axis]);'
-mutate path/backlash_compensator.cpp 'a reversal on an arc seen half a radian late' \
+mutate path/backlash_compensator.cpp 'a reversal on an arc detected half a radian late' \
   'return s + later > from ? s + later : s;' \
   'return (s + later > from ? s + later : s) + (MUTANT ? 0.5 / std::abs(turn) : 0);'
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scripts/site.sh [--check|--test] [FOLDER]: builds the site into FOLDER/VERSION (build/site/0.1), a site of files that needs no
+# scripts/site.sh [--check|--test] [FOLDER]: builds the site into FOLDER/VERSION (build/site/1.0), a site of files that needs no
 # server of its own.
 #
 #   --check   then checks all links, and that no page loads anything from another host

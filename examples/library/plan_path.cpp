@@ -7,7 +7,7 @@ int main() {
   passo::Limits limits;
   limits[passo::Axis::x] = {200, 1500, 30000};  // mm/s, mm/s², mm/s³
   limits[passo::Axis::y] = {200, 1500, 30000};
-  limits[passo::Axis::z] = {50, 300};  // no limit of the jerk
+  limits[passo::Axis::z] = {50, 300};  // no jerk limit
 
   passo::Path path;  // starts at 0, 0, 0
   path.set_tolerance(0.02);
@@ -36,7 +36,7 @@ int main() {
 
   passo::StepOptions motors;
   motors[passo::Axis::x] = motors[passo::Axis::y] = 80;  // steps per mm
-  motors[passo::Axis::z] = -400;                         // turned round
+  motors[passo::Axis::z] = -400;                         // reversed direction
   passo::Outcome<passo::StepTrain> steps = motion->steps(motors);
   if (!steps) return 1;
   passo::Step first[5];

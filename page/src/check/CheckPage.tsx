@@ -1,4 +1,4 @@
-// "Check my program": a program and a machine in, and what `passo check` finds, all in this browser.
+// "Check my program": the visitor gives a program and a machine, and this browser shows the results of `passo check`.
 import '../style/pages.css';
 import './check.css';
 import { useEffect, useRef, useState } from 'preact/hooks';
@@ -191,7 +191,7 @@ function Choices() {
   );
 }
 
-// What a file of another controller does not say is never guessed in silence.
+// Lists what a file of another controller does not contain, and what the page assumed instead.
 function ImportNotes({ machine }: { machine: ChosenMachine }) {
   const made = machine.imported;
   if (made === undefined) return null;

@@ -1,4 +1,4 @@
-// What the module answers: the keys of `passo check --json`, the machine, and the index of the path.
+// The answer of the module: the keys of `passo check --json`, the machine, and the index of the path.
 import type { Sentence } from '../core/faults';
 import type { PathIndex } from '../machine/path_index';
 import type { LoadedLine, Proposal, Verdict } from '../machine/studies';
@@ -45,13 +45,13 @@ export interface SpeedPart extends SpeedBound {
 }
 export interface CheckAnswer {
   machine: CheckedMachine;
-  // Without these the machine has errors.
+  // Missing if the machine has errors.
   good?: boolean;
   errors?: number;
   findings?: CheckFinding[];
   waits?: number;
   waits_first_at?: { line: number; for: string; tool?: number; message?: string }[];
-  // Without these the program has errors.
+  // Missing if the program has errors.
   time_s?: number;
   dwell_s?: number;
   cutting_s?: number;

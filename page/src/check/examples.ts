@@ -1,7 +1,7 @@
-// The machines to choose from: those of examples/machines, as they are.
+// The machines to choose from: the files in examples/machines, unchanged.
 const texts: Record<string, string> = import.meta.glob('../../../examples/machines/*.toml', { query: '?raw', import: 'default', eager: true });
 
-// What was made of a file of another controller, in the words of the program.
+// What the program reports about the file of another controller.
 export interface Imported {
   controller: string;
   understood: number; // values

@@ -1,5 +1,5 @@
-// The text of the visitor's program, a window at a time: it may have millions of lines. The reader of the program ends a line
-// at LF, CR or CR LF; so does this.
+// The text of the visitor's program, one window at a time, because it may have millions of lines. Like the reader of
+// programs, it ends a line at LF, CR or CR LF.
 import { signal } from '@preact/signals';
 
 const marked = 1024; // lines between two known places
@@ -23,7 +23,7 @@ export class FileText {
     this.ended = true;
   }
 
-  // Line 1 is the first. Undefined: it has not come yet, and is asked for.
+  // Line 1 is the first. Undefined: the line is not loaded yet, and this call requests it.
   line(number: number): string | undefined {
     const index = Math.floor((number - 1) / marked);
     const found = this.windows.get(index);
@@ -50,7 +50,7 @@ export class FileText {
       }
       if (last !== 10 && this.file.size > 0) ++lines;
     } catch {
-      // The file has changed or gone: the check says so.
+      // The file has changed or was deleted: the check reports it.
     }
     this.lines.value = Math.max(1, lines);
   }
@@ -60,7 +60,7 @@ export class FileText {
     if (this.asked.has(index) || from === undefined || this.lines.peek() === 0) return;
     this.asked.add(index);
     try {
-      // A line of a program has at most so many bytes; a window that is longer shows its beginning.
+      // A line has at most `piece` bytes; of a longer window, only the beginning is shown.
       const to = Math.min(this.starts[index + 1] ?? this.file.size, from + piece);
       const text = await this.file.slice(from, to).text();
       this.windows.set(index, text.split(/\r\n|\n|\r/).map((one) => one.slice(0, longestShown)));
@@ -68,7 +68,7 @@ export class FileText {
       if (this.windows.size > mostWindows && oldest !== undefined) this.windows.delete(oldest);
       ++this.version.value;
     } catch {
-      // Asked again when it is next looked at.
+      // The next call of line() requests it again.
     } finally {
       this.asked.delete(index);
     }

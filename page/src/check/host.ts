@@ -1,10 +1,10 @@
-// What the page does for the module: it reads the visitor's files, and shows how far the check is
+// The functions that the page offers to the module: they read the visitor's files and report the progress of the check
 // (src/core/base/include/passo/base/browser_host.hpp in C++).
 
 export const stages = ['reading', 'planning', 'proposals'] as const;
 export type Stage = (typeof stages)[number];
 
-// The bytes of a file from an offset on. Throws where the browser cannot read it.
+// Returns the bytes of a file from an offset on. Throws if the browser cannot read it.
 export type ReadPart = (from: number, size: number) => Uint8Array;
 export interface HostFile {
   size: number;
@@ -41,7 +41,7 @@ export class CheckModule {
       },
       progress: (stage: number, share: number): void => progress(stages[stage] ?? 'reading', share),
     };
-    // What else the C library may ask of a system is refused.
+    // All other system functions that the C library may call return an error.
     const refused = 8;
     const module = await WebAssembly.compile(bytes);
     const imports: WebAssembly.Imports = { host };
@@ -64,7 +64,7 @@ export class CheckModule {
     this.give(request);
     return new TextDecoder().decode(this.answer(this.call.check_program()));
   }
-  // Makes a machine file of another controller's configuration.
+  // Makes a machine file from another controller's configuration.
   import(request: object): string {
     this.give(request);
     return new TextDecoder().decode(this.answer(this.call.check_import()));

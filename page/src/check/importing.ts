@@ -37,7 +37,7 @@ function ask(module: ArrayBuffer, newWorker: () => Worker, request: ImportReques
   });
 }
 
-// Throws with words where no machine can be made of it.
+// Throws an error with a message if no machine can be made from the file.
 export async function importMachine(file: File, module: ArrayBuffer, newWorker: () => Worker): Promise<ChosenMachine> {
   if (file.size > mostSourceBytes) throw new Error(`${file.name}: the file has more than 1 MiB`);
   const text = decoded(await file.arrayBuffer());
@@ -47,7 +47,7 @@ export async function importMachine(file: File, module: ArrayBuffer, newWorker: 
     const tree = answer.format === 'fluidnc' ? treeOfYaml(text) : treeOfXml(text);
     answer = await ask(module, newWorker, { ...request, format: answer.format, tree });
   }
-  if (answer.format === null) throw new Error(`${file.name}: this is no configuration of Grbl, grblHAL, FluidNC, LinuxCNC or Mach3`);
+  if (answer.format === null) throw new Error(`${file.name}: this is not a configuration of Grbl, grblHAL, FluidNC, LinuxCNC or Mach3`);
   if (!answer.good || answer.toml === undefined) {
     throw new Error(answer.findings.map((one) => `${file.name}${one.line > 0 ? `:${one.line}` : ''}: ${one.message}; expected: ${one.expected}`).join('\n') || file.name);
   }

@@ -1,5 +1,5 @@
-// Motors to choose from. Their data are those of machine files of this project: examples/machines/strong-router.toml,
-// examples/troubles and docs/manual/motors.md. A visitor with other motors writes them into the machine file.
+// Motors to choose from. Their data are those of machine files of this project: examples/machines/strong-router.toml and
+// examples/troubles. A visitor with other motors writes them into the machine file.
 export interface MotorKind {
   name: string;
   data: Record<string, number>;
@@ -14,7 +14,7 @@ export const motorKinds: Record<string, MotorKind> = {
   'nema23-48v': { name: 'NEMA 23, 1.9 N·m, 2.8 A, 48 V', data: { ...nema23, supply_v: 48 } },
 };
 
-// What a motor moves: a slide with what it carries, and its friction.
+// What a motor moves: the mass of the slide and its load, and the friction.
 export interface MovedLoad {
   mass: number; // kg
   friction: number; // N

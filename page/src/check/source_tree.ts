@@ -59,7 +59,7 @@ export function treeOfXml(text: string): SourceNode {
   if (/<!ENTITY/i.test(text)) throw new Error('the file declares an entity');
   const document = new DOMParser().parseFromString(text, 'text/xml');
   const wrong = document.querySelector('parsererror');
-  if (wrong !== null) throw new Error(wrong.textContent?.trim().split('\n')[0] ?? 'it is no XML');
+  if (wrong !== null) throw new Error(wrong.textContent?.trim().split('\n')[0] ?? 'this is not XML');
   let nodes = 0;
   const add = (element: Element, depth: number): SourceNode => {
     if (++nodes > mostNodes || depth > deepest) throw new Error(nested);

@@ -1,4 +1,4 @@
-// What the visitor has chosen, the check that is under way, and its results. Nothing of it leaves this computer.
+// The visitor's choices, the running check and its results. None of it leaves this computer.
 import { batch, computed, signal } from '@preact/signals';
 import { machine as sceneMachine } from '../machine/connection';
 import type { Machine } from '../machine/api';
@@ -36,7 +36,7 @@ export const refusal = signal<{ kind: Refusal; words: string } | null>(null);
 export const result = signal<{ answer: CheckAnswer; seconds: number; megabytes: number } | null>(null);
 export const tools = computed(() => otherFiles.value.find((one) => /\.tbl$/i.test(one.name))?.name ?? '');
 
-// The module and the worker's script are loaded once: from then on nothing is fetched.
+// The module and the worker's script are loaded once. After that the page fetches nothing.
 let bytes: Promise<ArrayBuffer> | undefined;
 let script = '';
 async function fetched(address: URL | string): Promise<Response> {
@@ -61,7 +61,7 @@ let question = 0;
 const newWorker = (): Worker => new Worker(script, { type: 'module' });
 const tell = (to: Worker, what: ToWorker): void => to.postMessage(what);
 
-// Ends the check at once, and lets its memory go.
+// Ends the check at once and frees its memory.
 export function cancel(): void {
   end();
   refusal.value = { kind: 'cancelled', words: '' };
@@ -164,7 +164,7 @@ export async function check(): Promise<void> {
   };
   tell(mine, { kind: 'check', module, files: [file, ...otherFiles.peek()], request });
 }
-const mostProposed = 20_000_000; // bytes; beyond, nobody waits for proposals
+const mostProposed = 20_000_000; // bytes; for larger programs the search for proposals takes too long
 
 function fail(memory: boolean, words: string): void {
   end();
@@ -181,7 +181,7 @@ async function machineOf(file: File): Promise<ChosenMachine> {
   return { file: file.name, text: await file.text(), own: true };
 }
 
-// Takes dropped files: a machine, a tool table, and the program; what comes after the program are its subroutines.
+// Takes dropped files: a machine, a tool table and the program. The files after the program are its subroutines.
 export async function take(files: readonly File[]): Promise<void> {
   const rest: File[] = [];
   for (const file of files) {

@@ -1,4 +1,4 @@
-// What the address of a page of the site asks for before its #: ?embed&lang=it&theme=light, as the code for embedding has it.
+// The options in the address of a page of the site, before its #: ?embed&lang=it&theme=light. The embedding code has them.
 import { keepNothing } from '../core/kept';
 import { language, languages, type Language } from '../core/language';
 import { themeChoice, type ThemeChoice } from '../core/theme';
@@ -6,7 +6,7 @@ import { themeChoice, type ThemeChoice } from '../core/theme';
 const isTheme = (text: string | null): text is ThemeChoice => text === 'light' || text === 'dark' || text === 'system';
 const isLanguage = (text: string | null): text is Language => text !== null && text in languages;
 
-// Returns whether the page is embedded. What a link asks for is valid for this visit: the visitor's own choices stay kept.
+// Returns whether the page is embedded. The options of a link are valid for this visit only; the visitor's own choices stay stored.
 export function obeyAddress(search: string): boolean {
   const asked = new URLSearchParams(search);
   const [lang, theme] = [asked.get('lang'), asked.get('theme')];
@@ -17,7 +17,7 @@ export function obeyAddress(search: string): boolean {
   return isEmbedded;
 }
 
-// The code that shows the page at `link` in a page of someone else.
+// The HTML code that embeds the page at `link` in another page.
 export function embedCode(link: string, title: string, height: number): string {
   const address = new URL(link);
   const asked = new URLSearchParams({ lang: language.value });

@@ -1,4 +1,4 @@
-// For teachers: the present view as code for their own page; and the way from there to the whole lab.
+// For teachers: the HTML code that embeds the current view in their own page, and the link from there to the whole Lab.
 import { useState } from 'preact/hooks';
 import { linkToView, view } from '../lab/state';
 import { say } from '../lab/words';
@@ -7,7 +7,7 @@ import { embedCode } from './address';
 
 const [lowest, highest] = [480, 1000]; // px
 
-// As tall as the part is on this screen, within what a page can spare.
+// The height of the part on this screen, within limits.
 function heightOfPart(): number {
   const needed = (document.getElementById('lab-part')?.scrollHeight ?? 0) + 60;
   return Math.min(highest, Math.max(lowest, needed));

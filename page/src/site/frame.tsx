@@ -1,4 +1,4 @@
-// The frame of a page of the site: the way back to the manual, the language, the theme. An embedded page has none.
+// The frame of a page of the site: the link to the manual, the language, the theme. An embedded page has no frame.
 import { render } from 'preact';
 import type { ComponentType } from 'preact';
 import { followLanguage, language, languages, say, type Language } from '../core/language';

@@ -252,7 +252,7 @@ void FluidNcImport::read_motor(ImportedAxis& axis, const SourceNode& motor, cons
     }
   }
   context_.unmapped(fluid_child(&motor, "hard_limits"), path + "/hard_limits",
-                    "no equivalent: hard limits are no key of a machine file");
+                    "no equivalent: a machine file has no key for hard limits");
   if (is_second) {
     context_.unmapped(fluid_child(&motor, "pulloff_mm"), path + "/pulloff_mm",
                       "one distance for both motors; the difference is square_mm in [axis.X.second_motor]");
@@ -301,7 +301,7 @@ void FluidNcImport::read_speed_map(const SourceNode* map, const std::string& pat
   if (highest) {
     model_.max_rpm = SourcedNumber{*highest, origin};
   } else {
-    context_.unmapped(origin, "this is no map of speeds like 0=0% 1000=100%");
+    context_.unmapped(origin, "this is not a speed map such as 0=0% 1000=100%");
   }
 }
 

@@ -30,7 +30,7 @@ constexpr SettingReason setting_reasons[] = {
     {12, 12, "no equivalent: Passo follows arcs without chords"},
     {13, 13, "no equivalent: the unit of reports; all settings are in millimetres"},
     {17, 19, "no equivalent: the boards of Passo have their own pull-up resistors"},
-    {21, 21, "no equivalent: hard limits are no key of a machine file"},
+    {21, 21, "no equivalent: a machine file has no key for hard limits"},
     {26, 26, "no equivalent: see filter_us in [inputs]"},
     {28, 28, "no equivalent: the retract of G73"},
     {31, 31, "no equivalent: the lowest spindle speed"},

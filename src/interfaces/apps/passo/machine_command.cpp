@@ -69,7 +69,7 @@ int import_machine_file(const MachineArguments& arguments) {
 int machine(const MachineArguments& arguments) {
   if (!arguments.from.empty()) return import_machine_file(arguments);
   if (arguments.machine.empty()) {
-    return fail(exit_bad_program, "a machine file, or --from with the configuration of another controller, is needed");
+    return fail(exit_bad_program, "give a machine file, or --from and the configuration of another controller");
   }
   Diagnostics diagnostics;
   const auto description = load_machine_file(arguments.machine, diagnostics);

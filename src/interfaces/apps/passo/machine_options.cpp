@@ -10,9 +10,9 @@ void add_machine(CLI::App& command, std::string& machine) {
 
 void add_board(CLI::App& command, std::string& board) {
   command.add_option("-b,--board", board,
-                     "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega (see passo board), for run "
-                     "and home also grbl:DEVICE, a machine with Grbl, and for run sim:first_board, a parallel port and "
-                     "a PIC (default: the simulated machine)");
+                     "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico (see passo board), for "
+                     "run and home also grbl:DEVICE, a machine with Grbl, and for run sim:first_board, a parallel port "
+                     "and a PIC (default: the simulated machine)");
 }
 
 void add_jog_options(CLI::App& command, JogArguments& arguments) {
@@ -103,24 +103,25 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
   CLI::Option* const from =
       command
           .add_option("--from", arguments.from,
-                      "configuration file of another controller, to make a machine file from: the answer of Grbl, "
-                      "grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML)")
+                      "configuration file of another controller, from which to make a machine file: the answer of "
+                      "Grbl, grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML)")
           ->excludes(machine);
   command
       .add_option("--format", arguments.format,
-                  "format of that file (default: from its content): settings, fluidnc, linuxcnc or mach3")
+                  "format of that file: settings, fluidnc, linuxcnc or mach3 (default: detected from its content)")
       ->check(CLI::IsMember({"settings", "fluidnc", "linuxcnc", "mach3"}))
       ->needs(from);
-  command.add_option("-o,--output", arguments.output, "the new machine file (default: standard output)")->needs(from);
+  command.add_option("-o,--output", arguments.output, "file for the new machine file (default: standard output)")
+      ->needs(from);
   command.add_flag("--json", arguments.json, "print the new machine file and the report as JSON")->needs(from);
   command.footer(
-      "Examples:\n  passo machine examples/machines/router.toml     its axes, board and tool\n"
-      "  passo machine mine.toml                         the errors in your own file\n"
-      "  passo machine --from settings.txt -o mine.toml  a machine file from the answer of Grbl to $$\n"
-      "  passo machine --from config.yaml > mine.toml    the same from FluidNC's configuration; the report of what was "
-      "understood is on\n"
-      "                                                  standard error\n"
-      "Every key is explained in docs/manual/machine-file.md, the formats in docs/manual/machine-import.md");
+      "Examples:\n  passo machine examples/machines/router.toml     show its axes, board and tool\n"
+      "  passo machine mine.toml                         check your own file: show its errors, or what it describes\n"
+      "  passo machine --from settings.txt -o mine.toml  make a machine file from the answer of Grbl to $$\n"
+      "  passo machine --from config.yaml > mine.toml    make one from FluidNC's configuration; the report of "
+      "values used,\n"
+      "                                                  assumed and not used goes to standard error\n"
+      "docs/manual/machine-file.md explains every key, docs/manual/machine-import.md the formats");
 }
 
 }  // namespace passo

@@ -5,9 +5,9 @@
     report = passo.check("part.ngc", "machine.toml")
     print(report.motion.time if report.good else report.findings[0])
 
-A program is the name of a file or a Program, a machine the name of a machine file or a Machine. Lengths are in mm,
+A program is the name of a file or a Program. A machine is the name of a machine file or a Machine. Lengths are in mm,
 angles in degrees, times in seconds. Errors in files, paths and options raise passo.Error, which has file, line, column
-and code. Long calls release the interpreter's lock, and may run in several threads at once.
+and code. Long calls release the interpreter's lock, so several threads may run them at once.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Tuple, 
 import numpy as np
 import numpy.typing as npt
 
-# A wheel has the library beside this file.
+# In a wheel, the library is next to this file.
 _library = os.path.join(os.path.dirname(__file__), "libpasso.so.1")
 if os.path.exists(_library):
     ctypes.CDLL(_library)
@@ -41,7 +41,7 @@ AnyProgram = Union[str, "os.PathLike[str]", Program]
 AnyMachine = Union[str, "os.PathLike[str]", Machine]
 Range = Tuple[float, float]
 Progress = Callable[[float], None]
-"""is called from time to time with the completed fraction; what it raises ends the call"""
+"""A function that is called from time to time with the completed fraction. An exception from it ends the call."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class ReadOptions:
     dialect: str = "linuxcnc"
     """'linuxcnc' or 'grbl'"""
     inches: bool = False
-    """the units until G20 or G21"""
+    """lengths before the first G20 or G21 are in inches"""
     block_delete: bool = False
     """skips lines that begin with '/'"""
     tool_table: str = ""
@@ -79,7 +79,7 @@ def _machine(machine: AnyMachine) -> Machine:
 
 
 def operations(program: AnyProgram, read: ReadOptions = ReadOptions()) -> Iterator[operation.Operation]:
-    """Yields the operations of a program in the order of execution. At the end it raises Error if there were errors."""
+    """Yields the operations of a program in the order of execution. If there are errors, it raises Error at the end."""
     reader = _core.OperationReader(_program(program), read._core())
     while (values := reader.next()) is not None:
         made: operation.Operation = getattr(operation, str(values[0]))(*values[1:])
@@ -98,9 +98,9 @@ class AxisMotion:
 
     axis: str
     extents: Optional[Range]
-    """machine coordinates; None: nothing moves"""
+    """in machine coordinates; None: the axis does not move"""
     cutting_extents: Optional[Range]
-    """of the feed moves"""
+    """the same for the feed moves"""
     highest_velocity: float
     highest_acceleration: float
 
@@ -162,7 +162,7 @@ class MotionReport:
 
     @property
     def time(self) -> float:
-        """The duration of the program, in seconds."""
+        """The duration of the program, in seconds. Spindle commands, tool changes and program stops take no time."""
         return self.cutting_time + self.rapid_time + self.dwell_time
 
 
@@ -191,7 +191,7 @@ def check(
     rapid_factor: float = 1,
     progress: Optional[Progress] = None,
 ) -> ProgramReport:
-    """Checks a program for a machine. Errors of the program are in the report; a wrong machine file raises Error."""
+    """Checks a program for a machine. Errors of the program are in the report; an invalid machine file raises Error."""
     findings, motion = _core.check(
         _program(program), _machine(machine), read._core(), plans, feed_factor, rapid_factor, progress
     )
@@ -217,7 +217,7 @@ def check(
 
 @dataclass(frozen=True)
 class AxisLimits:
-    """The limits of an axis: mm/s, mm/s², mm/s³; of A, B and C in degrees. jerk 0: no limit."""
+    """The limits of an axis in mm/s, mm/s² and mm/s³; for A, B and C in degrees. jerk 0: no limit."""
 
     velocity: float
     acceleration: float
@@ -226,7 +226,7 @@ class AxisLimits:
 
 @dataclass(frozen=True)
 class Samples:
-    """Motion at equal intervals: a row for each time, a column for each axis."""
+    """The motion at equal intervals, as arrays with a row for each time and a column for each axis."""
 
     time: npt.NDArray[np.float64]
     position: npt.NDArray[np.float64]
@@ -271,14 +271,14 @@ class Motion:
 
     @property
     def length(self) -> float:
-        """Of the rounded path, in mm."""
+        """The length of the rounded path, in mm."""
         return self._core.length
 
     def sample(
         self, interval: float, axes: str = "", start: float = 0, count: Optional[int] = None
     ) -> Samples:
-        """Returns the motion at start, start + interval and so on, by default to the end. `axes`: 'XY'; by default all
-        axes that have limits."""
+        """Returns the motion at start, start + interval and so on, by default to the end. `axes`: the letters of the
+        axes, e.g. 'XY'; by default all axes that have limits."""
         axes = axes or self._axes
         if count is None:
             if not interval > 0:
@@ -294,8 +294,8 @@ class Motion:
         events_per_s: float = 100e3,
         most: int = 100_000_000,
     ) -> Steps:
-        """Returns the first steps, at most `most`, of motors with so many steps per mm or degree (negative: the other
-        way round). Without `steps_per_mm`: of the motors of the program's machine."""
+        """Returns the first steps of the motors, at most `most`. `steps_per_mm`: the steps per mm or degree of each
+        axis (negative: the motor turns in the other direction); by default the motors of the program's machine."""
         train = self._core.steps(list((steps_per_mm or {}).items()), ticks_per_s, events_per_s)
         return Steps(*train.read(most), train.ticks_per_s)
 
@@ -306,7 +306,7 @@ class Motion:
         events_per_s: float = 100e3,
         size: int = 1_000_000,
     ) -> Iterator[Steps]:
-        """Yields all steps, in blocks of at most `size` steps. The memory does not depend on the motion."""
+        """Yields all steps, in blocks of at most `size` steps. The memory does not depend on the number of steps."""
         train = self._core.steps(list((steps_per_mm or {}).items()), ticks_per_s, events_per_s)
         while True:
             block = Steps(*train.read(size), train.ticks_per_s)
@@ -316,7 +316,7 @@ class Motion:
 
 
 def plan(path: Path, limits: Mapping[str, AxisLimits]) -> Motion:
-    """Plans a path as fast as the limits of the axes allow: plan(path, {"X": AxisLimits(200, 1500), …})."""
+    """Plans the motion along a path, within the limits of the axes: plan(path, {"X": AxisLimits(200, 1500), …})."""
     tuples = [(axis, own.velocity, own.acceleration, own.jerk) for axis, own in limits.items()]
     return Motion(_core.plan_path(path, tuples), "".join(limits))
 
@@ -330,7 +330,8 @@ def plan_program(
     rapid_factor: float = 1,
     progress: Optional[Progress] = None,
 ) -> Motion:
-    """Plans a program to motion in machine coordinates. Tool changes and program stops take no time."""
+    """Plans the motion of a program, in machine coordinates. Spindle commands, tool changes and program stops take no
+    time."""
     for_machine = _machine(machine)
     core = _core.plan_program(_program(program), for_machine, read._core(), feed_factor, rapid_factor, progress)
     return Motion(core, for_machine.axes)
@@ -350,8 +351,8 @@ def toolpath(
     width: int = 1600,
     height: int = 900,
 ) -> npt.NDArray[np.uint8]:
-    """Draws the toolpath. Returns an array of height x width x 3 (red, green, blue). `tint`: 'speed', 'depth', 'tool' or
-    'torque'."""
+    """Draws the toolpath. Returns an array of height x width x 3 (red, green, blue). `tint`: what the colour of the
+    feed moves shows: 'speed', 'depth', 'tool' or 'torque'."""
     options = _core.PictureOptions(title, tint, rapids, width, height)
     return _core.toolpath(_program(program), _machine(machine), read._core(), options)
 
@@ -363,9 +364,9 @@ class MillingTool:
     kind: str
     diameter: float
     angle: float = 60
-    """of a vee: included angle in degrees"""
+    """only for a vee: the included angle in degrees"""
     tip_diameter: float = 0
-    """of a vee: of its flat tip"""
+    """only for a vee: the diameter of its flat tip"""
 
 
 @dataclass(frozen=True)
@@ -404,8 +405,8 @@ def cut(
     cell: float = 0,
     threads: int = 1,
 ) -> Stock:
-    """Cuts a block by the program. `tool`: for every T number that `tools_file` does not have. x, y, z: the block in
-    program coordinates; None: as the feed moves need it. `cell` 0: about a million cells."""
+    """Cuts a block with the program. `tool`: the tool for each T number that is not in `tools_file`. x, y, z: the block
+    in program coordinates; None: as large as the feed moves require. `cell` 0: about a million cells."""
     if tool is not None and tool.kind not in ("flat", "ball", "vee"):
         raise ValueError(f"tool '{tool.kind}'; expected 'flat', 'ball' or 'vee'")
     shape = None if tool is None else (tool.kind, tool.diameter, tool.angle, tool.tip_diameter)

@@ -18,7 +18,7 @@ class Finding:
     """a stable code, e.g. 'gcode.missing-feed'"""
     file: str
     line: int
-    """from 1; 0: the file as a whole. In a Path: the number of the piece, from 1"""
+    """from 1; 0: the file as a whole. For a Path: the number of the piece, from 1"""
     column: int
     """from 1, in characters; 0: the whole line"""
     length: int
@@ -29,14 +29,14 @@ class Finding:
     text: str
     """the line of the file; may be empty"""
     words: str
-    """the whole finding as compilers write it, in several lines"""
+    """the whole finding in the style of compilers, in several lines"""
 
     def __str__(self) -> str:
         return self.words
 
 
 class Error(ValueError):
-    """A file, a path or an option has errors. `findings` holds all of them, the other attributes are the first one's."""
+    """A file, a path or an option has errors. `findings` has them all; the other attributes are the first one's."""
 
     def __init__(self, findings: Sequence[Finding]) -> None:
         super().__init__("\n".join(finding.words.rstrip() for finding in findings))

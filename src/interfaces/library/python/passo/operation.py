@@ -8,7 +8,7 @@ from typing import Tuple, Union
 Position = Tuple[float, float, float, float, float, float, float, float, float]
 """X Y Z A B C U V W"""
 Feed = Tuple[float, str]
-"""a value, and 'mm/s' or 'mm/turn'; degrees for a move of A, B and C only"""
+"""a value, and 'mm/s' or 'mm/turn'; if only A, B and C move, degrees instead of mm"""
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ class PathMode:
     mode: str
     """'exact path', 'exact stop' or 'continuous'"""
     tolerance: float
-    """mm; 0: as the machine file says"""
+    """mm; 0: the tolerance of the machine file"""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 // The axes of a machine, and positions.
 //
-// X Y Z and U V W are lengths in millimetres. A B C are angles in degrees: where a name ends in `_mm`, `_mm_per_s` and
-// so on, a value of A, B or C is in degrees, degrees per second and so on.
+// X Y Z and U V W are lengths in millimetres. A B C are angles in degrees: if a name ends in `_mm` or `_mm_per_s`, a
+// value of A, B or C is in degrees or degrees per second.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ struct Position {
   }
 };
 
-// The planes of arcs. From the first axis to the second is counterclockwise.
+// The planes of arcs. The turn from the first axis to the second is counterclockwise.
 enum class ArcPlane : std::uint8_t { xy, zx, yz };
 
 }  // namespace passo::v1

@@ -1,8 +1,8 @@
-// Checks a program for a machine: errors and warnings with their places, the true time, the extents, what limits the
+// Checks a program for a machine: errors and warnings with their places, the run time, the extents, what limits the
 // speed, and whether the motors lose steps. The results are those of `passo check`.
 //
-// Threads: a Machine never changes, and may be used by several threads at once. All functions may be called by several
-// threads at once. check() uses up to three threads itself.
+// Threads: a Machine never changes, so several threads may use it at once. Several threads may call any function at
+// once. check() itself uses up to three threads.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,16 @@ namespace passo::v1 {
 // The content of a machine file. Copies share it.
 class PASSO_EXPORTED Machine {
  public:
-  // Errors: "machine.*", all of the file.
+  // Errors: "machine.*", all errors of the file.
   static Outcome<Machine> open(const std::string& path);
-  // `name` is used as file name in findings.
+  // `name` is the file name in findings.
   static Outcome<Machine> from_text(std::string_view text, const std::string& name = "machine");
 
   const std::string& name() const;
   std::vector<Axis> axes() const;
   Limits limits() const;
   StepOptions step_options() const;
-  // Whether the file describes a motor, so that lost steps can be predicted.
+  // Whether the file describes a motor. Only then can check() predict lost steps.
   bool knows_motors() const;
 
   struct Content;
@@ -45,13 +45,13 @@ class PASSO_EXPORTED Machine {
 
 struct CheckOptions {
   ReadOptions read = {};
-  // False: only errors and warnings are found. That takes a third of the time.
+  // False: the check finds only errors and warnings, in a third of the time.
   bool plans = true;
   // Overrides of feed and rapids: 0.01 to 2, and 0.01 to 1.
   double feed_factor = 1;
   double rapid_factor = 1;
-  // Called from time to time by the calling thread with the completed fraction, 0 to 1. What it throws ends the call,
-  // and reaches the caller.
+  // check() calls this from time to time, in the caller's thread, with the completed fraction, 0 to 1. An exception
+  // from it ends the check and reaches the caller.
   std::function<void(double)> progress = {};
 };
 
@@ -63,16 +63,16 @@ struct AxisRange {
 // The motion of an axis.
 struct AxisMotion {
   Axis axis = Axis::x;
-  std::optional<AxisRange> extents = {};          // machine coordinates; empty: nothing moves
-  std::optional<AxisRange> cutting_extents = {};  // of the feed moves
+  std::optional<AxisRange> extents = {};          // in machine coordinates; empty: the axis does not move
+  std::optional<AxisRange> cutting_extents = {};  // the same for the feed moves
   double highest_mm_per_s = 0;
   double highest_mm_per_s2 = 0;
 };
 // What limited the speed, and for how long.
 struct SpeedLimit {
-  std::string limit = {};  // "the programmed feed", "the velocity of X"
+  std::string limit = {};  // e.g. "the programmed feed" or "the velocity of X"
   double time_s = 0;
-  std::uint32_t first_line = 0;  // where it happened first
+  std::uint32_t first_line = 0;  // the first line with this limit
 };
 // A line of the program that is slower than programmed.
 struct SlowLine {
@@ -80,7 +80,7 @@ struct SlowLine {
   double mean_mm_per_s = 0;
   double programmed_mm_per_s = 0;
   double lost_s = 0;
-  std::string limit = {};  // where the most time is lost
+  std::string limit = {};  // the one that costs the most time
 };
 
 enum class StepVerdict : std::uint8_t { safe, doubtful, lost };
@@ -91,8 +91,8 @@ struct WeakSpot {
   double time_s = 0;
   StepVerdict verdict = StepVerdict::safe;
   double load = 0;         // the torque needed, as a fraction of the guaranteed torque
-  std::string cause = {};  // "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40"
-  std::string cure = {};   // "a <= 380 mm/s², or F <= 900"; may be empty
+  std::string cause = {};  // e.g. "Y needs 0.31 N·m at 1,420 steps/s, and has 0.28 to 0.40"
+  std::string cure = {};   // e.g. "a <= 380 mm/s², or F <= 900"; may be empty
 };
 
 // The results of planning.
@@ -118,7 +118,7 @@ struct ProgramReport {
   std::vector<Finding> findings = {};       // errors and warnings; at most 20 errors
   std::optional<MotionReport> motion = {};  // empty: the program has errors, or was not planned
 
-  // Whether there is no error. Lost steps are no error of the program: see MotionReport::motors.
+  // Whether there is no error. Lost steps are not an error of the program: see MotionReport::motors.
   bool good() const {
     for (const Finding& finding : findings) {
       if (finding.severity == Severity::error) return false;
@@ -129,8 +129,8 @@ struct ProgramReport {
 
 PASSO_EXPORTED ProgramReport check(const Program& program, const Machine& machine, const CheckOptions& options = {});
 
-// Plans a program for the machine to motion in time. Its states are in machine coordinates. Spindle, tool changes and
-// program stops take no time. Errors: those of check(), and "plan.too-long".
+// Plans the motion of a program on the machine. Its states are in machine coordinates. Spindle commands, tool changes
+// and program stops take no time. Errors: those of check(), and "plan.too-long".
 PASSO_EXPORTED Outcome<Motion> plan(const Program& program, const Machine& machine, const CheckOptions& options = {});
 
 }  // namespace passo::v1

@@ -1,5 +1,5 @@
-// Reads a G-code program to operations: moves, dwells, tool changes and so on, in the order of execution. Loops,
-// subroutines, expressions, cycles and cutter compensation are resolved.
+// Reads a G-code program as a sequence of operations: moves, dwells, tool changes and so on, in the order of execution.
+// The reader resolves loops, subroutines, expressions, cycles and cutter compensation.
 //
 //   const passo::Outcome<passo::Program> program = passo::Program::open("part.ngc");
 //   passo::OperationReader reader(*program);
@@ -10,8 +10,8 @@
 //
 // The dialect is LinuxCNC's RS274/NGC, or the part of it that Grbl 1.1 has.
 //
-// Threads: a Program never changes, and may be used by several threads at once. An OperationReader belongs to one
-// thread at a time.
+// Threads: a Program never changes, so several threads may use it at once. Only one thread at a time may use an
+// OperationReader.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,10 @@ namespace passo::v1 {
 // A program: a file or a text. Copies share it.
 class PASSO_EXPORTED Program {
  public:
-  // Errors: "file.*", e.g. if the file cannot be opened or is no G-code. The file is read when the program is used: do
-  // not change it in between.
+  // Errors: "file.*", e.g. if the file cannot be opened or is not G-code. Each use of the Program reads the file again,
+  // so do not change the file while the Program exists.
   static Outcome<Program> open(const std::string& path);
-  // `name` is used as file name in findings.
+  // `name` is the file name in findings.
   static Program from_text(std::string text, std::string name = "program");
 
   const std::string& name() const;
@@ -50,7 +50,7 @@ enum class GcodeDialect : std::uint8_t { linuxcnc, grbl };
 // How a program is read.
 struct ReadOptions {
   GcodeDialect dialect = GcodeDialect::linuxcnc;
-  bool inches = false;          // the units until G20 or G21
+  bool inches = false;          // lengths before the first G20 or G21 are in inches
   bool block_delete = false;    // skips lines that begin with '/'
   std::string tool_table = {};  // a file in LinuxCNC's format, in mm; empty: none
   std::string parameters = {};  // a file of numbered parameters (.var), with the work offsets; empty: none
@@ -61,7 +61,7 @@ namespace operation {
 
 // A speed along the path. For a move of A, B and C only: degrees instead of mm.
 struct Feed {
-  enum class Unit : std::uint8_t { mm_per_s, mm_per_turn };  // per_turn: of the spindle (G95, G33)
+  enum class Unit : std::uint8_t { mm_per_s, mm_per_turn };  // mm_per_turn: per revolution of the spindle (G95, G33)
   double value = 0;
   Unit unit = Unit::mm_per_s;
 };
@@ -69,7 +69,7 @@ struct Line {
   Position start = {};
   Position end = {};
   bool rapid = false;
-  Feed feed = {};           // not for a rapid
+  Feed feed = {};           // of a feed move; a rapid has none
   bool in_machine = false;  // to a machine position (G53, G28, G30)
 };
 // The centre is given in the two axes of the plane. `turns`: as in Path::arc_to().
@@ -102,7 +102,7 @@ struct Probe {
   bool must_change = true;  // an error if the probe does not change (G38.2, G38.4)
   Feed feed = {};
 };
-// Rigid tapping: to `end` and back, with the spindle reversed there (G33.1).
+// Rigid tapping (G33.1): to `end`, where the spindle reverses, and back.
 struct Tap {
   Position start = {};
   Position end = {};
@@ -135,7 +135,7 @@ struct End {};
 struct PathMode {
   enum class Mode : std::uint8_t { exact_path, exact_stop, continuous };  // G61, G61.1, G64
   Mode mode = Mode::continuous;
-  double tolerance_mm = 0;  // of `continuous`; 0: as the machine file says
+  double tolerance_mm = 0;  // for `continuous`; 0: the tolerance of the machine file
 };
 // The coordinate system, from here on. OperationReader::to_machine() applies it.
 struct CoordinateSystem {
@@ -173,8 +173,8 @@ class PASSO_EXPORTED OperationReader {
   OperationReader& operator=(OperationReader&& other) noexcept;
   ~OperationReader();
 
-  // Writes the next operation. Returns false at the end. After an error reading goes on with the next line, if that
-  // makes sense, so that all errors are found. Positions are in work coordinates, in mm and degrees.
+  // Writes the next operation. Returns false at the end. After an error, the reader continues with the next line if
+  // possible, so that it finds all errors. Positions are in work coordinates, in mm and degrees.
   bool next(Operation& operation);
   // Converts a work position to a machine position, with the coordinate system after the last operation.
   Position to_machine(const Position& work) const;

@@ -1,6 +1,6 @@
-// Pictures of a toolpath and of the stock that a program leaves, as pixels or as the bytes of a PNG file.
+// Pictures of a toolpath and of the stock after cutting, as pixels or as the bytes of a PNG file.
 //
-// Threads: all functions may be called by several threads at once.
+// Threads: several threads may call any function at once.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ enum class PathTint : std::uint8_t { speed, depth, tool, torque };
 
 struct PictureOptions {
   std::string title = {};
-  PathTint tint = PathTint::speed;  // of the feed moves
+  PathTint tint = PathTint::speed;  // what the colour of the feed moves shows
   bool rapids = true;
   int width = 1600;  // pixels, 200 to 8000
   int height = 900;
@@ -39,20 +39,20 @@ struct MillingTool {
   enum class Kind : std::uint8_t { flat, ball, vee };
   Kind kind = Kind::flat;
   double diameter_mm = 3;          // 0.01 to 500
-  double included_angle_deg = 60;  // of a vee: 1 to 179
-  double tip_diameter_mm = 0;      // of a vee: of its flat tip
+  double included_angle_deg = 60;  // only for a vee: 1 to 179
+  double tip_diameter_mm = 0;      // only for a vee: its flat tip
 };
 
 struct StockOptions {
   ReadOptions read = {};
-  // The tool for every T number that tools_file does not have.
+  // The tool for each T number that is not in tools_file.
   std::optional<MillingTool> tool = {};
   std::string tools_file = {};  // TOML: docs/manual/simulate.md; empty: none
-  // Ranges of the block in program coordinates; empty: as the feed moves need it.
+  // The range of the block in program coordinates; empty: as large as the feed moves require.
   std::optional<AxisRange> x_mm = {};
   std::optional<AxisRange> y_mm = {};
   std::optional<AxisRange> z_mm = {};
-  double cell_mm = 0;    // the size of a cell; 0: such that there are about a million
+  double cell_mm = 0;    // the size of a cell; 0: a size that gives about a million cells
   unsigned threads = 1;  // 1 to 64
 };
 
@@ -69,8 +69,8 @@ struct Stock {
   double removed_mm3 = 0;
 };
 
-// Cuts a block by the program. Problems such as a rapid move through the stock are warnings and errors of the outcome
-// "simulate.*"; the stock is there nevertheless, unless the program or the options are wrong.
+// Cuts a block with the program. Problems such as a rapid move through the stock are warnings and errors ("simulate.*")
+// of the outcome. The outcome has a stock even then; it has none if the program or the options are wrong.
 PASSO_EXPORTED Outcome<Stock> cut_stock(const Program& program, const StockOptions& options = {});
 PASSO_EXPORTED Outcome<Picture> draw_stock(const Stock& stock, const PictureOptions& options = {});
 

@@ -1,10 +1,10 @@
 // The version of libpasso's interface.
 //
-// All names are in `passo::v1`. `passo::x` means `passo::v1::x` as long as version 1 is the current one. A program that
-// writes `passo::v1::x` keeps that meaning. docs/library.md tells what a new version may change.
+// All names are in `passo::v1`. `passo::x` means `passo::v1::x` as long as version 1 is the current one. `passo::v1::x`
+// always has the same meaning. docs/library.md states what a new version may change.
 #pragma once
 
-// The version of the interface: a new number when a program has to be changed.
+// The version of the interface. It changes only if programs must be changed.
 #define PASSO_LIBRARY_INTERFACE 1
 
 #if defined(__GNUC__)
@@ -15,8 +15,8 @@
 
 namespace passo::v1 {
 
-// Returns the version of the library in use, e.g. "1.0.0". The version that a program was compiled with is in CMake's
-// `passo_VERSION`.
+// Returns the version of the library in use, e.g. "1.0.0". CMake's variable `passo_VERSION` has the version with which
+// a program was compiled.
 PASSO_EXPORTED const char* library_version();
 
 }  // namespace passo::v1
