@@ -265,6 +265,19 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_veloc
   acts.print();
 }
 
+// A hold in a corner in which the torque of an axis left, but for rounding, one speed at the end of a cell: the machine
+// stopped at once, with 30 times its acceleration.
+TEST(RandomMotion, brakes_where_the_torque_leaves_one_speed) {
+  test::Acts acts;
+  for (const auto& [machines, number] :
+       {std::pair{test::Machines::as_drawn, 1129000694U}, {test::Machines::starting, 1129000554U}}) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    test::Random random = test::Random::of(number);
+    const test::RandomJob job = test::RandomJob::of(machines, number, random);
+    expect_right_in_spite_of_acts(job, random, acts);
+  }
+}
+
 // Only the mode of the lines says that the machine stops between them.
 TEST(RandomMotion, stops_exactly_on_a_straight_line) {
   for (const MmPerSecond3 jerk : {MmPerSecond3(0), MmPerSecond3(25'000)}) {

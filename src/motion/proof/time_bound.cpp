@@ -211,8 +211,9 @@ TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s, double f
 // solution lies between the first x that is too large and that of the right side there. If even the latter is above
 // `enough`, the former is returned.
 double TimeBound::turning_at(const Place& place, const AxisPair& pair, double enough) const {
-  const auto [i, j, number] = pair;
-  const double turn = std::abs(place.turn[number]);
+  const auto i = pair.i;
+  const auto j = pair.j;
+  const double turn = std::abs(place.turn[pair.place]);
   if (!ramps_[i].limits() || !ramps_[j].limits() || turn == 0) return 0;
   const auto strength = [&](double x) {
     const double speed = std::sqrt(x);
@@ -243,7 +244,7 @@ double TimeBound::turning_at(const Place& place, const AxisPair& pair, double en
       }
     }
   }
-  return std::copysign(1 / high, place.turn[number]);
+  return std::copysign(1 / high, place.turn[pair.place]);
 }
 
 // The least distance from 0 of the parabola through three values at even distances.

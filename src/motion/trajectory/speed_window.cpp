@@ -336,7 +336,22 @@ double largest_exit(std::span<const AxisDemand> demands, std::span<const Falling
 
 double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry) {
   if (falling.empty()) return least_exit(demands, entry);
-  return largest_exit(demands, falling, entry, 0, entry);
+  const Interval any = exits(demands, entry, infinity);
+  const std::array<Lines, 3> choices = {lines_at(falling, entry, 0), kept_lines(falling),
+                                        lines_at(falling, entry, entry)};
+  double least = infinity;
+  for (const Lines& lines : choices) {
+    const Interval left = exits_with(demands, falling, lines, entry, any);
+    if (left.low <= left.high) least = std::min(least, left.low);
+  }
+  if (least < infinity) return std::max(0.0, least);
+  // At the edge of what is possible rounding may leave nothing. What does not depend on the exit is then met but for
+  // rounding, and the slower exit is right.
+  Interval edge = any;
+  for_each_demand(demands, falling, choices.back(), [&](double p, double q, double limit) {
+    if (q != 0) edge.keep(q, p, limit * (1 + rounding), entry);
+  });
+  return std::max(0.0, std::min(edge.low, edge.high));
 }
 
 // The limit at the entry is the lowest on the way to rest.
