@@ -266,11 +266,13 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_veloc
 }
 
 // A hold in a corner in which the torque of an axis left, but for rounding, one speed at the end of a cell: the machine
-// stopped at once, with 30 times its acceleration.
-TEST(RandomMotion, brakes_where_the_torque_leaves_one_speed) {
+// stopped at once, with 30 times its acceleration. And a hold just before the end of a cell in which the motion was
+// ahead of its plan: it braked with 1.2 times its acceleration, to catch up.
+TEST(RandomMotion, brakes_within_limits_at_the_end_of_a_cell) {
   test::Acts acts;
-  for (const auto& [machines, number] :
-       {std::pair{test::Machines::as_drawn, 1129000694U}, {test::Machines::starting, 1129000554U}}) {
+  for (const auto& [machines, number] : {std::pair{test::Machines::as_drawn, 1129000694U},
+                                         {test::Machines::starting, 1129000554U},
+                                         {test::Machines::starting, 1129001167U}}) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
     test::Random random = test::Random::of(number);
     const test::RandomJob job = test::RandomJob::of(machines, number, random);

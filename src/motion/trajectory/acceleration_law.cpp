@@ -299,7 +299,9 @@ class AccelerationLaw final : public SpeedLaw {
   Ride shortest_ride(std::size_t i, double entry) const {
     const Ride ride = hardest_braking(cells_[i].cell, cells_.demands(i), cells_.falling(i), entry);
     if (!(ride.exit > 0)) return ride;
-    const double decided = i < decided_ ? cells_[i].decided_exit : ride.exit;
+    // The rest of a cell allows more than the whole did, so the motion may be ahead of what was decided.
+    const bool is_ahead = i >= decided_ || entry > cells_[i].decided_entry * (1 + rounding);
+    const double decided = is_ahead ? ride.exit : cells_[i].decided_exit;
     return {ride.way, std::min({ride.exit, planned_exit(i, entry), decided})};
   }
 
