@@ -6,6 +6,8 @@
 #include <expat.h>
 #include <fmt/format.h>
 
+#include "passo/base/xml_place.hpp"
+
 namespace passo {
 namespace {
 
@@ -16,23 +18,6 @@ std::string_view without_prefix(std::string_view name) {
   const std::size_t colon = name.rfind(':');
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
-
-// Where the parser is. From version 2.9 on expat counts in 64 bits and has other names for it.
-#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
-std::uint32_t line_of(XML_Parser parser) {
-  return static_cast<std::uint32_t>(XML_GetCurrentLineNumber64(parser));
-}
-std::uint32_t column_of(XML_Parser parser) {
-  return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber64(parser));
-}
-#else
-std::uint32_t line_of(XML_Parser parser) {
-  return static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser));
-}
-std::uint32_t column_of(XML_Parser parser) {
-  return static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser));
-}
-#endif
 
 class SvgTreeReader {
  public:
@@ -85,7 +70,7 @@ class SvgTreeReader {
     const auto index = static_cast<std::uint32_t>(document_.elements.size());
     SvgElement& element = document_.elements.emplace_back();
     element.name = without_prefix(name);
-    element.line = line_of(parser_);
+    element.line = xml_line(parser_);
     for (const char** at = attributes; at[0] != nullptr; at += 2) {
       // A label of Inkscape keeps its prefix; of the others only the link has one.
       const std::string_view key = std::string_view(at[0]) == "xlink:href" ? "href" : std::string_view(at[0]);
@@ -99,7 +84,7 @@ class SvgTreeReader {
   void refuse(std::string code, std::string message, std::string expected) {
     diagnostics_.add({.code = std::move(code),
                       .file = name_,
-                      .place = {line_of(parser_), column_of(parser_) + 1, 1},
+                      .place = {xml_line(parser_), xml_column(parser_) + 1, 1},
                       .message = std::move(message),
                       .expected = std::move(expected),
                       .text = ""});

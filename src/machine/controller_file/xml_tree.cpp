@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "passo/base/utf8.hpp"
+#include "passo/base/xml_place.hpp"
 
 namespace passo {
 namespace {
@@ -75,8 +76,8 @@ class XmlTree {
   }
 
   void note_place(SourceNode& node) const {
-    node.line = static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser_));
-    node.column = static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser_)) + 1;
+    node.line = xml_line(parser_);
+    node.column = xml_column(parser_) + 1;
   }
 
   void open(const char* name) {
@@ -97,8 +98,7 @@ class XmlTree {
   void refuse(const char* code, std::string message, std::string expected) {
     if (is_refused_) return;
     is_refused_ = true;
-    add_source_error(source_, diagnostics_, code, static_cast<std::uint32_t>(XML_GetCurrentLineNumber(parser_)),
-                     static_cast<std::uint32_t>(XML_GetCurrentColumnNumber(parser_)) + 1, std::move(message),
+    add_source_error(source_, diagnostics_, code, xml_line(parser_), xml_column(parser_) + 1, std::move(message),
                      std::move(expected));
     XML_StopParser(parser_, XML_FALSE);
   }
