@@ -138,6 +138,25 @@ async function sheets(browser: import('playwright-core').Browser): Promise<void>
 
 mkdirSync(folder, { recursive: true });
 const browser = await openBrowser();
+
+// A job under way, on a machine whose file describes no motors: the one of the other pictures loses steps in it.
+async function running(theme: 'dark' | 'light', size: (typeof sizes)[number], density: number): Promise<void> {
+  const daemon = await Daemon.start({ machine: example('machines/router.toml') });
+  await prepare(daemon);
+  const { page, context } = await visit(browser, daemon, 'run', { theme, size, density });
+  await choose(page, daemon, 'engrave.ngc');
+  await page.goto(`${daemon.address}#/run`);
+  await page.locator('.scene:not([data-shown=""])').waitFor({ timeout: patience });
+  await page.getByRole('button', { name: 'Stock', exact: true }).click();
+  await startFrom(page, daemon);
+  await sleep(300);
+  await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`), timeout: patience });
+  if (theme === 'dark') await pulses(page, daemon);
+  await fetch(`${daemon.address}api/v1/stop`, { method: 'POST' });
+  await daemon.until((status) => status.state === 'Idle');
+  await context.close();
+  await daemon.end();
+}
 for (const theme of ['dark', 'light'] as const) {
   const daemon = await Daemon.start({ machine: example('machines/strong-router.toml') });
   await prepare(daemon);
@@ -162,17 +181,7 @@ for (const theme of ['dark', 'light'] as const) {
       await page.screenshot({ path: join(folder, `${path}-${theme}-${size.name}.png`), timeout: patience });
     }
     if (size.name === 'wide' && theme === 'dark' && pages.includes('lab')) await firstBoard(page, daemon);
-    if (size.name === 'wide' && pages.includes('run')) {
-      await choose(page, daemon, 'engrave.ngc');
-      await page.goto(`${daemon.address}#/run`);
-      await startFrom(page, daemon);
-      await sleep(300);
-      await page.screenshot({ path: join(folder, `running-${theme}-${size.name}.png`), timeout: patience });
-      if (theme === 'dark') await pulses(page, daemon);
-      await fetch(`${daemon.address}api/v1/stop`, { method: 'POST' });
-      await daemon.until((status) => status.state === 'Idle');
-      await sleep(1500);
-    }
+    if (size.name === 'wide' && pages.includes('run')) await running(theme, size, density);
     await page.goto('about:blank'); // a page that is left gives the motion back
     await sleep(300);
     await context.close();
