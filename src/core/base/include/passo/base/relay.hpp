@@ -29,12 +29,12 @@ namespace passo {
 template <class Item>
 class Relay {
  public:
-  using CamService = std::function<bool(Item&)>;
+  using Make = std::function<bool(Item&)>;
   using Reader = std::function<void(const Item&)>;
 
   explicit Relay(std::vector<Reader> readers) : readers_(std::move(readers)) {}
 
-  void run(const CamService& make) {
+  void run(const Make& make) {
     while (make(item_)) {
       for (const Reader& reader : readers_) reader(item_);
     }
@@ -48,7 +48,7 @@ class Relay {
 template <class Item>
 class Relay {
  public:
-  using CamService = std::function<bool(Item&)>;
+  using Make = std::function<bool(Item&)>;
   using Reader = std::function<void(const Item&)>;
 
   explicit Relay(std::vector<Reader> readers) : readers_(std::move(readers)), read_(readers_.size()), ring_(blocks) {
@@ -64,7 +64,7 @@ class Relay {
   Relay& operator=(const Relay&) = delete;
 
   // Calls make() until it returns false, then waits for the readers. Rethrows a reader's exception.
-  void run(const CamService& make) {
+  void run(const Make& make) {
     for (bool more = true; more;) {
       Block& block = free_block();
       for (block.count = 0; block.count < block_size && more;) {
