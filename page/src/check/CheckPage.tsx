@@ -1,10 +1,11 @@
 // "Check my program": the visitor gives a program and a machine, and this browser shows the results of `passo check`.
 import '../style/pages.css';
 import './check.css';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { durationText } from '../core/time';
 import { language } from '../core/language';
 import { Button } from '../parts/button';
+import { DropZone } from '../parts/drop_zone';
 import { Icon } from '../parts/icon';
 import { ProgressBar } from '../parts/progress_bar';
 import { SceneView } from '../scene/scene_view';
@@ -67,42 +68,11 @@ export function CheckPage() {
 }
 
 function Drop() {
-  const input = useRef<HTMLInputElement>(null);
-  const [over, setOver] = useState(false);
   return (
-    <div
-      class={`drop check-drop ${over ? 'over' : ''}`}
-      onDragOver={(event) => {
-        event.preventDefault();
-        setOver(true);
-      }}
-      onDragLeave={() => setOver(false)}
-      onDrop={(event) => {
-        event.preventDefault();
-        setOver(false);
-        void take([...(event.dataTransfer?.files ?? [])]);
-      }}
-    >
-      <Icon name="upload" />
-      <span>
-        <b class="check-file">{program.value?.name ?? say('drop')}</b>
-        <small>{say('dropMore')}</small>
-      </span>
-      <Button kind="accent" onClick={() => input.current?.click()}>
-        {say('choose')}
-      </Button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        multiple
-        aria-label={say('choose')}
-        onChange={(event) => {
-          const field = event.currentTarget;
-          void take([...(field.files ?? [])]).then(() => (field.value = ''));
-        }}
-      />
-    </div>
+    <DropZone choose={say('choose')} classes="check-drop" take={take}>
+      <b class="check-file">{program.value?.name ?? say('drop')}</b>
+      <small>{say('dropMore')}</small>
+    </DropZone>
   );
 }
 

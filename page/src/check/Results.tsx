@@ -5,7 +5,7 @@ import { durationText } from '../core/time';
 import { lengthUnit, placeText, speedText, speedUnit } from '../core/units';
 import { Icon, type IconName } from '../parts/icon';
 import { verdictIcons, verdictOf, WorstLines } from '../parts/motor_load';
-import { wordsOf } from '../parts/proposals';
+import { ProposalList } from '../parts/proposals';
 import { picked } from '../scene/stage';
 import type { CheckAnswer, CheckFinding, SpeedBound } from './answer';
 import { say } from './words';
@@ -263,16 +263,7 @@ export function Remedies({ answer }: { answer: CheckAnswer }) {
   return (
     <section class="panel">
       <h2>{sayCommon('proposals.title')}</h2>
-      <ul class="findings" data-testid="proposals">
-        {all.map((one) => (
-          <li key={one.words}>
-            <span class="finding">
-              <Icon name="done" />
-              <span>{wordsOf(one)}</span>
-            </span>
-          </li>
-        ))}
-      </ul>
+      <ProposalList all={all} />
     </section>
   );
 }

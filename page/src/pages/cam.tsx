@@ -21,7 +21,9 @@ function Drawings({ form }: { form: Form }) {
   return (
     <section class="panel" aria-label={say('cam.files')}>
       <h2>{say('cam.files')}</h2>
-      <DropZone words={say('cam.drop')} accept={form.files} take={takeDrawings} />
+      <DropZone choose={say('files.choose')} why={why} accept={form.files} take={takeDrawings}>
+        {say('cam.drop')}
+      </DropZone>
       {form.job === 'wire' && <p class="dim">{say('cam.wire.sides')}</p>}
       <ul class="cam-files">
         {files.map((name) => (

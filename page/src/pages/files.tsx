@@ -253,7 +253,9 @@ export function FilesPage() {
   return (
     <div class="files">
       <div class="files-side">
-        <DropZone words={sending.value === null ? say('files.drop') : say('files.uploading', { name: sending.value })} take={take} />
+        <DropZone choose={say('files.choose')} why={isLive.value ? '' : say('why.lost')} take={take}>
+          {sending.value === null ? say('files.drop') : say('files.uploading', { name: sending.value })}
+        </DropZone>
         <section class="panel" aria-label={say('files.programs')}>
           <h2>{say('files.programs')}</h2>
           {all.length === 0 && <p class="dim">{say('files.none')}</p>}

@@ -1,22 +1,24 @@
 // Where files are dropped or chosen.
+import type { ComponentChildren } from 'preact';
 import { useRef, useState } from 'preact/hooks';
-import { say } from '../core/language';
-import { isLive } from '../machine/connection';
 import { Button } from './button';
 import { Icon } from './icon';
 
 interface DropZoneProps {
-  words: string;
+  choose: string; // the words of the button
+  why?: string; // why no file can be chosen now
   accept?: string; // what the file dialog offers
+  classes?: string;
+  children: ComponentChildren; // what may be dropped
   take: (files: readonly File[]) => Promise<void>;
 }
 
-export function DropZone({ words, accept, take }: DropZoneProps) {
+export function DropZone({ choose, why = '', accept, classes, children, take }: DropZoneProps) {
   const input = useRef<HTMLInputElement>(null);
   const [over, setOver] = useState(false);
   return (
     <div
-      class={`drop ${over ? 'over' : ''}`}
+      class={`drop ${classes ?? ''} ${over ? 'over' : ''}`}
       onDragOver={(event) => {
         event.preventDefault();
         setOver(true);
@@ -29,9 +31,9 @@ export function DropZone({ words, accept, take }: DropZoneProps) {
       }}
     >
       <Icon name="upload" />
-      <span>{words}</span>
-      <Button kind="accent" why={isLive.value ? '' : say('why.lost')} onClick={() => input.current?.click()}>
-        {say('files.choose')}
+      <span>{children}</span>
+      <Button kind="accent" why={why} onClick={() => input.current?.click()}>
+        {choose}
       </Button>
       <input
         ref={input}
@@ -39,7 +41,7 @@ export function DropZone({ words, accept, take }: DropZoneProps) {
         hidden
         multiple
         accept={accept}
-        aria-label={say('files.choose')}
+        aria-label={choose}
         onChange={(event) => {
           const field = event.currentTarget;
           void take([...(field.files ?? [])]).then(() => (field.value = ''));

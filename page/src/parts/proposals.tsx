@@ -39,22 +39,28 @@ export function wordsOf(one: Proposal): string {
   }
 }
 
+export function ProposalList({ all }: { all: readonly Proposal[] }) {
+  return (
+    <ul class="findings" data-testid="proposals">
+      {all.map((one) => (
+        <li key={one.words}>
+          <span class="finding">
+            <Icon name="done" />
+            <span>{wordsOf(one)}</span>
+          </span>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
 export function Proposals({ program }: { program: Program }) {
   const all = proposalsFor(program);
   if (all.length === 0) return null;
   return (
     <>
       <h2 class="findings-title">{say('proposals.title')}</h2>
-      <ul class="findings" data-testid="proposals">
-        {all.map((one) => (
-          <li key={one.words}>
-            <span class="finding">
-              <Icon name="done" />
-              <span>{wordsOf(one)}</span>
-            </span>
-          </li>
-        ))}
-      </ul>
+      <ProposalList all={all} />
     </>
   );
 }
