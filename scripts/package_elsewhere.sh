@@ -28,8 +28,11 @@ source=$PWD
 root=$PWD/build/chroots/$release-$arch
 log=$root.log
 native=$(dpkg --print-architecture)
-cross=()
-if [[ $arch != "$native" ]]; then cross=(--host-architecture "$arch"); fi
+cross=() profiles=pkg.passo.page compiler=()
+if [[ $arch != "$native" ]]; then
+  cross=(--host-architecture "$arch") profiles+=,cross  # apt adds it only where no profile is named
+  compiler=("crossbuild-essential-$arch")
+fi
 inside() {
   chroot "$root" env --ignore-environment HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"
 }
@@ -49,8 +52,8 @@ if [[ ! -f $root.needs ]] || ! cmp --silent debian/control "$root.needs"; then
   if [[ $arch != "$native" ]]; then inside dpkg --add-architecture "$arch"; fi
   {
     inside apt-get update --quiet &&
-      inside apt-get build-dep --yes --quiet --no-install-recommends --build-profiles pkg.passo.page "${cross[@]}" "$source" &&
-      inside apt-get install --yes --quiet --no-install-recommends debhelper lintian &&
+      inside apt-get build-dep --yes --quiet --no-install-recommends --build-profiles "$profiles" "${cross[@]}" "$source" &&
+      inside apt-get install --yes --quiet --no-install-recommends debhelper lintian "${compiler[@]}" &&
       inside apt-get clean
   } >>"$log" 2>&1 || fail "what the build needs cannot be installed: see $log"
   cp debian/control "$root.needs"
