@@ -71,5 +71,5 @@ fi
 inside cmake -S "$source" --preset release -B "$source/build/$release-$arch" "${options[@]}" >>"$log" 2>&1 ||
   fail "CMake fails: see $log"
 inside cmake --build "$source/build/$release-$arch" --target everything_installed || fail "the build fails"
-inside env PASSO_BUILD="build/$release-$arch" PASSO_PACKAGES="build/packages/$release-$arch" PASSO_ARCHITECTURE="$arch" \
+inside env DEB_BUILD_PROFILES="${profiles//,/ }" PASSO_BUILD="build/$release-$arch" PASSO_PACKAGES="build/packages/$release-$arch" PASSO_ARCHITECTURE="$arch" \
   ${PASSO_NO_LINTIAN:+PASSO_NO_LINTIAN=1} "$source/scripts/package.sh"
