@@ -25,11 +25,16 @@ std::vector<Comparison> comparisons_in(const std::string& name, const std::strin
       R"re(code(?:\(\))?\s*[!=]==?\s*["']([a-z-]+\.[a-z0-9.-]+)["']|code\.starts(?:_with|With)\(["']([a-z-]+\.[a-z.-]*)["'])re"
       R"re(|string_view \w+ = "([a-z-]+\.[a-z0-9.-]+)")re");
   std::vector<Comparison> all;
-  for (std::sregex_iterator found(text.begin(), text.end(), compared), end; found != end; ++found) {
-    const bool is_prefix = (*found)[2].matched;
-    const bool is_shared = (*found)[3].matched && name.ends_with(".hpp");  // whoever raises it uses the constant
-    if (is_shared) continue;
-    all.push_back({(*found)[is_prefix ? 2 : (*found)[3].matched ? 3 : 1].str(), is_prefix, name});
+  // Only where one of them can begin: a search through all of the text takes a hundred times as long.
+  for (const std::string_view begins : {"code", "string_view"}) {
+    for (std::size_t at = text.find(begins); at != std::string::npos; at = text.find(begins, at + 1)) {
+      std::smatch found;
+      const auto here = text.begin() + static_cast<std::ptrdiff_t>(at);
+      if (!std::regex_search(here, text.end(), found, compared, std::regex_constants::match_continuous)) continue;
+      const bool is_prefix = found[2].matched;
+      const bool is_shared = found[3].matched && name.ends_with(".hpp");  // whoever raises it uses the constant
+      if (!is_shared) all.push_back({found[is_prefix ? 2 : found[3].matched ? 3 : 1].str(), is_prefix, name});
+    }
   }
   return all;
 }

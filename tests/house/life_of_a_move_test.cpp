@@ -4,6 +4,7 @@
 // or namespace may be nested), `function()`, and `module/file.hpp` or another path of a file.
 #include <algorithm>
 #include <regex>
+#include <sstream>
 
 #include "source_tree.hpp"
 
@@ -11,11 +12,6 @@ namespace passo {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Soon told; regular expressions take long.
-bool has(const std::string& text, const std::string& word) {
-  return text.find(word) != std::string::npos;
-}
 
 struct Code {
   std::vector<std::pair<fs::path, std::string>> files;  // sources of src/ without tests and without comments
@@ -30,9 +26,7 @@ struct Code {
   }
 
   bool has_function(const std::string& name) const {
-    const std::regex regex(std::string("\\b").append(name).append("\\s*\\("));
-    return std::ranges::any_of(
-        files, [&](const auto& file) { return has(file.second, name) && std::regex_search(file.second, regex); });
+    return std::ranges::any_of(files, [&](const auto& file) { return has_word(file.second, name, "("); });
   }
 
   // A file of that name, or with that path's end: "wire/board_segment.hpp".
@@ -52,12 +46,16 @@ struct Code {
     const std::regex declares =
         regex(R"(\b(class|struct|namespace|enum|union)\s+(class\s+)?(\[\[nodiscard\]\]\s+)?(\w+::)*)", scope,
               R"(\b(?!\s*;))");
-    const std::regex names = regex("\\b", member, "\\b");
     const std::regex defines = regex("\\b", scope, std::string(R"((<[^>]*>)?::)").append(member).append("\\b").c_str());
     return std::ranges::any_of(files, [&](const auto& file) {
-      if (!has(file.second, scope) || !has(file.second, member)) return false;
-      return (std::regex_search(file.second, declares) && std::regex_search(file.second, names)) ||
-             std::regex_search(file.second, defines);
+      if (!has_word(file.second, scope) || !has_word(file.second, member)) return false;
+      // What names the scope is on one line.
+      std::istringstream lines(file.second);
+      for (std::string line; std::getline(lines, line);) {
+        if (!has_word(line, scope)) continue;
+        if (std::regex_search(line, declares) || std::regex_search(line, defines)) return true;
+      }
+      return false;
     });
   }
 };

@@ -1,6 +1,7 @@
 #include "source_tree.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -50,8 +51,12 @@ std::vector<fs::path> tracked_files() {
 }
 
 std::string text_of(const fs::path& relative) {
-  std::ifstream file(project_root() / relative, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::ifstream file(project_root() / relative, std::ios::binary | std::ios::ate);
+  if (!file) return {};
+  std::string text(static_cast<std::size_t>(file.tellg()), '\0');
+  file.seekg(0);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return text;
 }
 
 std::vector<std::string> lines_of(const fs::path& relative) {
@@ -72,6 +77,21 @@ std::string opening_comment(const fs::path& relative) {
 
 std::string module_of(const fs::path& relative) {
   return std::next(relative.begin(), 2)->string();
+}
+
+bool has_word(std::string_view text, std::string_view word, std::string_view next) {
+  const auto is_of_word = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+  };
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const std::size_t behind = at + word.size();
+    if ((at > 0 && is_of_word(at - 1)) || is_of_word(behind)) continue;
+    if (next.empty()) return true;
+    if (const std::size_t first = text.find_first_not_of(" \t\n", behind); first != std::string_view::npos) {
+      if (text.substr(first).starts_with(next)) return true;
+    }
+  }
+  return false;
 }
 
 bool is_test(const fs::path& relative) {

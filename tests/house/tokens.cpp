@@ -86,12 +86,13 @@ std::vector<Token> tokens_of(std::string_view text) {
 }
 
 std::size_t behind_bracket(Tokens tokens, std::size_t open) {
-  const std::string opening = tokens[open].text;
-  const std::string closing = opening == "(" ? ")" : opening == "[" ? "]" : opening == "<" ? ">" : "}";
+  const char opening = tokens[open].text[0];
+  const char closing = opening == '(' ? ')' : opening == '[' ? ']' : opening == '<' ? '>' : '}';
   int depth = 0;
   for (std::size_t i = open; i < tokens.size(); ++i) {
-    if (tokens[i].text == opening) ++depth;
-    if (tokens[i].text == closing && --depth == 0) return i + 1;
+    const char first = tokens[i].text[0];  // a bracket is a token of its own
+    if (first == opening) ++depth;
+    if (first == closing && --depth == 0) return i + 1;
   }
   return tokens.size();
 }
