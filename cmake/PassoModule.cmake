@@ -27,7 +27,8 @@ target_compile_options(passo_together INTERFACE -Wno-shadow $<${by_gcc}:-Wno-sub
 
 # What waits for people, files and lines: a third less time to compile, and it runs hardly longer.
 set(PASSO_LESS_OPTIMISED $<$<CONFIG:Release>:-O1>)
-set(PASSO_LESS_OPTIMISED_MODULES controller_file job judge machine_file machine_import operations probing session surface_file verdict)
+set(PASSO_LESS_OPTIMISED_MODULES activity cam carve confinement controller_file emulator grading job journal judge machine_file machine_import operations
+    probing session surface_file verdict)
 # Those that call ensure(), whose message names the source. It does not name the folder in which the program was built;
 # a test of the installed program finds a module that is missing here.
 set(PASSO_MODULES_WITH_PLACES drive journal link stepgen trajectory)
@@ -162,13 +163,13 @@ endfunction()
 
 
 # passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [SLOW filter] [DEFINITIONS name=value…]
-#            [COST seconds] [ALONE] [CALCULATES])
+#            [COST seconds] [PROCESSORS number] [CALCULATES])
 #
 # A GoogleTest program; APART as for passo_module. Tests without a label are fast: a developer runs them at every change.
 # SLOW: the tests of this filter of GoogleTest get the label slow. COST: how long they take, as for passo_slow_test.
-# ALONE: no other test runs beside it. CALCULATES: its own code is worth optimising.
+# PROCESSORS: how many it counts for; so many tests less run beside it. CALCULATES: its own code is worth optimising.
 function(passo_test name)
-  cmake_parse_arguments(ARG "ALONE;CALCULATES" "COST;SLOW" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "CALCULATES" "COST;PROCESSORS;SLOW" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   set(one_in 0)  # of the trials of random tests, as each decides (tests/kit/in_full.hpp)
   if(PASSO_SANITIZE)
     set(one_in 16)  # a trial takes ten times as long
@@ -204,8 +205,8 @@ function(passo_test name)
   if(ARG_COST)
     list(APPEND properties COST ${ARG_COST})
   endif()
-  if(ARG_ALONE)
-    list(APPEND properties RUN_SERIAL ON)
+  if(ARG_PROCESSORS)
+    list(APPEND properties PROCESSORS ${ARG_PROCESSORS})
   endif()
   if(PASSO_SANITIZE)
     # One process a program: under sanitizers half of a short test's time is its process's start.

@@ -43,6 +43,11 @@ set(PASSO_WASM_OPTIONS
   "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=" "-ffile-prefix-map=${PROJECT_BINARY_DIR}/="
   -DFMT_HEADER_ONLY=1 -DTOML_EXCEPTIONS=0 -DJSON_HAS_FILESYSTEM=0 -isystem "${PROJECT_BINARY_DIR}/wasm_include")
 
+set(PASSO_WASM_HEADERS "")
+foreach(header IN ITEMS algorithm array cmath functional map memory optional span string string_view utility variant vector fmt/format.h)
+  string(APPEND PASSO_WASM_HEADERS "#include <${header}>\n")
+endforeach()
+
 # passo_wasm_module(NAME SOURCES module/file… [APART module/file…] [TOGETHER module…] [MODULES module…] [OPTIMISED module…]
 #                   [MEMORY MiB])
 #
@@ -66,6 +71,19 @@ function(passo_wasm_module name)
   if(PASSO_WERROR)
     list(APPEND options -Werror)
   endif()
+  # The headers that most sources include, compiled once: a unit takes a quarter less time.
+  set(headers "${CMAKE_CURRENT_BINARY_DIR}/${name}.dir/headers")
+  file(CONFIGURE OUTPUT "${headers}.hpp" CONTENT "${PASSO_WASM_HEADERS}" @ONLY)
+  list(APPEND options -Xclang -fno-pch-timestamp)
+  set(headers_options ${options})
+  if(ARG_OPTIMISED)
+    list(APPEND headers_options -O1)
+  endif()
+  add_custom_command(OUTPUT "${headers}.pch"
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${headers_options} -MD -MF "${headers}.d" -MT "${headers}.pch"
+            -x c++-header "${headers}.hpp" -o "${headers}.pch"
+    DEPENDS "${headers}.hpp" DEPFILE "${headers}.d" COMMENT "Compiling headers for WebAssembly" VERBATIM)
+  list(APPEND options -include-pch "${headers}.pch")
   # A unit has the name of its module, or of the source that stands apart, or "together".
   set(units ${modules} ${ARG_APART})
   if(ARG_TOGETHER)
@@ -109,7 +127,7 @@ function(passo_wasm_module name)
     add_custom_command(OUTPUT "${unit}.o"
       COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${PASSO_CLANG}" ${options} ${own}
               -MD -MF "${unit}.d" -MT "${unit}.o" -c "${unit}.cpp" -o "${unit}.o"
-      DEPENDS "${unit}.cpp" ${sources} DEPFILE "${unit}.d" COMMENT "Compiling ${of_unit} for WebAssembly" VERBATIM)
+      DEPENDS "${unit}.cpp" "${headers}.pch" ${sources} DEPFILE "${unit}.d" COMMENT "Compiling ${of_unit} for WebAssembly" VERBATIM)
     list(APPEND objects "${unit}.o")
   endforeach()
   math(EXPR memory "${ARG_MEMORY} * 1024 * 1024")

@@ -1,4 +1,4 @@
-// BoardKind: which emulated board a test is about.
+// BoardKind: which emulated board a test is about, with the firmware of this build.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,11 @@ struct BoardKind {
   const char* program;
   std::int64_t cycles_of_tick = 1;  // of the clock by which the host counts
 };
+
+inline constexpr BoardKind uno{"uno", PASSO_MOTION_UNO};
+inline constexpr BoardKind mega{"mega", PASSO_MOTION_MEGA};
+inline constexpr BoardKind pico{"pico", PASSO_MOTION_PICO, 8};
+inline constexpr BoardKind pico_lathe{"pico_lathe", PASSO_MOTION_PICO_LATHE, 8};
 
 // Why there is no such board here: the Pico's compiler or its emulator is not installed. Empty: there is one.
 inline std::string missing(const BoardKind& kind) {

@@ -26,10 +26,10 @@ using test::plate;
 using test::StepLog;
 using test::touches;
 
+using test::mega;
+using test::pico;
+using test::uno;
 using Kind = test::BoardKind;
-constexpr Kind uno{"uno", PASSO_MOTION_UNO};
-constexpr Kind mega{"mega", PASSO_MOTION_MEGA};
-constexpr Kind pico{"pico", PASSO_MOTION_PICO, 8};
 
 // Slow enough for either.
 MachineDescription machine_of_both() {
@@ -86,7 +86,7 @@ void finds_the_step(const Kind& kind) {
       distance(result.outcomes[2].rest, result.outcomes[2].contact));
 }
 
-void cut_before_frames(const Kind& kind, std::uint64_t stride) {
+void probe_cut_before_frames(const Kind& kind, std::uint64_t stride) {
   const MachineDescription machine = machine_of_both();
   const LineProbing whole = run(kind, machine, [](BadLine&) {});
   int trials = 0;
@@ -111,17 +111,17 @@ TEST(EmulatedProbing, finds_the_step_of_contact_on_the_mega) {
 TEST(EmulatedProbing, finds_the_step_of_contact_on_the_pico) {
   if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
   finds_the_step(pico);
-  cut_before_frames(pico, 499);
+  probe_cut_before_frames(pico, static_cast<std::uint64_t>(499 * test::one_in(2)));
 }
 TEST(EmulatedProbing, finds_it_where_the_line_was_cut) {
-  cut_before_frames(uno, 97);
-  cut_before_frames(mega, 211);
+  probe_cut_before_frames(uno, static_cast<std::uint64_t>(97 * test::one_in(2)));
+  probe_cut_before_frames(mega, static_cast<std::uint64_t>(211 * test::one_in(2)));
 }
 TEST(EmulatedProbingInFull, cut_before_every_frame) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  cut_before_frames(uno, test::in_full());
-  cut_before_frames(mega, 7 * test::in_full());
-  if (test::missing(pico).empty()) cut_before_frames(pico, 3 * test::in_full());
+  probe_cut_before_frames(uno, test::in_full());
+  probe_cut_before_frames(mega, 7 * test::in_full());
+  if (test::missing(pico).empty()) probe_cut_before_frames(pico, 3 * test::in_full());
 }
 
 }  // namespace

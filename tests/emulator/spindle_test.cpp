@@ -24,9 +24,9 @@ using test::Spread;
 using test::spread;
 using test::thread_program;
 
+using test::mega;
+using test::pico_lathe;
 using Kind = test::BoardKind;
-constexpr Kind mega{"mega", PASSO_MOTION_MEGA};
-constexpr Kind pico{"pico_lathe", PASSO_MOTION_PICO_LATHE, 8};
 constexpr double clock_rate = 16e6;
 
 MachineDescription lathe_on_board(const SpindleDescription& spindle) {
@@ -112,13 +112,13 @@ TEST(MegaThread, passes_of_a_threading_cycle_lie_in_one_groove) {
   passes_lie_in_one_groove(mega);
 }
 TEST(PicoThread, has_its_pitch_though_the_spindle_ripples_by_5_percent) {
-  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
-  has_its_pitch(pico);
+  if (const std::string why = test::missing(pico_lathe); !why.empty()) GTEST_SKIP() << why;
+  has_its_pitch(pico_lathe);
 }
 TEST(PicoThreadInFull, passes_of_a_threading_cycle_lie_in_one_groove) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes long: PASSO_IN_FULL=1";
-  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
-  passes_lie_in_one_groove(pico);
+  if (const std::string why = test::missing(pico_lathe); !why.empty()) GTEST_SKIP() << why;
+  passes_lie_in_one_groove(pico_lathe);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace passo {
 namespace {
 
-constexpr std::uint64_t clock_rate = 16'000'000;
+constexpr std::uint64_t chip_clock = 16'000'000;
 
 }  // namespace
 
@@ -168,7 +168,7 @@ bool BoardBench::send_hello() {
   complaints_ = 0;
   error_.reset();
   put_on_line({frame, size});
-  for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(clock_rate / 1000);
+  for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(chip_clock / 1000);
   last_executed_ = last_sent_;
   ports_->forget_changes();
   return greeted_;
@@ -178,7 +178,7 @@ void BoardBench::start(const std::vector<BoardSegment>& segments, std::uint8_t l
   if (!send_hello()) return;
   if (limit != 0) {
     ask({.question = Question::watch, .limit = limit});
-    run(clock_rate / 200);
+    run(chip_clock / 200);
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), capacity_); ++i) send_item(segments[i]);
 }
@@ -221,9 +221,9 @@ EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   while (sent < segments.size() || under_way() > 0) {
     while (sent < segments.size() && under_way() < capacity_) send_item(segments[sent++]);
     const std::uint8_t executed = last_executed_;
-    chip_->run_for(clock_rate);
+    chip_->run_for(chip_clock);
     if (executed != last_executed_) heard = chip_->cycles();
-    if (complaints_ > 0 || chip_->cycles() - heard > 15 * clock_rate) break;
+    if (complaints_ > 0 || chip_->cycles() - heard > 15 * chip_clock) break;
   }
   chip_->run_for(20'000);
   const std::uint64_t complaints = complaints_;
@@ -232,7 +232,7 @@ EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   result.complaints = complaints;
   result.overruns = uart_->overruns() - lost;
   result.unwatched = uart_->longest_unwatched();
-  result.seconds = static_cast<double>(chip_->cycles() - start) / clock_rate;
+  result.seconds = static_cast<double>(chip_->cycles() - start) / chip_clock;
   return result;
 }
 

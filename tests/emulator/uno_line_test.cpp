@@ -12,7 +12,7 @@ const test::EmulatedLineRun& on_uno() {
   return run;
 }
 
-void cut_at_every(std::uint64_t stride) {
+void uno_cut_at_every(std::uint64_t stride) {
   const test::EmulatedLineRun::Cuts cuts = on_uno().cut_at_every(stride);
   EXPECT_GT(cuts.recoveries, cuts.trials / 2);
 }
@@ -20,7 +20,7 @@ void cut_at_every(std::uint64_t stride) {
 class UnoOnABadLineInFull : public test::InFull<testing::Test> {};
 
 TEST(UnoOnABadLine, goes_on_from_where_it_rests_when_the_line_was_cut) {
-  cut_at_every(37);
+  uno_cut_at_every(37);
 }
 
 TEST(UnoOnABadLine, makes_no_wrong_step_of_random_faults) {
@@ -36,7 +36,7 @@ TEST_F(UnoOnABadLineInFull, a_thousand_faults_of_each_kind) {
 }
 
 TEST_F(UnoOnABadLineInFull, cut_before_every_frame) {
-  cut_at_every(test::in_full());
+  uno_cut_at_every(test::in_full());
 }
 
 TEST_F(UnoOnABadLineInFull, random_faults) {

@@ -22,14 +22,14 @@ using test::StepLog;
 const std::string program =
     "G21 G90 G64 P.02 G1 F4000\nX2\nY1.5\nM3 S1000\nX.5 Y2 Z-.4\nM8\nG2 X1.5 Y1 I.5 J-.5 F1500\nM2\n";
 
-const MachineDescription& uno() {
+const MachineDescription& uno_machine() {
   static const MachineDescription machine = test::example_machine("uno");
   return machine;
 }
 
 StepLog log_of_virtual_machine() {
   Diagnostics diagnostics;
-  test::DrivenProgram job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics);
+  test::DrivenProgram job(ProgramReader::from_text("t", program), uno_machine(), InterpreterOptions(), diagnostics);
   StepLog log;
   job.machine().add_observer(log);
   while (job.advance()) {
@@ -46,7 +46,7 @@ std::uint64_t run_on_uno(const std::vector<std::uint64_t>& lives, test::HostEnd 
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
     log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
   };
-  test::JournaledHost host(uno(), program);
+  test::JournaledHost host(uno_machine(), program);
   std::uint64_t moments = 0;
   bool done = false;
   for (const std::uint64_t life : lives) {
@@ -59,7 +59,7 @@ std::uint64_t run_on_uno(const std::vector<std::uint64_t>& lives, test::HostEnd 
   // The last edges are counted with the time that passes next.
   static_cast<void>((*board)->run(Seconds(0.01)));
   test::expect_same_way(log.steps, reference.steps);
-  test::expect_within_limits(uno(), log.steps, 6);
+  test::expect_within_limits(uno_machine(), log.steps, 6);
   EXPECT_EQ(log.place, reference.place);
   return moments;
 }

@@ -24,6 +24,7 @@ class InFull : public Test {
  protected:
   void SetUp() override {
     if (in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+    Test::SetUp();  // which may skip it, too
   }
 };
 

@@ -79,12 +79,13 @@ class ApiRun {
     api.poll();
     run.collect();
   }
-  // Asks about the condition every 20 ms: a status costs more than a turn.
+  // Asks about the condition every 20 ms, and every 100 ms after the first second: a status costs more than a turn.
   template <class Condition>
   bool turn_until(Condition condition, Seconds within = Seconds(300)) {
-    const Seconds end = run.session().now() + within;
-    while (!condition() && run.session().now() < end) {
-      for (int turns = 0; turns < 4; ++turns) poll();
+    const Seconds begin = run.session().now();
+    while (!condition() && run.session().now() < begin + within) {
+      const int turns = run.session().now() < begin + Seconds(1) ? 4 : 20;
+      for (int turn = 0; turn < turns; ++turn) poll();
     }
     return condition();
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "api_kit.hpp"
+#include "kit/in_full.hpp"
 #include "kit/seed.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -537,7 +538,7 @@ TEST(ApiHostile, random_requests_end_in_a_machine_that_obeys) {
                                 "\xff\xfe",
                                 R"({"spindle_stands": true})",
                                 std::string(60'000, '[')};
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < fewer(12, 2); ++trial) {
     ApiRun run;
     run.own();
     const std::uint64_t id = run.upload("G21 G90 M3 S500\nG1 X20 F900\nM0\nG1 Y9\nM8\nG1 X0\nM2\n");

@@ -112,7 +112,7 @@ class HomingOnABadLine : public testing::TestWithParam<const char*> {};
 class HomingOnABadLineInFull : public test::InFull<testing::TestWithParam<const char*>> {};
 
 TEST_P(HomingOnABadLine, cut_in_part) {
-  cut_before_frames(GetParam(), 29 * test::one_in());
+  cut_before_frames(GetParam(), 29 * test::one_in(2));
 }
 TEST_P(HomingOnABadLine, random_faults_in_part) {
   random_faults(GetParam(), test::fewer(20));

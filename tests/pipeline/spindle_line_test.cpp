@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/in_full.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
@@ -74,6 +75,8 @@ TEST(SpindleOverALine, a_thread_has_its_pitch) {
 TEST(SpindleOverALine, all_passes_of_a_threading_cycle_lie_in_one_groove) {
   const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-15 I-1 J0.2 K0.9 R1.5 H2\nM5\nM2\n";
   for (const LineCase& each : thread_lines()) {
+    const bool is_extreme = each.may_be_too_slow || each.line.latency > Seconds(0.005);
+    if (test::one_in(2) > 1 && !is_extreme) continue;
     for (const bool jerk : {false, true}) {
       const Played result = play(program, lathe(rippling, jerk), {.line = each.line});
       if (each.may_be_too_slow && jerk && result.error == LinkError::thread_lost) {
