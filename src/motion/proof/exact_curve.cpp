@@ -143,6 +143,16 @@ Derivatives ExactCurve::at(Axis axis, double s) const {
   return axis == curve_.arc_data().first ? real_part(arc) : imaginary_part(arc);
 }
 
+Derivatives ExactCurve::sizes_in_plane(double s) const {
+  const Curve::ArcData& arc = curve_.arc_data();
+  const double g = (arc.end_radius - arc.start_radius) / length();
+  const double w = arc.sweep / length();
+  const double r = arc.start_radius + g * s;
+  return {.first = std::hypot(g, r * w),
+          .second = std::hypot(r * w * w, 2 * g * w),
+          .third = std::hypot(3 * g * w * w, r * w * w * w)};
+}
+
 double ExactCurve::turning_of_all() const {
   if (curve_.shape() == Curve::Shape::arc) return std::abs(curve_.arc_data().sweep);
   if (curve_.shape() == Curve::Shape::line) return 0;

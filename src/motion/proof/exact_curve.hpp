@@ -34,6 +34,8 @@ class ExactCurve {
   using AllDerivatives = std::array<Derivatives, axis_count>;
   AllDerivatives at(std::span<const Axis> axes, double s) const;
   bool in_plane(Axis axis) const;  // of an arc
+  // The sizes of an arc's derivatives in its plane.
+  Derivatives sizes_in_plane(double s) const;
   // Returns approximately the angle by which the direction turns over the whole curve, in radians, and the change of
   // the logarithm of |dP/ds|. For an arc never too small.
   double turning() const { return turning_; }
