@@ -18,7 +18,7 @@ class SpeedLimit {
 
  private:
   double constant_;
-  double step_ = 0;  // speed difference between two table entries
+  double per_step_ = 0;  // table entries for each mm/s
   std::vector<double> table_;
 };
 

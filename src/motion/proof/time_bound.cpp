@@ -323,6 +323,9 @@ double TimeBound::least_time(const Cell& cell, double entry, double exit) const 
     if (!ramps_[i].limits() || !(steepest > cell.standing)) continue;
     double top = steepest * cell.cap;
     if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, squared(axes_[i].velocity.value()));
+    // Nowhere slower than the slower end, it takes no longer than the time so far.
+    const double slowest = std::min({cell.entry.slope[i] * entry, cell.exit.slope[i] * exit, top});
+    if (squared(cell.way[i]) <= squared(time) * slowest) continue;
     const AxisRamp::Squares squares{.start = cell.entry.slope[i] * entry, .end = cell.exit.slope[i] * exit, .top = top};
     time = std::max(time, ramps_[i].least_time(squares, std::abs(cell.way[i])));
   }

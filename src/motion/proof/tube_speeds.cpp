@@ -7,7 +7,6 @@ namespace passo::proof {
 namespace {
 
 constexpr double nowhere = -1e18;
-constexpr double endless = 1e18;                          // the square of a speed that does not limit
 constexpr std::array<std::size_t, 3> spans = {1, 4, 16};  // of the legs whose normals are asked
 constexpr double parallel = 1e-6;
 constexpr double as_good = 0.98;
@@ -91,7 +90,7 @@ TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::siz
     if (leg.group != group) group = 0;
     if (!is_seen(i - j + 1)) continue;
     const double time = least_time(walk, j - 1, i, feed, group);
-    if (time >= ramps_[axis].least_time({.start = 0, .end = endless, .top = endless}, latest - lowest)) {
+    if (time >= ramps_[axis].time_from_rest(latest - lowest)) {
       known = std::max(known, lowest);
       break;
     }
@@ -214,17 +213,17 @@ void TubeSpeeds::combine(std::size_t station, const Plane& plane) {
       const Limit& other = limits_[b];
       const double turn = one.x * other.y - one.y * other.x;
       if (std::abs(turn) < parallel) continue;
-      const auto meet = [&](double x, double y, std::size_t direction) {
-        const double share = (x * other.y - y * other.x) / turn;
-        const double rest = (one.x * y - one.y * x) / turn;
-        if (share < 0 || rest < 0) return;
-        double& most = most_[station][direction];
-        most = std::min(most, share * one.most + rest * other.most);
+      // Of the sum with the weights `share` and `rest` along x: share = other.y / turn, rest = −one.y / turn. Along −x
+      // both have the other sign, and along y x takes the place of y.
+      const auto meet = [&](double of_one, double of_other, std::size_t up) {
+        const double share = of_other / turn;
+        const double rest = of_one / turn;
+        const double sum = share * one.most + rest * other.most;
+        if (share >= 0 && rest >= 0) most_[station][up] = std::min(most_[station][up], sum);
+        if (share <= 0 && rest <= 0) most_[station][up + 1] = std::min(most_[station][up + 1], -sum);
       };
-      meet(1, 0, 2 * plane.first);
-      meet(-1, 0, 2 * plane.first + 1);
-      meet(0, 1, 2 * plane.second);
-      meet(0, -1, 2 * plane.second + 1);
+      if (one.y * other.y <= 0) meet(-one.y, other.y, 2 * plane.first);
+      if (one.x * other.x <= 0) meet(one.x, -other.x, 2 * plane.second);
     }
   }
 }
