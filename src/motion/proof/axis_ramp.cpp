@@ -24,6 +24,7 @@ AxisRamp::AxisRamp(const ProvenAxis& axis, const SpeedLimit& limit) : strongest_
     }
     steps_.push_back(step);
   }
+  weakest_ = steps_.back().strength;
 }
 
 std::size_t AxisRamp::step_at(double square) const {
@@ -56,11 +57,13 @@ double AxisRamp::square_over_steps(double square, double way) const {
   return square_at_way(step_at_way(whole, step), whole);
 }
 
-double AxisRamp::time_from_rest(double way) const {
-  if (!(way > 0)) return 0;
-  if (steps_.empty()) return std::sqrt(2 * way / strongest_);
+bool AxisRamp::comes_from_rest(double way, double time) const {
+  if (!(way > 0)) return true;
+  const double square = squared(time);
+  if (square * strongest_ < 2 * way) return false;
+  if (steps_.empty() || square * weakest_ >= 2 * way) return true;
   const std::size_t step = step_at_way(way, 0);
-  return time_to(step, std::sqrt(square_at_way(step, way)));
+  return time >= time_to(step, std::sqrt(square_at_way(step, way)));
 }
 
 // Speeds up from the start, goes on at the top speed, brakes to the end. An end that cannot be reached from the other

@@ -35,8 +35,8 @@ class AxisRamp {
     return steps_.empty() ? speed * speed / (2 * strongest_) : way_to(step_at(speed * speed), speed * speed);
   }
 
-  // Returns the minimum time for a distance from rest on, if no speed is too high.
-  double time_from_rest(double way) const;
+  // Returns whether the axis can come so far from rest in that time, if no speed is too high.
+  bool comes_from_rest(double way, double time) const;
 
   // Upper bounds of the axis' squared speed: at the start and the end of a distance, and anywhere on it.
   struct Squares {
@@ -65,6 +65,7 @@ class AxisRamp {
   double least_time_over_steps(Squares squares, double way) const;
 
   double strongest_ = 0;     // the acceleration from rest; 0: no limit
+  double weakest_ = 0;       // and at the highest speed
   double width_ = 0;         // the range of v² of a step
   double per_width_ = 0;     // 1 / width_
   std::vector<Step> steps_;  // empty: the limit is constant

@@ -324,16 +324,17 @@ void PhasePeaks::measure_torque(const EvenMotion& motion, std::size_t i) {
                       .acceleration = motion.value(way, Order::acceleration)};
     raise_acceleration(i, here, motion.time_at(way));
   };
-  see_at(0);
   std::array<Part, most_halvings + 2> waiting;
   std::size_t parts = 0;
   waiting[parts++] = {.from = 0, .to = motion.way()};
   while (parts > 0) {
     const Part part = waiting[--parts];
-    see_at(part.to);
     const double strongest = motion.highest(Order::acceleration, part.from, part.to);
     const double limit = limits_[i].at(motion.highest(Order::velocity, part.from, part.to));
-    if (strongest <= worst.multiple() * limit * (1 + precision) || part.halvings == most_halvings) continue;
+    if (strongest <= worst.multiple() * limit * (1 + precision)) continue;
+    see_at(part.from);
+    see_at(part.to);
+    if (part.halvings == most_halvings) continue;
     const double middle = (part.from + part.to) / 2;
     waiting[parts++] = {.from = middle, .to = part.to, .halvings = part.halvings + 1};
     waiting[parts++] = {.from = part.from, .to = middle, .halvings = part.halvings + 1};
@@ -365,7 +366,7 @@ void PhasePeaks::measure_polynomial(const Derivatives& slopes, const Phase& phas
                   .acceleration = polynomial.value(u, Order::acceleration)};
   };
   constexpr auto looks = static_cast<int>(fewest_looks);
-  measure_looks([&](int k) { return motion_at(duration.value() * k / looks); }, motion_at, duration.value(), looks, i,
+  measure_looks([&](int k) { return motion_at(duration.value() * k / looks); }, motion_at, duration.value(), fastest, looks, i,
                 std::array{Kind::acceleration});
 }
 
@@ -395,7 +396,7 @@ void PhasePeaks::measure_arc(const ExactCurve& curve, const Phase& phase, const 
       const Way way = way_at(phase, t);
       return motion_of(curve.at(letters_[i], way.s), way);
     };
-    measure_looks(motion_of_look, motion_at, duration, looks, i, std::span(kinds).first(count));
+    measure_looks(motion_of_look, motion_at, duration, bounds.velocity, looks, i, std::span(kinds).first(count));
   }
 }
 
@@ -403,24 +404,27 @@ void PhasePeaks::measure_arc(const ExactCurve& curve, const Phase& phase, const 
 // arc the highest value between two looks is hardly higher than at the nearer one.
 template <class MotionOfLook, class MotionAt>
 void PhasePeaks::measure_looks(const MotionOfLook& motion_of_look, const MotionAt& motion_at, double duration,
-                               int looks, std::size_t i, std::span<const Kind> kinds) {
-  std::array<double, 3> best{};
-  std::array<int, 3> where{};
-  for (int k = 0; k <= looks; ++k) {
-    const Motion motion = motion_of_look(k);
-    for (std::size_t n = 0; n < kinds.size(); ++n) {
-      const double here = severity(i, motion, kinds[n]);
-      if (!(here > best[n])) continue;
-      best[n] = here;
-      where[n] = k;
-    }
-  }
+                               double fastest, int looks, std::size_t i, std::span<const Kind> kinds) {
   constexpr double worth_a_look = 0.98;
-  for (std::size_t n = 0; n < kinds.size(); ++n) {
-    if (best[n] < worth_a_look * worst(i, kinds[n])) continue;
-    see(i, motion_of_look(where[n]), duration * where[n] / looks, kinds[n]);
-    look_closely(motion_at, duration * std::max(where[n] - 1, 0) / looks,
-                 duration * std::min(where[n] + 1, looks) / looks, i, kinds[n]);
+  const SpeedLimit& limit = limits_[i];
+  for (const Kind kind : kinds) {
+    // No look has a lower limit than the fastest one. Most need not be compared with their own.
+    const bool falls = kind == Kind::acceleration && limit.falls();
+    const double harshest = falls ? limit.constant() / limit.at(fastest) : 1;
+    double best = worth_a_look * worst(i, kind);
+    int where = -1;
+    for (int k = 0; k <= looks; ++k) {
+      const Motion motion = motion_of_look(k);
+      if (falls && std::abs(motion.acceleration) * harshest <= best) continue;
+      const double here = severity(i, motion, kind);
+      if (!(here > best)) continue;
+      best = here;
+      where = k;
+    }
+    if (where < 0) continue;
+    see(i, motion_of_look(where), duration * where / looks, kind);
+    look_closely(motion_at, duration * std::max(where - 1, 0) / looks, duration * std::min(where + 1, looks) / looks, i,
+                 kind);
   }
 }
 

@@ -69,8 +69,8 @@ class PhasePeaks {
   void measure_arc(const ExactCurve& curve, const Phase& phase, const Range& range);
   bool can_be_worst(std::size_t i, const Motion& bounds, Kind kind) const;
   template <class MotionOfLook, class MotionAt>
-  void measure_looks(const MotionOfLook& motion_of_look, const MotionAt& motion_at, double duration, int looks,
-                     std::size_t i, std::span<const Kind> kinds);
+  void measure_looks(const MotionOfLook& motion_of_look, const MotionAt& motion_at, double duration, double fastest,
+                     int looks, std::size_t i, std::span<const Kind> kinds);
   template <class MotionAt>
   void look_closely(const MotionAt& motion_at, double low, double high, std::size_t i, Kind kind);
   double severity(std::size_t i, const Motion& motion, Kind kind) const;

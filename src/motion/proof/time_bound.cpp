@@ -15,7 +15,7 @@ constexpr double fewest_cells = 4;
 constexpr std::size_t most_cells = 40960;
 constexpr std::size_t cells_kept = 8192;
 // 1/x of a bend is known to this share of itself, and rather too small than too large.
-constexpr double precision_of_bend = 1e-9;
+constexpr double precision_of_bend = 1e-7;
 constexpr int most_secants = 60;
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
@@ -29,7 +29,6 @@ constexpr double least_part = 1e-6;
 constexpr double nearly_back = 0.999;
 // Parts of a curve that meet but for this share of its length follow each other.
 constexpr double rounding_of_parts = 1e-12;
-constexpr int halvings = 60;  // of a bisection: down to rounding
 
 template <class Row>
 double squares_of(const Row& slope) {
@@ -152,13 +151,31 @@ void TimeBound::add_cells(const ExactCurve& curve, const Place& from, const Plac
 // Where q'', or else q', of the axis is 0.
 TimeBound::Place TimeBound::place_of_turn(const ExactCurve& curve, const Place& from, const Place& to, std::size_t axis,
                                           bool bend) const {
-  const double at_start = bend ? from.bend[axis] : from.slope[axis];
+  const auto value_at = [&](double place) {
+    const Derivatives q = curve.at(axes_[axis].axis, place);
+    return bend ? q.second : q.first;
+  };
+  // The false position, by the Illinois method.
   double low = from.s;
   double high = to.s;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (low + high) / 2;
-    const Derivatives q = curve.at(axes_[axis].axis, middle);
-    ((bend ? q.second : q.first) * at_start > 0 ? low : high) = middle;
+  double at_low = bend ? from.bend[axis] : from.slope[axis];
+  double at_high = bend ? to.bend[axis] : to.slope[axis];
+  int kept = 0;
+  for (int i = 0; i < most_secants && high - low > rounding_of_parts * (to.s - from.s); ++i) {
+    double s = high - at_high * (high - low) / (at_high - at_low);
+    if (!(s > low && s < high)) s = (low + high) / 2;
+    if (!(s > low && s < high)) break;
+    const double here = value_at(s);
+    if (here == 0) {
+      high = s;
+      break;
+    }
+    const bool is_before = here * at_low > 0;
+    (is_before ? low : high) = s;
+    (is_before ? at_low : at_high) = here;
+    if (is_before && kept > 0) at_high /= 2;
+    if (!is_before && kept < 0) at_low /= 2;
+    kept = is_before ? 1 : -1;
   }
   Place place = place_at(curve, high, fastest);
   (bend ? place.bend : place.slope)[axis] = 0;

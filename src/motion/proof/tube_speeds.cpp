@@ -37,6 +37,7 @@ void TubeSpeeds::limit(const std::vector<Station>& path, Rests rests) {
     for (std::size_t d = 0; d < 2 * axes_.size(); ++d) most[d] = tops_[d / 2];
   }
   knows_speeds_ = false;
+  forget_times(path.size());
   const Walk forwards{path, false};
   const Walk backwards{path, true};
   for (int round = 0; round < 2; ++round) {
@@ -47,8 +48,15 @@ void TubeSpeeds::limit(const std::vector<Station>& path, Rests rests) {
     leaving_ = std::move(leaving);
     arriving_ = std::move(arriving);
     knows_speeds_ = true;
+    forget_times(path.size());
     if (round == 0) limit_planes(forwards);
   }
+}
+
+void TubeSpeeds::forget_times(std::size_t stations) {
+  Times unknown;
+  unknown.fill(-1);
+  times_.assign(stations, unknown);
 }
 
 void TubeSpeeds::pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds) {
@@ -71,7 +79,7 @@ void TubeSpeeds::pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds)
 
 // `start_place` is that of the station before, and becomes that of this one.
 TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::size_t direction,
-                                       double& start_place) const {
+                                       double& start_place) {
   const std::size_t axis = direction / 2;
   const double sign = sign_of(direction);
   const Station& here = walk.station(i);
@@ -90,7 +98,7 @@ TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::siz
     if (leg.group != group) group = 0;
     if (!is_seen(i - j + 1)) continue;
     const double time = least_time(walk, j - 1, i, feed, group);
-    if (time >= ramps_[axis].time_from_rest(latest - lowest)) {
+    if (ramps_[axis].comes_from_rest(latest - lowest, time)) {
       known = std::max(known, lowest);
       break;
     }
@@ -118,13 +126,20 @@ double TubeSpeeds::axis_time(const std::vector<Station>& path, std::size_t from,
   return ramps_[axis].least_time({.start = squared(start), .end = squared(end), .top = squared(tops_[axis])}, way);
 }
 
-// Between two stations of a walk. `feed` is the greatest on the legs between them.
-double TubeSpeeds::least_time(const Walk& walk, std::size_t from, std::size_t to, double feed,
-                              std::uint16_t group) const {
+// Between two stations of a walk. `feed` is the greatest on the legs between them. The time is the same for all
+// directions and both walks, so it is kept.
+double TubeSpeeds::least_time(const Walk& walk, std::size_t from, std::size_t to, double feed, std::uint16_t group) {
   const std::size_t first = std::min(walk.number(from), walk.number(to));
   const std::size_t last = std::max(walk.number(from), walk.number(to));
-  const Station& start = walk.path[first];
-  const Station& end = walk.path[last];
+  double& time = times_[last][number_seen(last - first)];
+  if (time < 0) time = time_between(walk.path, first, last, feed, group);
+  return time;
+}
+
+double TubeSpeeds::time_between(const std::vector<Station>& path, std::size_t first, std::size_t last, double feed,
+                                std::uint16_t group) const {
+  const Station& start = path[first];
+  const Station& end = path[last];
   double time = 0;
   double squares = 0;
   for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
@@ -132,7 +147,7 @@ double TubeSpeeds::least_time(const Walk& walk, std::size_t from, std::size_t to
     if ((group >> axis & 1U) != 0) squares += way * way;
     const double least = std::abs(way) - start.slack - end.slack;
     if (!(least > 0)) continue;
-    time = std::max(time, knows_speeds_ ? axis_time(walk.path, first, last, 2 * axis + (way < 0 ? 1 : 0), {})
+    time = std::max(time, knows_speeds_ ? axis_time(path, first, last, 2 * axis + (way < 0 ? 1 : 0), {})
                                         : least / tops_[axis]);
   }
   return std::max(time, (std::sqrt(squares) - start.slack - end.slack) / feed);
