@@ -16,11 +16,10 @@ constexpr double most_looks = 4096;
 
 }  // namespace
 
-PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options)
-    : proof_(proof), before_(proof.axes.size()), stopped_(proof.axes.size()) {
+PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options, const std::vector<SpeedLimit>& limits)
+    : proof_(proof), limits_(limits), before_(proof.axes.size()), stopped_(proof.axes.size()) {
   for (const ProvenAxis& axis : options.axes) {
     letters_.push_back(axis.axis);
-    limits_.emplace_back(axis);
     start_stop_.push_back(axis.start_stop.value());
     backlash_[axis.axis] = axis.backlash.value();
   }

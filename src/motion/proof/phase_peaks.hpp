@@ -23,7 +23,7 @@ namespace passo::proof {
 class PhasePeaks {
  public:
   // Writes its findings into `proof`, whose axes and limits are already set.
-  PhasePeaks(MotionProof& proof, const ProofOptions& options);
+  PhasePeaks(MotionProof& proof, const ProofOptions& options, const std::vector<SpeedLimit>& limits);
 
   // `curve` is that of the move, which has a length and phases.
   void watch(const PlannedMove& move, const ExactCurve& curve);

@@ -47,13 +47,13 @@ std::vector<ProvenAxis> without_jumps(std::vector<ProvenAxis> axes) {
 
 }  // namespace
 
-TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(without_jumps(options.axes)) {
-  for (const ProvenAxis& axis : axes_) {
-    letters_.push_back(axis.axis);
-    limits_.emplace_back(axis);
-    ramps_.emplace_back(axis, limits_.back());
-    any_falls_ |= limits_.back().falls();
-    any_jumps_ |= axis.start_stop > MmPerSecond(0);
+TimeBound::TimeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits)
+    : axes_(options.axes), limits_(limits), ways_(without_jumps(options.axes)) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    letters_.push_back(axes_[i].axis);
+    ramps_.emplace_back(axes_[i], limits_[i]);
+    any_falls_ |= limits_[i].falls();
+    any_jumps_ |= axes_[i].start_stop > MmPerSecond(0);
   }
   find_turning_pairs();
 }

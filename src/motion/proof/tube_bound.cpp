@@ -33,8 +33,8 @@ std::vector<ProvenAxis> axes_without_jumps(std::vector<ProvenAxis> axes) {
 
 }  // namespace
 
-TubeBound::TubeBound(const ProofOptions& options)
-    : axes_(axes_without_jumps(options.axes)), path_(axes_), speeds_(axes_) {}
+TubeBound::TubeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits)
+    : axes_(axes_without_jumps(options.axes)), path_(axes_), speeds_(axes_, limits) {}
 
 void TubeBound::watch(const PathItem& item) {
   if (const auto* action = std::get_if<Action>(&item)) {

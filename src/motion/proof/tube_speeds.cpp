@@ -19,9 +19,10 @@ double speed_on(double way, double time, double strength) {
 
 }  // namespace
 
-TubeSpeeds::TubeSpeeds(const std::vector<ProvenAxis>& axes) : axes_(axes) {
-  for (const ProvenAxis& axis : axes_) {
-    const SpeedLimit limit(axis);
+TubeSpeeds::TubeSpeeds(const std::vector<ProvenAxis>& axes, const std::vector<SpeedLimit>& limits) : axes_(axes) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const ProvenAxis& axis = axes_[i];
+    const SpeedLimit limit = axis.start_stop > MmPerSecond(0) ? SpeedLimit(axis) : limits[i];
     ramps_.emplace_back(axis, limit);
     tops_.push_back(axis.velocity.value() > 0 ? axis.velocity.value() : TubePath::fastest);
     strengths_.push_back(std::max(limit.at(0), 0.0));

@@ -23,7 +23,8 @@ constexpr double sign_of(std::size_t direction) {
 
 class TubeSpeeds {
  public:
-  explicit TubeSpeeds(const std::vector<ProvenAxis>& axes);
+  // `limits`: those of an axis with a start-stop velocity do not count.
+  TubeSpeeds(const std::vector<ProvenAxis>& axes, const std::vector<SpeedLimit>& limits);
 
   struct Rests {  // at the first and the last of two stations
     bool first = false;
