@@ -24,22 +24,23 @@ AxisRamp::AxisRamp(const ProvenAxis& axis, const SpeedLimit& limit) : strongest_
     }
     steps_.push_back(step);
   }
-  weakest_ = steps_.back().strength;
+  fill_reaches();
 }
 
 std::size_t AxisRamp::step_at(double square) const {
   return static_cast<std::size_t>(std::min(square * per_width_, static_cast<double>(steps_.size() - 1)));
 }
-// `from`: a step that is not beyond it. It is mostly near.
+// `from`: a step that is not beyond it. With the strength of that step, which only falls, the way would end no earlier.
 std::size_t AxisRamp::step_at_way(double way, std::size_t from) const {
-  constexpr std::size_t near = 4;
-  for (std::size_t i = from; i < from + near; ++i) {
-    if (i + 1 >= steps_.size() || steps_[i + 1].way > way) return i;
+  const double rise = std::max(way - steps_[from].way, 0.0) * 2 * steps_[from].strength * per_width_;
+  const double last = std::min(static_cast<double>(from) + rise + 1, static_cast<double>(steps_.size() - 1));
+  std::size_t low = from;
+  std::size_t high = static_cast<std::size_t>(last) + 1;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (steps_[middle].way <= way ? low : high) = middle;
   }
-  const auto begin = steps_.begin() + static_cast<std::ptrdiff_t>(from + near);
-  const auto after =
-      std::upper_bound(begin, steps_.end(), way, [](double limit, const Step& step) { return limit < step.way; });
-  return static_cast<std::size_t>(after - steps_.begin()) - 1;
+  return low;
 }
 double AxisRamp::way_to(std::size_t step, double square) const {
   return steps_[step].way + (square - square_of(step)) / (2 * steps_[step].strength);
@@ -59,11 +60,28 @@ double AxisRamp::square_over_steps(double square, double way) const {
 
 bool AxisRamp::comes_from_rest(double way, double time) const {
   if (!(way > 0)) return true;
-  const double square = squared(time);
-  if (square * strongest_ < 2 * way) return false;
-  if (steps_.empty() || square * weakest_ >= 2 * way) return true;
+  if (steps_.empty()) return squared(time) * strongest_ >= 2 * way;
+  // Mostly the nearest times of the table say it.
+  const double place = time * reaches_per_time_;
+  if (place < static_cast<double>(reaches_.size() - 1)) {
+    const auto below = static_cast<std::size_t>(place);
+    if (way <= reaches_[below]) return true;
+    if (way > reaches_[below + 1]) return false;
+  }
   const std::size_t step = step_at_way(way, 0);
   return time >= time_to(step, std::sqrt(square_at_way(step, way)));
+}
+
+void AxisRamp::fill_reaches() {
+  constexpr std::size_t entries = 1024;
+  reaches_per_time_ = static_cast<double>(entries) / steps_.back().time;
+  std::size_t step = 0;
+  for (std::size_t i = 0; i <= entries; ++i) {
+    const double time = static_cast<double>(i) / reaches_per_time_;
+    while (step + 1 < steps_.size() && steps_[step + 1].time <= time) ++step;
+    const double speed = steps_[step].speed + steps_[step].strength * (time - steps_[step].time);
+    reaches_.push_back(way_to(step, squared(speed)));
+  }
 }
 
 // Speeds up from the start, goes on at the top speed, brakes to the end. An end that cannot be reached from the other

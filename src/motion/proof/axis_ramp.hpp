@@ -56,6 +56,7 @@ class AxisRamp {
     double speed = 0;
   };
   double square_of(std::size_t step) const { return static_cast<double>(step) * width_; }
+  void fill_reaches();
   std::size_t step_at(double square) const;
   std::size_t step_at_way(double way, std::size_t from) const;
   double way_to(std::size_t step, double square) const;
@@ -64,11 +65,12 @@ class AxisRamp {
   double square_over_steps(double square, double way) const;
   double least_time_over_steps(Squares squares, double way) const;
 
-  double strongest_ = 0;     // the acceleration from rest; 0: no limit
-  double weakest_ = 0;       // and at the highest speed
-  double width_ = 0;         // the range of v² of a step
-  double per_width_ = 0;     // 1 / width_
-  std::vector<Step> steps_;  // empty: the limit is constant
+  double strongest_ = 0;         // the acceleration from rest; 0: no limit
+  double width_ = 0;             // the range of v² of a step
+  double per_width_ = 0;         // 1 / width_
+  std::vector<Step> steps_;      // empty: the limit is constant
+  std::vector<double> reaches_;  // the ways from rest at even times
+  double reaches_per_time_ = 0;
 };
 
 }  // namespace passo::proof

@@ -56,6 +56,11 @@ class ExactCurve {
   double turning_of_all() const;
   double fastest_of_all() const;
   Point slope(double s) const;  // dP/ds of a cubic
+  struct Local {
+    Point place;
+    AllDerivatives slopes{};  // of all axes
+  };
+  Local local(double s) const;
   bool is_circle() const;
   Nearest nearest_of_circle(const Point& point, double from, double to) const;
   Nearest nearest_of_bent(const Point& point, double from, double to) const;

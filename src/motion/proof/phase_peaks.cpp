@@ -365,8 +365,8 @@ void PhasePeaks::measure_polynomial(const Derivatives& slopes, const Phase& phas
                   .acceleration = polynomial.value(u, Order::acceleration)};
   };
   constexpr auto looks = static_cast<int>(fewest_looks);
-  measure_looks([&](int k) { return motion_at(duration.value() * k / looks); }, motion_at, duration.value(), fastest, looks, i,
-                std::array{Kind::acceleration});
+  measure_looks([&](int k) { return motion_at(duration.value() * k / looks); }, motion_at, duration.value(), fastest,
+                looks, i, std::array{Kind::acceleration});
 }
 
 void PhasePeaks::measure_arc(const ExactCurve& curve, const Phase& phase, const Range& range) {
@@ -427,11 +427,11 @@ void PhasePeaks::measure_looks(const MotionOfLook& motion_of_look, const MotionA
   }
 }
 
-// A golden-section search. A peak is flat: half of its digits are enough for the time.
+// A golden-section search. A peak is flat: a few digits of the time are enough for twice as many of the value.
 template <class MotionAt>
 void PhasePeaks::look_closely(const MotionAt& motion_at, double low, double high, std::size_t i, Kind kind) {
   constexpr double golden = 0.6180339887498949;
-  constexpr int passes = 20;
+  constexpr int passes = 12;
   const auto value = [&](double t) { return severity(i, motion_at(t), kind); };
   double a = high - golden * (high - low);
   double b = low + golden * (high - low);

@@ -19,7 +19,7 @@ class SpeedLimit {
 
  private:
   double constant_;
-  double per_step_ = 0;  // table entries for each mm/s
+  double per_step_ = 0;                               // table entries for each mm/s
   std::shared_ptr<const std::vector<double>> table_;  // null: the limit is constant
 };
 

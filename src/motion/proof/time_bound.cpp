@@ -15,7 +15,7 @@ constexpr double fewest_cells = 4;
 constexpr std::size_t most_cells = 40960;
 constexpr std::size_t cells_kept = 8192;
 // 1/x of a bend is known to this share of itself, and rather too small than too large.
-constexpr double precision_of_bend = 1e-7;
+constexpr double precision_of_bend = 1e-5;
 constexpr int most_secants = 60;
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;

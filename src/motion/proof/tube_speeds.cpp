@@ -79,8 +79,7 @@ void TubeSpeeds::pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds)
 }
 
 // `start_place` is that of the station before, and becomes that of this one.
-TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::size_t direction,
-                                       double& start_place) {
+TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::size_t direction, double& start_place) {
   const std::size_t axis = direction / 2;
   const double sign = sign_of(direction);
   const Station& here = walk.station(i);
@@ -148,8 +147,8 @@ double TubeSpeeds::time_between(const std::vector<Station>& path, std::size_t fi
     if ((group >> axis & 1U) != 0) squares += way * way;
     const double least = std::abs(way) - start.slack - end.slack;
     if (!(least > 0)) continue;
-    time = std::max(time, knows_speeds_ ? axis_time(path, first, last, 2 * axis + (way < 0 ? 1 : 0), {})
-                                        : least / tops_[axis]);
+    time = std::max(
+        time, knows_speeds_ ? axis_time(path, first, last, 2 * axis + (way < 0 ? 1 : 0), {}) : least / tops_[axis]);
   }
   return std::max(time, (std::sqrt(squares) - start.slack - end.slack) / feed);
 }

@@ -87,7 +87,7 @@ class TubeSpeeds {
   std::vector<Speeds> arriving_;
   std::vector<std::array<double, most_directions>> most_;  // by planes
   std::vector<Limit> limits_;
-  std::vector<Times> times_;  // of least_time(), by the last station; below 0: unknown
+  std::vector<Times> times_;   // of least_time(), by the last station; below 0: unknown
   bool knows_speeds_ = false;  // speeds from a previous round are available
 };
 
