@@ -61,7 +61,7 @@ column '$1 == "time"' '$11' | spread 'feed'
 column '$1 == "time"' '$12' | spread 'deviation'
 column '$1 == "time"' '$7' | spread 'seconds of CPU'
 # A rest is seen by the last step, which is a fraction of a step too early.
-halt='$1 == "halt" && $7 > 0.02'
+halt='$1 == "halt" && $7 > 0.02 && $6 > 0'
 head_of_table 'hold or stop to rest / least possible, if that is more than 20 ms'
 column "$halt" '$6 / $7' | spread 'all'
 for limit in jerk torque backlash starts rotary; do

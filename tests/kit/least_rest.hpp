@@ -58,10 +58,13 @@ inline double least_rest_by_jerk(double acceleration_limit, double jerk, AxisSta
   return std::max(a / jerk + braking, 0.0);
 }
 
+// At the start-stop velocity there is no acceleration any more.
 inline double least_rest(const RestLimits& limits, const AxisState& from) {
   const double by_acceleration = least_rest_by_acceleration(limits, from.velocity);
-  if (limits.jerk == 0 || limits.start_stop > 0) return by_acceleration;
-  return std::max(by_acceleration, least_rest_by_jerk(limits.acceleration, limits.jerk, from));
+  if (limits.jerk == 0 || std::abs(from.velocity) <= limits.start_stop) return by_acceleration;
+  const AxisState above{.velocity = from.velocity - std::copysign(limits.start_stop, from.velocity),
+                        .acceleration = from.acceleration};
+  return std::max(by_acceleration, least_rest_by_jerk(limits.acceleration, limits.jerk, above));
 }
 
 inline RestLimits rest_limits_of(const AxisDescription& axis) {

@@ -37,18 +37,10 @@ double squares_of(const Row& slope) {
   return sum;
 }
 
-// An axis that may start and stop at a velocity needs no ramp there, so its jerk bounds no time.
-std::vector<ProvenAxis> without_jumps(std::vector<ProvenAxis> axes) {
-  for (ProvenAxis& axis : axes) {
-    if (axis.start_stop > MmPerSecond(0)) axis.jerk = MmPerSecond3(0);
-  }
-  return axes;
-}
-
 }  // namespace
 
 TimeBound::TimeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits)
-    : axes_(options.axes), limits_(limits), ways_(without_jumps(options.axes)) {
+    : axes_(options.axes), limits_(limits), ways_(options.axes) {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     letters_.push_back(axes_[i].axis);
     ramps_.emplace_back(axes_[i], limits_[i]);
@@ -441,7 +433,6 @@ void TimeBound::add_to_line(const Segment& segment, const Place& place) {
     if (limit > 0 && part > standing && (lowest == 0 || limit / part < lowest)) lowest = limit / part;
   };
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (axes_[i].start_stop > MmPerSecond(0)) continue;
     lower(line.acceleration, axes_[i].acceleration.value(), std::abs(place.slope[i]));
     lower(line.jerk, axes_[i].jerk.value(), std::abs(place.slope[i]));
   }
@@ -452,7 +443,9 @@ void TimeBound::raise_by_line(bool steady) {
   if (!line_ || line_->curves == 0) return;
   const RampBound ramp(line_->acceleration, line_->jerk);
   if (!ramp.limits()) return;
-  const double time = ramp.least_time({.steady = line_->steady}, {.steady = steady}, line_->length, line_->top);
+  const double jump = std::sqrt(rest_cap(line_->direction));
+  const double time = ramp.least_time({.speed = jump, .steady = line_->steady}, {.speed = jump, .steady = steady},
+                                      line_->length, line_->top);
   time_ = std::max(time_, line_->began + time);
 }
 
