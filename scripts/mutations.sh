@@ -123,7 +123,7 @@ link=$(ninja -C "$release" -t commands "$program" | tail -1)
 # Prints the first failure, or nothing. The tests with the prover come first.
 failure_of() {  # NUMBER
   local output tests test
-  for tests in 'RandomMotion.*' 'RandomHalt.*'; do
+  for tests in 'RandomMotion.*:MixtureLaw.*' 'RandomHalt.*'; do
     if ! output=$(PASSO_MUTANT=$1 PASSO_RUNS=${PASSO_RUNS-60} timeout 900 "$copy/random_motion_tests" \
       --gtest_fail_fast --gtest_filter="$tests" 2>&1); then
       test=$(grep -m 1 -oP '^\[  FAILED  \] \K\S+' <<<"$output" || echo 'a test that was killed')

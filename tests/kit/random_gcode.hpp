@@ -122,6 +122,16 @@ inline void mix_everything(std::uint64_t number, MachineDescription& machine) {
   }
 }
 
+// All of that, and start-stop velocities on any of the axes of a third of the machines.
+inline void mix_with_starts(std::uint64_t number, MachineDescription& machine) {
+  mix_everything(number, machine);
+  Random random = Random::of(number ^ 0x737473);
+  if (!random.chance(0.33)) return;
+  for (AxisDescription& axis : machine.axes) {
+    if (random.chance(0.5)) axis.start_stop = axis.velocity * random.between(0.01, 0.3);
+  }
+}
+
 class RandomGcode {
  public:
   // `turning`: degrees that a rotary axis moves where another axis would move by a millimetre.
@@ -268,7 +278,7 @@ class RandomGcode {
   double size_ = 1;
 };
 
-enum class Machines : std::uint8_t { as_drawn, mixed, starting, of_all_mixtures };
+enum class Machines : std::uint8_t { as_drawn, mixed, starting, of_all_mixtures, of_any_limits };
 
 struct RandomJob {
   explicit RandomJob(Random& random) : machine(random_machine(random)), program(RandomGcode(random, machine).draw()) {}
@@ -293,12 +303,20 @@ struct RandomJob {
     const double turning = number % 2 == 0 ? 1 : std::exp(Random::of(number ^ 0x7475726e).between(0, 7));
     return {random, std::move(machine), turning};
   }
+  // The same, with start-stop velocities on any axes.
+  static RandomJob of_any_limits(std::uint64_t number, Random& random) {
+    MachineDescription machine = random_machine(random);
+    mix_with_starts(number, machine);
+    const double turning = number % 2 == 0 ? 1 : std::exp(Random::of(number ^ 0x7475726e).between(0, 7));
+    return {random, std::move(machine), turning};
+  }
   static RandomJob of(Machines machines, std::uint64_t number, Random& random) {
     switch (machines) {
       case Machines::as_drawn: break;
       case Machines::mixed: return mixed(number, random);
       case Machines::starting: return starting(number, random);
       case Machines::of_all_mixtures: return of_all_mixtures(number, random);
+      case Machines::of_any_limits: return of_any_limits(number, random);
     }
     return RandomJob(random);
   }

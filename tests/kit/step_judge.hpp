@@ -108,7 +108,9 @@ class StepJudge {
     const double window = samples * apart;
     const double steps = axis.steps_per_unit;
     const double farthest = axis.velocity.value() * window * steps * tolerated + 2;
-    const double jolt = axis.jerk.value() * window * window * window * steps * tolerated + slack_of_jerk;
+    // At stops the velocity may jump, from one direction to the other.
+    const double jumps = 2 * axis.start_stop.value() * window * steps;
+    const double jolt = axis.jerk.value() * window * window * window * steps * tolerated + slack_of_jerk + 2 * jumps;
     const auto count = static_cast<std::int64_t>(places_[motor].size()) + 2 * samples;
     for (std::int64_t k = 0; k < count; ++k) {
       const double newest = at(motor, k);
@@ -123,14 +125,14 @@ class StepJudge {
       const double way = std::abs(newest - second);
       if (way > farthest) return told("way", way, farthest);
       const double bend = std::abs(newest - 2 * second + third);
-      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack;
+      const double most = axis.acceleration.value() * window * window * steps * tolerated + slack + jumps;
       if (bend > most) return told("bend", bend, most);
       if (axis.follows_torque()) {
         // The torque is highest where the motor was slowest, which was hardly slower than the mean of both halves.
         const double mean = (newest - second) * (second - third) > 0 ? std::min(way, std::abs(second - third)) - 2 : 0;
         const double slowest = std::max(mean / window / steps - axis.acceleration.value() * window, 0.0);
         const double left = axis.acceleration_at(MmPerSecond(slowest)).value() * window * window * steps * tolerated;
-        if (bend > left + slack) return told("bend at speed", bend, left + slack);
+        if (bend > left + slack + jumps) return told("bend at speed", bend, left + slack + jumps);
       }
       const double change = std::abs(newest - 3 * second + 3 * third - fourth);
       if (axis.jerk.value() > 0 && change > jolt && !is_in_small_tail(now - 3 * window, now))

@@ -15,6 +15,9 @@
 #include <vector>
 
 #include "kit/driven.hpp"
+#include "kit/job_rows.hpp"
+#include "kit/least_rest.hpp"
+#include "kit/path_places.hpp"
 #include "kit/random_gcode.hpp"
 #include "kit/step_judge.hpp"
 #include "kit/step_log.hpp"
@@ -36,6 +39,7 @@ struct Halt {
   double from = 0;
   double rested = 0;                // no step came from then on
   std::vector<double> speeds = {};  // of each axis: the highest from `asked` to `from`
+  double least = 0;                 // from `from` to rest
 };
 
 // How fast the axes were in the motion given last.
@@ -51,8 +55,11 @@ class LastSpeeds {
     for (const AxisDescription& axis : machine_.axes) {
       given_.back().speeds.push_back(std::abs(slope[axis.axis]) * move->exit_velocity().value());
     }
+    least_rest_ = test::least_rest_after(*move, machine_.axes);
     while (given_.size() > most) given_.pop_front();
   }
+  // The least time to rest from the end of that motion.
+  double least_rest() const { return least_rest_; }
   // The highest of each axis in that time. At least at the end of the motion.
   std::vector<double> in_the_last(double time) const {
     std::vector<double> highest(machine_.axes.size(), 0.0);
@@ -71,6 +78,7 @@ class LastSpeeds {
   };
   const MachineDescription& machine_;
   std::deque<Given> given_;
+  double least_rest_ = 0;
 };
 
 // What all runs together had.
@@ -92,14 +100,18 @@ struct Tally {
   }
 };
 
-void judge(const MachineDescription& machine, const test::StepLog::Steps& steps, const std::vector<Halt>& halts,
-           std::uint64_t number, Tally& tally) {
+// Returns what is wrong with the run.
+std::vector<std::string> faults_of(const MachineDescription& machine, const test::StepLog::Steps& steps,
+                                   const std::vector<Halt>& halts, const test::PathPlaces& path, std::uint64_t number,
+                                   Tally& tally) {
+  std::vector<std::string> faults;
   std::vector<test::StepJudge::Tail> tails;
   for (const Halt& halt : halts) {
     if (halt.is_tail) tails.push_back({.from = halt.asked, .to = halt.rested});
   }
   const test::StepJudge judge(machine, steps, std::move(tails));
-  if (const auto fault = judge.fault()) ADD_FAILURE() << *fault;
+  if (const auto fault = judge.fault()) faults.push_back(*fault);
+  if (const auto fault = path.fault(machine, steps)) faults.push_back(*fault);
   for (const Halt& halt : halts) {
     const double rested = judge.last_step_before(halt.rested);
     const double braking = judge.braking(halt.speeds, halt.asked, rested);
@@ -109,9 +121,11 @@ void judge(const MachineDescription& machine, const test::StepLog::Steps& steps,
       tally.latest = late;
       tally.latest_number = number;
     }
-    EXPECT_LE(late, soon) << halt.what << " from " << halt.from << " s on, with a braking time of " << braking
-                          << " s, rests at " << rested << " s";
+    if (late <= soon) continue;
+    faults.push_back(fmt::format("{} from {:.4f} s on, with a braking time of {:.4f} s, rests at {:.4f} s", halt.what,
+                                 halt.from, braking, rested));
   }
+  return faults;
 }
 
 // Acts at random instants on one run.
@@ -170,7 +184,8 @@ class RandomActs {
   void begin_halt(const char* what) {
     halting_ = true;
     const double from = (drive_.now() + drive_.committed()).value();
-    halts_.push_back({.what = what, .asked = from, .from = from, .speeds = speeds_.in_the_last(0)});
+    halts_.push_back(
+        {.what = what, .asked = from, .from = from, .speeds = speeds_.in_the_last(0), .least = speeds_.least_rest()});
   }
   void rest() {
     halting_ = false;
@@ -187,33 +202,46 @@ class RandomActs {
   std::vector<Halt> halts_;
 };
 
-void act_at_random(std::uint64_t number, const test::RandomJob& job, test::Random& random, Tally& tally) {
+struct HaltedRun {
+  std::vector<Halt> halts;
+  std::vector<std::string> faults;
+};
+
+HaltedRun act_at_random(std::uint64_t number, const test::RandomJob& job, test::Random& random, Tally& tally) {
   Diagnostics diagnostics;
   test::DrivenProgram running(ProgramReader::from_text("t", job.program), job.machine, InterpreterOptions(),
                               diagnostics, {.live = live_commitment});
   test::StepLog log;
+  test::PathPlaces path;
   running.machine().add_observer(log);
+  running.path().watch([&](const PathItem& item) { path.note(item); });
   LastSpeeds speeds(job.machine);
   running.motion().watch([&](const MotionItem& item) { speeds.note(item); });
   RandomActs acts(running, speeds, random, tally);
   while (running.advance()) acts.act();
   acts.end();
-  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
-  EXPECT_FALSE(running.link().error());
-  std::vector<Halt> halts = acts.halts();
-  std::erase_if(halts, [](const Halt& halt) { return halt.rested == 0; });  // taken back, or at the program's end
-  judge(job.machine, log.steps, halts, number, tally);
+  HaltedRun run{.halts = acts.halts(), .faults = {}};
+  std::erase_if(run.halts, [](const Halt& halt) { return halt.rested == 0; });  // taken back, or at the program's end
+  run.faults = faults_of(job.machine, log.steps, run.halts, path, number, tally);
+  if (diagnostics.any_error()) run.faults.push_back(render(diagnostics, false));
+  if (running.link().error()) run.faults.push_back("the link failed");
+  // From now on to the last step.
+  const test::StepJudge judge(job.machine, log.steps);
+  for (Halt& halt : run.halts) halt.rested = judge.last_step_before(halt.rested);
+  return run;
 }
 
 // Cuts the line a few times. The board plays what it holds, the end of which is a way to rest, and the job goes on when
 // the line is there again.
-void cut_at_random(std::uint64_t number, test::RandomJob job, test::Random& random, Tally& tally) {
+HaltedRun cut_at_random(std::uint64_t number, test::RandomJob job, test::Random& random, Tally& tally) {
   job.machine.board.held_items = random.chance(0.5) ? 240 : 31;
   Diagnostics diagnostics;
   test::DrivenProgram running(ProgramReader::from_text("t", job.program), job.machine, InterpreterOptions(),
                               diagnostics, {.line = LineOptions{}});
   test::StepLog log;
+  test::PathPlaces path;
   running.machine().add_observer(log);
+  running.path().watch([&](const PathItem& item) { path.note(item); });
   LastSpeeds speeds(job.machine);
   running.motion().watch([&](const MotionItem& item) { speeds.note(item); });
   std::vector<Halt> halts;
@@ -237,18 +265,40 @@ void cut_at_random(std::uint64_t number, test::RandomJob job, test::Random& rand
                      .speeds = speeds.in_the_last(committed.value())});
     ++tally.cuts;
   }
-  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
-  EXPECT_FALSE(running.link().error());
-  judge(job.machine, log.steps, halts, number, tally);
+  HaltedRun run{.halts = halts, .faults = faults_of(job.machine, log.steps, halts, path, number, tally)};
+  if (diagnostics.any_error()) run.faults.push_back(render(diagnostics, false));
+  if (running.link().error()) run.faults.push_back("the link failed");
+  return run;
+}
+
+// Rows of the halts, and of the run.
+std::string rows_of(std::uint64_t number, const test::RandomJob& job, const HaltedRun& run, const Tally& tally) {
+  std::string rows;
+  for (const Halt& halt : run.halts) {
+    if (halt.least == 0) continue;  // a lost line
+    rows += fmt::format("halt\t{}\t{}\t{}\t{:.6f}\t{:.6f}\t{:.6f}\n", number, test::mixture_of(job.machine), halt.what,
+                        halt.from, halt.rested - halt.from, halt.least);
+  }
+  return rows + fmt::format("acts\t{}\t{}\t{}\t{}\n", number, test::mixture_of(job.machine), tally.instants(),
+                            fmt::join(run.faults, "; "));
 }
 
 template <class Act>
 void for_each_mixture(int runs, const Act& act) {
+  constexpr auto machines = test::Machines::of_any_limits;
+  if (test::prints_rows()) {
+    const auto rows = [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
+      Tally tally;
+      const HaltedRun run = act(number, job, random, tally);
+      return rows_of(number, job, run, tally);
+    };
+    return test::print_job_rows(machines, rows);
+  }
   Tally tally;
-  test::for_each_job(
-      runs,
-      [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) { act(number, job, random, tally); },
-      test::Machines::of_all_mixtures);
+  const auto try_one = [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
+    for (const std::string& fault : act(number, job, random, tally).faults) ADD_FAILURE() << fault;
+  };
+  test::for_each_job(runs, try_one, machines);
   tally.print();
 }
 
@@ -267,7 +317,9 @@ void hold_program_at(const MachineDescription& machine, const std::string& progr
   test::DrivenProgram running(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics,
                               {.live = live_commitment});
   test::StepLog log;
+  test::PathPlaces path;
   running.machine().add_observer(log);
+  running.path().watch([&](const PathItem& item) { path.note(item); });
   LastSpeeds speeds(machine);
   running.motion().watch([&](const MotionItem& item) { speeds.note(item); });
   std::vector<Halt> halts;
@@ -284,7 +336,7 @@ void hold_program_at(const MachineDescription& machine, const std::string& progr
   }
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
   Tally tally;
-  judge(machine, log.steps, halts, 0, tally);
+  for (const std::string& fault : faults_of(machine, log.steps, halts, path, 0, tally)) ADD_FAILURE() << fault;
 }
 
 // X turns back with 5 mm of backlash, which takes 0.7 s. A hold meanwhile was obeyed after that.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/list_source.hpp"
 #include "kit/meddled_run.hpp"
 #include "kit/random_gcode.hpp"
 
@@ -117,9 +118,10 @@ TEST(RandomMotion, keeps_limits_and_path_with_start_stop_velocities) {
   expect_nearly_the_fastest(test::Machines::starting);
 }
 
-// Backlash, jerk limits and torque curves on any of the axes, and lines in which a rotary axis does most.
+// Backlash, jerk limits, torque curves and start-stop velocities on any of the axes, and lines in which a rotary axis
+// does most.
 TEST(RandomMotion, keeps_limits_and_path_on_machines_of_all_mixtures) {
-  expect_nearly_the_fastest(test::Machines::of_all_mixtures);
+  expect_nearly_the_fastest(test::Machines::of_any_limits);
 }
 
 // A machine whose axes are all alike.
@@ -263,6 +265,88 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_veloc
   };
   test::for_each_job(test::fewer(60, 4), try_one, test::Machines::starting);
   acts.print();
+}
+
+TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_on_machines_of_all_mixtures) {
+  test::Acts acts;
+  const auto try_one = [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
+    expect_right_in_spite_of_acts(job, random, acts);
+  };
+  test::for_each_job(test::fewer(60, 4), try_one, test::Machines::of_any_limits);
+  acts.print();
+}
+
+// Vertices up to one and a half times the tolerance off a straight line. They may be merged only so far that the tool
+// stays within the tolerance.
+TEST(RandomMotion, keeps_the_path_on_nearly_straight_lines) {
+  test::Random random = test::Random::of(46);
+  for (int trial = 0; trial < 6; ++trial) {
+    MachineDescription machine = even_machine({Axis::x, Axis::y}, 400, MmPerSecond(100), MmPerSecond2(500));
+    if (trial % 2 == 1) {
+      for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(25'000);
+    }
+    const double tolerance = std::exp(random.between(-6, -2));
+    std::string program = fmt::format("G21 G90 G64 P{:.5f} F6000\n", tolerance);
+    double x = 0;
+    for (int i = 0; i < 60; ++i) {
+      x += std::exp(random.between(-3, 1));
+      program += fmt::format("G1 X{:.5f} Y{:.5f}\n", x, tolerance * random.between(-1.5, 1.5));
+    }
+    SCOPED_TRACE(program);
+    const test::Ending ending = test::run(program + "M2\n", machine, {.live = endless_commitment});
+    for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+  }
+}
+
+// A line and a tangent arc by turns. The planner gets them as they are: the smoother would leave no jump of the bend.
+std::vector<PathItem> tangent_arcs(test::Random& random) {
+  std::vector<PathItem> path;
+  Point at;
+  double direction = random.between(0, 6);
+  for (int i = 0; i < 12; ++i) {
+    const double length = random.between(0.5, 5);
+    const double turn = i % 2 == 0 ? 0 : random.between(0.5, 2) * (random.chance(0.5) ? 1 : -1);
+    Segment segment;
+    segment.speed = MmPerSecond(100);
+    segment.tolerance = Mm(0.01);
+    Point end = at;
+    if (turn == 0) {
+      end[Axis::x] += length * std::cos(direction);
+      end[Axis::y] += length * std::sin(direction);
+      segment.curve = Curve::line(at, end);
+    } else {
+      const double radius = length / turn;
+      const double center_x = at[Axis::x] - radius * std::sin(direction);
+      const double center_y = at[Axis::y] + radius * std::cos(direction);
+      end[Axis::x] = center_x + radius * std::sin(direction + turn);
+      end[Axis::y] = center_y - radius * std::cos(direction + turn);
+      segment.curve = Curve::arc(at, end, Axis::x, Axis::y, center_x, center_y, turn);
+    }
+    segment.source.line = static_cast<std::uint32_t>(i + 1);
+    path.emplace_back(segment);
+    at = end;
+    direction += turn;
+  }
+  return path;
+}
+
+// With jerk limits the acceleration does not jump where the bend of the path does.
+TEST(RandomMotion, passes_jumps_of_the_bend_without_a_jump_of_the_acceleration) {
+  test::Random random = test::Random::of(46);
+  for (int trial = 0; trial < 6; ++trial) {
+    MachineDescription machine = even_machine({Axis::x, Axis::y}, 400, MmPerSecond(100), MmPerSecond2(500));
+    for (AxisDescription& axis : machine.axes)
+      axis.jerk = axis.acceleration / Seconds(std::exp(random.between(-5, -2)));
+    const std::vector<PathItem> path = tangent_arcs(random);
+    test::ListSource<PathItem> source(path);
+    Planner planner(source, motion_limits(machine));
+    MotionProver prover(proof_options(machine));
+    for (const PathItem& item : path) prover.watch(item);
+    for (MotionItem item; planner.next(item);) prover.watch(item);
+    const MotionProof proof = prover.finish();
+    for (const std::string& fault : proof.faults()) ADD_FAILURE() << "trial " << trial << ": " << fault;
+    EXPECT_GT(proof.time, Seconds(0.5));
+  }
 }
 
 // A hold in a corner in which the torque of an axis left, but for rounding, one speed at the end of a cell: the machine

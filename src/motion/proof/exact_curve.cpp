@@ -116,6 +116,26 @@ Point ExactCurve::place(double s) const {
   return point;
 }
 
+// An arc's direction is computed once for both.
+ExactCurve::Local ExactCurve::local(double s) const {
+  if (curve_.shape() != Curve::Shape::arc) return {.place = place(s), .slopes = at(all_axes, s)};
+  Local local;
+  const double per_length = 1 / length();
+  for (const Axis axis : all_axes) {
+    const double way = curve_.end()[axis] - curve_.start()[axis];
+    local.place[axis] = curve_.start()[axis] + way * s * per_length;
+    local.slopes[index_of(axis)] = {.first = way * per_length};
+  }
+  const Curve::ArcData& arc = curve_.arc_data();
+  const Polar polar = polar_at(curve_, s);
+  local.place[arc.first] = arc.first_center + polar.r * polar.direction.real();
+  local.place[arc.second] = arc.second_center + polar.r * polar.direction.imag();
+  const ArcDerivatives derivatives = derivatives_of(polar);
+  local.slopes[index_of(arc.first)] = real_part(derivatives);
+  local.slopes[index_of(arc.second)] = imaginary_part(derivatives);
+  return local;
+}
+
 ExactCurve::AllDerivatives ExactCurve::at(std::span<const Axis> axes, double s) const {
   AllDerivatives all;
   if (curve_.shape() != Curve::Shape::arc) {
@@ -141,6 +161,16 @@ Derivatives ExactCurve::at(Axis axis, double s) const {
   if (!in_plane(axis)) return {.first = (curve_.end()[axis] - curve_.start()[axis]) / length()};
   const ArcDerivatives arc = derivatives_of(polar_at(curve_, s));
   return axis == curve_.arc_data().first ? real_part(arc) : imaginary_part(arc);
+}
+
+Derivatives ExactCurve::sizes_in_plane(double s) const {
+  const Curve::ArcData& arc = curve_.arc_data();
+  const double g = (arc.end_radius - arc.start_radius) / length();
+  const double w = arc.sweep / length();
+  const double r = arc.start_radius + g * s;
+  return {.first = std::hypot(g, r * w),
+          .second = std::hypot(r * w * w, 2 * g * w),
+          .third = std::hypot(3 * g * w * w, r * w * w * w)};
 }
 
 double ExactCurve::turning_of_all() const {
@@ -239,13 +269,13 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
   double high = from + step * std::min(best + 1, parts);
   double s = from + step * best;
   for (int i = 0; i < most_steps && high - low > near * step; ++i) {
-    const Point away = place(s) - point;
     double pull = 0;   // half of the derivative of the squared distance
     double steep = 0;  // and its derivative
-    const auto all = at(all_axes, s);
+    const Local here = local(s);
     for (std::size_t k = 0; k < axis_count; ++k) {
-      pull += away.values[k] * all[k].first;
-      steep += all[k].first * all[k].first + away.values[k] * all[k].second;
+      const double away = here.place.values[k] - point.values[k];
+      pull += away * here.slopes[k].first;
+      steep += here.slopes[k].first * here.slopes[k].first + away * here.slopes[k].second;
     }
     (pull > 0 ? high : low) = s;
     const double next = steep > 0 ? s - pull / steep : low;

@@ -34,6 +34,8 @@ class ExactCurve {
   using AllDerivatives = std::array<Derivatives, axis_count>;
   AllDerivatives at(std::span<const Axis> axes, double s) const;
   bool in_plane(Axis axis) const;  // of an arc
+  // The sizes of an arc's derivatives in its plane.
+  Derivatives sizes_in_plane(double s) const;
   // Returns approximately the angle by which the direction turns over the whole curve, in radians, and the change of
   // the logarithm of |dP/ds|. For an arc never too small.
   double turning() const { return turning_; }
@@ -54,6 +56,11 @@ class ExactCurve {
   double turning_of_all() const;
   double fastest_of_all() const;
   Point slope(double s) const;  // dP/ds of a cubic
+  struct Local {
+    Point place;
+    AllDerivatives slopes{};  // of all axes
+  };
+  Local local(double s) const;
   bool is_circle() const;
   Nearest nearest_of_circle(const Point& point, double from, double to) const;
   Nearest nearest_of_bent(const Point& point, double from, double to) const;

@@ -7,7 +7,8 @@ namespace passo::proof {
 
 JerkTimeBound::JerkTimeBound(const std::vector<ProvenAxis>& axes) {
   for (const ProvenAxis& axis : axes) {
-    axes_.emplace_back(RampBound(axis.acceleration.value(), axis.jerk.value()));
+    axes_.emplace_back(RampBound(axis.acceleration.value(), axis.jerk.value()), axis.start_stop.value());
+    axes_.back().start = axes_.back().jump;
     any_ |= axes_.back().ramp.limits();
   }
 }
@@ -17,13 +18,13 @@ double JerkTimeBound::until(const Axis& axis, const Way& way, const RampBound::E
 }
 
 // The axis stands, or is about to turn back.
-double JerkTimeBound::stop(Axis& axis, double time, bool steady) {
+double JerkTimeBound::stop(Axis& axis, double time, const RampBound::End& end) {
   if (axis.direction != 0) {
-    const RampBound::End end{.steady = steady};
     time = std::max({time, until(axis, axis.whole, end), until(axis, axis.part, end)});
   }
   axis.direction = 0;
-  axis.steady = steady;
+  axis.start = 0;
+  axis.steady = end.steady;
   return time;
 }
 
@@ -34,7 +35,7 @@ double JerkTimeBound::enter(const Rides& rides, double time) {
     const Ride& ride = rides[i];
     if (!axis.ramp.limits() || axis.direction == 0) continue;
     if (!(axis.direction * ride.way > 0)) {
-      time = stop(axis, time, ride.way == 0);
+      time = stop(axis, time, {.steady = ride.way == 0});
     } else if (axis.falls && ride.exit > ride.entry) {
       time = std::max(time, until(axis, axis.part, {.speed = std::sqrt(ride.entry)}));
     }
@@ -45,10 +46,11 @@ double JerkTimeBound::enter(const Rides& rides, double time) {
     if (!axis.ramp.limits()) continue;
     if (ride.way == 0) {
       axis.steady = true;
+      axis.start = 0;
       continue;
     }
     if (axis.direction == 0) {
-      axis.whole = axis.part = {.began = time, .start = {.steady = axis.steady}};
+      axis.whole = axis.part = {.began = time, .start = {.speed = axis.start, .steady = axis.steady}};
     } else if (axis.falls && ride.exit > ride.entry) {
       axis.part = {.began = time, .start = {.speed = std::sqrt(ride.entry)}};
     }
@@ -64,9 +66,12 @@ double JerkTimeBound::enter(const Rides& rides, double time) {
 
 double JerkTimeBound::rest(double time, bool steady) {
   for (Axis& axis : axes_) {
-    if (axis.ramp.limits()) time = stop(axis, time, steady);
+    if (axis.ramp.limits()) time = stop(axis, time, {.speed = axis.jump, .steady = steady});
   }
-  for (Axis& axis : axes_) axis.steady = steady;
+  for (Axis& axis : axes_) {
+    axis.start = axis.jump;
+    axis.steady = steady;
+  }
   return time;
 }
 

@@ -2,7 +2,8 @@
 //
 // An axis with a jerk limit moves back and forth. Between two points where it stops or reverses, it takes at least the
 // time of a RampBound. So the time up to the second point is at least the time up to the first one plus this time. The
-// same holds between two points where the axis is slowest, with its maximum speeds at these points.
+// same holds between two points where the axis is slowest, with its maximum speeds at these points. At a stop of the
+// path an axis with a start-stop velocity may jump to it, or from it, without acceleration.
 #pragma once
 
 #include <array>
@@ -41,8 +42,10 @@ class JerkTimeBound {
     double top = 0;  // squared
   };
   struct Axis {
-    explicit Axis(const RampBound& of_axis) : ramp(of_axis) {}
+    Axis(const RampBound& of_axis, double start_stop) : ramp(of_axis), jump(start_stop) {}
     RampBound ramp;
+    double jump;           // the start-stop velocity
+    double start = 0;      // the speed with which it may begin to move
     double direction = 0;  // 0: it does not move
     bool falls = false;    // the maximum speed falls along the last cell
     bool steady = true;    // the last end was without acceleration
@@ -50,7 +53,7 @@ class JerkTimeBound {
     Way part;              // since it was slowest
   };
   static double until(const Axis& axis, const Way& way, const RampBound::End& end);
-  static double stop(Axis& axis, double time, bool steady);
+  static double stop(Axis& axis, double time, const RampBound::End& end);
 
   std::vector<Axis> axes_;
   bool any_ = false;

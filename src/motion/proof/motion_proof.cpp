@@ -7,6 +7,7 @@
 #include "path_deviation.hpp"
 #include "phase_peaks.hpp"
 #include "rounding.hpp"
+#include "speed_limit.hpp"
 #include "step_peaks.hpp"
 #include "time_bound.hpp"
 #include "tube_bound.hpp"
@@ -78,13 +79,14 @@ std::vector<std::string> MotionProof::faults() const {
 
 class MotionProver::Implementation {
  public:
-  explicit Implementation(const ProofOptions& options)
+  explicit Implementation(const ProofOptions& options) : Implementation(options, proof::speed_limits(options.axes)) {}
+  Implementation(const ProofOptions& options, const std::vector<proof::SpeedLimit>& limits)
       : proof_(begun(options)),
-        peaks_(proof_, options),
+        peaks_(proof_, options, limits),
         steps_(options, proof_),
         deviation_(proof_),
-        bound_(options),
-        tube_(options),
+        bound_(options, limits),
+        tube_(options, limits),
         backlash_(options, proof_) {}
 
   void watch(const PathItem& item) {

@@ -16,11 +16,10 @@ constexpr double most_looks = 4096;
 
 }  // namespace
 
-PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options)
-    : proof_(proof), before_(proof.axes.size()), stopped_(proof.axes.size()) {
+PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options, const std::vector<SpeedLimit>& limits)
+    : proof_(proof), limits_(limits), before_(proof.axes.size()), stopped_(proof.axes.size()) {
   for (const ProvenAxis& axis : options.axes) {
     letters_.push_back(axis.axis);
-    limits_.emplace_back(axis);
     start_stop_.push_back(axis.start_stop.value());
     backlash_[axis.axis] = axis.backlash.value();
   }
@@ -203,40 +202,158 @@ void PhasePeaks::see_feed(const Segment& segment, const Phase& phase) {
   }
 }
 
+PhasePeaks::Range PhasePeaks::range_of(const Phase& phase) {
+  const double duration = phase.duration.value();
+  const Way start = way_at(phase, 0);
+  const Way end = way_at(phase, duration);
+  Range range{.way = end.s - start.s,
+              .velocity = std::abs(start.v),
+              .acceleration = std::abs(start.a),
+              .jerk = std::abs(start.j)};
+  const auto see_velocity = [&](double v, double t) {
+    if (!(std::abs(v) > range.velocity)) return;
+    range.velocity = std::abs(v);
+    range.fastest_at = t;
+  };
+  see_velocity(end.v, duration);
+  const double turn = start.j != 0 ? -start.a / start.j : 0;
+  if (turn > 0 && turn < duration) see_velocity(way_at(phase, turn).v, turn);
+  if (std::abs(end.a) > range.acceleration) {
+    range.acceleration = std::abs(end.a);
+    range.strongest_at = duration;
+  }
+  return range;
+}
+
+// The slope is a parabola of s: it lies between its Bernstein coefficients.
+PhasePeaks::Motion PhasePeaks::bounds_of(const Derivatives& slopes, const Range& range) {
+  const double middle = slopes.first + slopes.second * range.way / 2;
+  const double end = middle + (slopes.second + slopes.third * range.way) * range.way / 2;
+  const double first = std::max({std::abs(slopes.first), std::abs(middle), std::abs(end)});
+  const double second = std::max(std::abs(slopes.second), std::abs(slopes.second + slopes.third * range.way));
+  const double v = range.velocity;
+  return {.velocity = first * v,
+          .acceleration = first * range.acceleration + second * v * v,
+          .jerk = std::abs(slopes.third) * v * v * v + 3 * second * v * range.acceleration + first * range.jerk};
+}
+
+// An axis in the plane of an arc has at most the size of each derivative.
+PhasePeaks::Motion PhasePeaks::bounds_in_plane(const ExactCurve& curve, double from, const Range& range) {
+  const Derivatives before = curve.sizes_in_plane(from);
+  const Derivatives after = curve.sizes_in_plane(from + range.way);
+  const double first = std::max(before.first, after.first);
+  const double second = std::max(before.second, after.second);
+  const double third = std::max(before.third, after.third);
+  const double v = range.velocity;
+  return {.velocity = first * v,
+          .acceleration = first * range.acceleration + second * v * v,
+          .jerk = third * v * v * v + 3 * second * v * range.acceleration + first * range.jerk};
+}
+
+// Under a falling limit, the lowest limit in the phase is that of the highest speed.
+bool PhasePeaks::can_be_worst(std::size_t i, const Motion& bounds, Kind kind) const {
+  const AxisProof& axis = proof_.axes[i];
+  switch (kind) {
+    case Kind::velocity: return bounds.velocity > axis.velocity.value;
+    case Kind::jerk: return bounds.jerk > axis.jerk.value;
+    case Kind::acceleration: break;
+  }
+  if (!limits_[i].falls()) return bounds.acceleration > axis.acceleration.value;
+  return bounds.acceleration > axis.acceleration.multiple() * limits_[i].at(bounds.velocity);
+}
+
 void PhasePeaks::measure(const ExactCurve& curve, const Phase& phase) {
-  const Seconds duration = phase.duration;
   const ExactCurve::AllDerivatives slopes = curve.at(letters_, phase.start.value());
-  if (!(duration > Seconds(0))) {
+  if (!(phase.duration > Seconds(0))) {
     for (std::size_t i = 0; i < letters_.size(); ++i) {
       for (const Kind kind : all_kinds) see(i, motion_of(slopes[i], way_at(phase, 0)), 0, kind);
     }
     return;
   }
+  const Range range = range_of(phase);
   for (std::size_t i = 0; i < letters_.size(); ++i) {
-    if (!curve.in_plane(letters_[i])) {
-      if (slopes[i].first != 0 || slopes[i].second != 0 || slopes[i].third != 0)
-        measure_polynomial(AxisPolynomial(slopes[i], phase), duration, i);
-      continue;
+    if (curve.in_plane(letters_[i])) continue;
+    const auto& [first, second, third] = slopes[i];
+    const bool is_straight = second == 0 && third == 0;
+    if (is_straight && first == 0) continue;
+    if (is_straight && !limits_[i].falls()) {
+      measure_line(first, range, i);
+    } else if (phase.jerk.value() == 0) {
+      measure_even(EvenMotion(slopes[i], phase), i);
+    } else {
+      measure_polynomial(slopes[i], phase, range, i);
     }
-    const auto motion_at = [&](double t) {
-      const Way way = way_at(phase, t);
-      return motion_of(curve.at(letters_[i], way.s), way);
-    };
-    const double share = (way_at(phase, duration.value()).s - phase.start.value()) / curve.length();
-    const double looks = std::clamp(curve.turning() * share / turn_between_looks, fewest_looks, most_looks);
-    measure_looks(motion_at, duration.value(), static_cast<int>(looks), i, all_kinds);
+  }
+  if (!curve.is_line() && !curve.is_cubic()) measure_arc(curve, phase, range);
+}
+
+void PhasePeaks::measure_line(double slope, const Range& range, std::size_t i) {
+  AxisProof& axis = proof_.axes[i];
+  raise(axis.velocity, slope * range.velocity, range.fastest_at);
+  raise(axis.acceleration, slope * range.acceleration, range.strongest_at);
+  raise(axis.jerk, slope * range.jerk, 0);
+}
+
+void PhasePeaks::measure_even(const EvenMotion& motion, std::size_t i) {
+  using Order = EvenMotion::Order;
+  const auto see_peak = [&](Finding& finding, Order order) {
+    if (const auto peak = motion.peak_above(finding.value, order)) raise(finding, peak->value, peak->time);
+  };
+  AxisProof& axis = proof_.axes[i];
+  see_peak(axis.velocity, Order::velocity);
+  see_peak(axis.jerk, Order::jerk);
+  if (limits_[i].falls()) return measure_torque(motion, i);
+  see_peak(axis.acceleration, Order::acceleration);
+}
+
+// Cuts the phase in halves. A part whose highest acceleration is no new peak under the limit of its highest speed is
+// done.
+void PhasePeaks::measure_torque(const EvenMotion& motion, std::size_t i) {
+  using Order = EvenMotion::Order;
+  constexpr double precision = 1e-6;
+  constexpr int most_halvings = 30;
+  struct Part {
+    double from = 0;
+    double to = 0;
+    int halvings = 0;
+  };
+  const Finding& worst = proof_.axes[i].acceleration;
+  const auto see_at = [&](double way) {
+    const Motion here{.velocity = motion.value(way, Order::velocity),
+                      .acceleration = motion.value(way, Order::acceleration)};
+    raise_acceleration(i, here, motion.time_at(way));
+  };
+  std::array<Part, most_halvings + 2> waiting;
+  std::size_t parts = 0;
+  waiting[parts++] = {.from = 0, .to = motion.way()};
+  while (parts > 0) {
+    const Part part = waiting[--parts];
+    const double strongest = motion.highest(Order::acceleration, part.from, part.to);
+    const double limit = limits_[i].at(motion.highest(Order::velocity, part.from, part.to));
+    if (strongest <= worst.multiple() * limit * (1 + precision)) continue;
+    see_at(part.from);
+    see_at(part.to);
+    if (part.halvings == most_halvings) continue;
+    const double middle = (part.from + part.to) / 2;
+    waiting[parts++] = {.from = middle, .to = part.to, .halvings = part.halvings + 1};
+    waiting[parts++] = {.from = part.from, .to = middle, .halvings = part.halvings + 1};
   }
 }
 
-void PhasePeaks::measure_polynomial(const AxisPolynomial& polynomial, Seconds duration, std::size_t i) {
+void PhasePeaks::measure_polynomial(const Derivatives& slopes, const Phase& phase, const Range& range, std::size_t i) {
   using Order = AxisPolynomial::Order;
+  const Motion bounds = bounds_of(slopes, range);
+  if (std::ranges::none_of(all_kinds, [&](Kind kind) { return can_be_worst(i, bounds, kind); })) return;
+  const Seconds duration = phase.duration;
+  const AxisPolynomial polynomial(slopes, phase);
   const auto see_peak = [&](Finding& finding, Order order) {
     if (const auto peak = polynomial.peak_above(finding.value, order))
       raise(finding, peak->value, peak->u * duration.value());
   };
   AxisProof& axis = proof_.axes[i];
-  see_peak(axis.velocity, Order::velocity);
-  see_peak(axis.jerk, Order::jerk);
+  if (can_be_worst(i, bounds, Kind::velocity)) see_peak(axis.velocity, Order::velocity);
+  if (can_be_worst(i, bounds, Kind::jerk)) see_peak(axis.jerk, Order::jerk);
+  if (!can_be_worst(i, bounds, Kind::acceleration)) return;
   if (!limits_[i].falls()) return see_peak(axis.acceleration, Order::acceleration);
   // Nowhere in the phase is the limit below that of the highest speed.
   const double fastest = polynomial.highest(Order::velocity);
@@ -247,39 +364,74 @@ void PhasePeaks::measure_polynomial(const AxisPolynomial& polynomial, Seconds du
     return Motion{.velocity = polynomial.value(u, Order::velocity),
                   .acceleration = polynomial.value(u, Order::acceleration)};
   };
-  measure_looks(motion_at, duration.value(), static_cast<int>(fewest_looks), i, std::array{Kind::acceleration});
+  constexpr auto looks = static_cast<int>(fewest_looks);
+  measure_looks([&](int k) { return motion_at(duration.value() * k / looks); }, motion_at, duration.value(), fastest,
+                looks, i, std::array{Kind::acceleration});
 }
 
-// Looks at points of a phase at even times. If the best of them could be a new peak, it looks closely around it.
-template <class MotionAt>
-void PhasePeaks::measure_looks(const MotionAt& motion_at, double duration, int looks, std::size_t i,
-                               std::span<const Kind> kinds) {
-  std::array<double, 3> best{};
-  std::array<double, 3> where{};
-  for (int k = 0; k <= looks; ++k) {
-    const double t = duration * k / looks;
-    const Motion motion = motion_at(t);
-    for (std::size_t n = 0; n < kinds.size(); ++n) {
-      const double here = severity(i, motion, kinds[n]);
-      if (!(here > best[n])) continue;
-      best[n] = here;
-      where[n] = t;
+void PhasePeaks::measure_arc(const ExactCurve& curve, const Phase& phase, const Range& range) {
+  const Motion bounds = bounds_in_plane(curve, phase.start.value(), range);
+  const double duration = phase.duration.value();
+  const double turn = curve.turning() * range.way / curve.length();
+  const auto looks = static_cast<int>(std::clamp(turn / turn_between_looks, fewest_looks, most_looks));
+  looks_.clear();
+  for (std::size_t i = 0; i < letters_.size(); ++i) {
+    if (!curve.in_plane(letters_[i])) continue;
+    std::array<Kind, all_kinds.size()> kinds{};
+    std::size_t count = 0;
+    for (const Kind kind : all_kinds) {
+      if (can_be_worst(i, bounds, kind)) kinds[count++] = kind;
     }
-  }
-  constexpr double worth_a_look = 0.9;
-  for (std::size_t n = 0; n < kinds.size(); ++n) {
-    if (best[n] < worth_a_look * worst(i, kinds[n])) continue;
-    see(i, motion_at(where[n]), where[n], kinds[n]);
-    look_closely(motion_at, std::max(where[n] - duration / looks, 0.0), std::min(where[n] + duration / looks, duration),
-                 i, kinds[n]);
+    if (count == 0) continue;
+    for (int k = static_cast<int>(looks_.size()); k <= looks; ++k) {
+      const Way way = way_at(phase, duration * k / looks);
+      looks_.push_back({.way = way, .slopes = curve.at(letters_, way.s)});
+    }
+    const auto motion_of_look = [&](int k) {
+      const Look& look = looks_[static_cast<std::size_t>(k)];
+      return motion_of(look.slopes[i], look.way);
+    };
+    const auto motion_at = [&](double t) {
+      const Way way = way_at(phase, t);
+      return motion_of(curve.at(letters_[i], way.s), way);
+    };
+    measure_looks(motion_of_look, motion_at, duration, bounds.velocity, looks, i, std::span(kinds).first(count));
   }
 }
 
-// A golden-section search. A peak is flat: half of its digits are enough for the time.
+// Looks at points of a phase at even times. If the best of them could be a new peak, it looks closely around it. On an
+// arc the highest value between two looks is hardly higher than at the nearer one.
+template <class MotionOfLook, class MotionAt>
+void PhasePeaks::measure_looks(const MotionOfLook& motion_of_look, const MotionAt& motion_at, double duration,
+                               double fastest, int looks, std::size_t i, std::span<const Kind> kinds) {
+  constexpr double worth_a_look = 0.98;
+  const SpeedLimit& limit = limits_[i];
+  for (const Kind kind : kinds) {
+    // No look has a lower limit than the fastest one. Most need not be compared with their own.
+    const bool falls = kind == Kind::acceleration && limit.falls();
+    const double harshest = falls ? limit.constant() / limit.at(fastest) : 1;
+    double best = worth_a_look * worst(i, kind);
+    int where = -1;
+    for (int k = 0; k <= looks; ++k) {
+      const Motion motion = motion_of_look(k);
+      if (falls && std::abs(motion.acceleration) * harshest <= best) continue;
+      const double here = severity(i, motion, kind);
+      if (!(here > best)) continue;
+      best = here;
+      where = k;
+    }
+    if (where < 0) continue;
+    see(i, motion_of_look(where), duration * where / looks, kind);
+    look_closely(motion_at, duration * std::max(where - 1, 0) / looks, duration * std::min(where + 1, looks) / looks, i,
+                 kind);
+  }
+}
+
+// A golden-section search. A peak is flat: a few digits of the time are enough for twice as many of the value.
 template <class MotionAt>
 void PhasePeaks::look_closely(const MotionAt& motion_at, double low, double high, std::size_t i, Kind kind) {
   constexpr double golden = 0.6180339887498949;
-  constexpr int passes = 20;
+  constexpr int passes = 12;
   const auto value = [&](double t) { return severity(i, motion_at(t), kind); };
   double a = high - golden * (high - low);
   double b = low + golden * (high - low);

@@ -2,9 +2,9 @@
 //
 //   q̇ = q' ṡ      q̈ = q'' ṡ² + q' s̈      q⃛ = q''' ṡ³ + 3 q'' ṡ s̈ + q' s⃛
 //
-// On a line or a cubic these are polynomials of time, whose peaks are found exactly (AxisPolynomial). In the plane of
-// an arc, and under a limit that falls with the speed, many points are evaluated, followed by a golden-section search
-// between the neighbours of the best one.
+// On a line or a cubic the peaks are found exactly: in closed form without jerk (EvenMotion), else as those of
+// polynomials of time (AxisPolynomial). In the plane of an arc many points are evaluated, followed by a search between
+// the neighbours of the best one. An upper bound for the whole phase comes first: most phases have no new peak.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include <span>
 
 #include "axis_polynomial.hpp"
+#include "even_motion.hpp"
 #include "exact_curve.hpp"
 #include "speed_limit.hpp"
 
@@ -22,7 +23,7 @@ namespace passo::proof {
 class PhasePeaks {
  public:
   // Writes its findings into `proof`, whose axes and limits are already set.
-  PhasePeaks(MotionProof& proof, const ProofOptions& options);
+  PhasePeaks(MotionProof& proof, const ProofOptions& options, const std::vector<SpeedLimit>& limits);
 
   // `curve` is that of the move, which has a length and phases.
   void watch(const PlannedMove& move, const ExactCurve& curve);
@@ -46,10 +47,30 @@ class PhasePeaks {
   enum class Kind : std::uint8_t { velocity, acceleration, jerk };
   static constexpr std::array all_kinds = {Kind::velocity, Kind::acceleration, Kind::jerk};
 
+  // The largest absolute values in a phase.
+  struct Range {
+    double way = 0;
+    double velocity = 0;
+    double acceleration = 0;
+    double jerk = 0;
+    double fastest_at = 0;    // the time of the highest velocity
+    double strongest_at = 0;  // and of the highest acceleration
+  };
+  static Range range_of(const Phase& phase);
+  // Upper bounds of the absolute values of an axis in a phase.
+  static Motion bounds_of(const Derivatives& slopes, const Range& range);
+  static Motion bounds_in_plane(const ExactCurve& curve, double from, const Range& range);
+
   void measure(const ExactCurve& curve, const Phase& phase);
-  void measure_polynomial(const AxisPolynomial& polynomial, Seconds duration, std::size_t i);
-  template <class MotionAt>
-  void measure_looks(const MotionAt& motion_at, double duration, int looks, std::size_t i, std::span<const Kind> kinds);
+  void measure_line(double slope, const Range& range, std::size_t i);
+  void measure_even(const EvenMotion& motion, std::size_t i);
+  void measure_torque(const EvenMotion& motion, std::size_t i);
+  void measure_polynomial(const Derivatives& slopes, const Phase& phase, const Range& range, std::size_t i);
+  void measure_arc(const ExactCurve& curve, const Phase& phase, const Range& range);
+  bool can_be_worst(std::size_t i, const Motion& bounds, Kind kind) const;
+  template <class MotionOfLook, class MotionAt>
+  void measure_looks(const MotionOfLook& motion_of_look, const MotionAt& motion_at, double duration, double fastest,
+                     int looks, std::size_t i, std::span<const Kind> kinds);
   template <class MotionAt>
   void look_closely(const MotionAt& motion_at, double low, double high, std::size_t i, Kind kind);
   double severity(std::size_t i, const Motion& motion, Kind kind) const;
@@ -66,7 +87,14 @@ class PhasePeaks {
   void raise(Finding& finding, double value, double t) const;
   void raise_acceleration(std::size_t i, const Motion& motion, double t);
 
+  // Points of a phase on an arc, for all axes.
+  struct Look {
+    Way way{};
+    ExactCurve::AllDerivatives slopes{};
+  };
+
   MotionProof& proof_;
+  std::vector<Look> looks_;
   Seconds now_{0};  // at the start of the current phase
   std::uint32_t line_ = 0;
   std::vector<Axis> letters_;       // by axis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace passo::proof {
 namespace {
@@ -12,19 +13,30 @@ constexpr int values = 20'000;  // differs on purpose from the size of any other
 
 SpeedLimit::SpeedLimit(const ProvenAxis& axis) : constant_(axis.acceleration.value()) {
   if (!axis.acceleration_at || !(axis.velocity > MmPerSecond(0))) return;
-  step_ = axis.velocity.value() / values;
+  const double step = axis.velocity.value() / values;
+  per_step_ = 1 / step;
+  std::vector<double> table;
+  table.reserve(values + 1);
   for (int i = 0; i <= values; ++i) {
-    const double limit = axis.acceleration_at(MmPerSecond(i * step_)).value();
-    table_.push_back(constant_ > 0 ? std::min(constant_, limit) : limit);
+    const double limit = axis.acceleration_at(MmPerSecond(i * step)).value();
+    table.push_back(constant_ > 0 ? std::min(constant_, limit) : limit);
   }
+  table_ = std::make_shared<const std::vector<double>>(std::move(table));
 }
 
 double SpeedLimit::at(double speed) const {
-  if (table_.empty()) return constant_;
-  const double place = std::min(std::abs(speed) / step_, static_cast<double>(values));
-  const auto below = std::min(static_cast<std::size_t>(place), table_.size() - 2);
+  if (!table_) return constant_;
+  const std::vector<double>& table = *table_;
+  const double place = std::min(std::abs(speed) * per_step_, static_cast<double>(values));
+  const auto below = std::min(static_cast<std::size_t>(place), table.size() - 2);
   const double share = place - static_cast<double>(below);
-  return table_[below] * (1 - share) + table_[below + 1] * share;
+  return table[below] * (1 - share) + table[below + 1] * share;
+}
+
+std::vector<SpeedLimit> speed_limits(const std::vector<ProvenAxis>& axes) {
+  std::vector<SpeedLimit> limits;
+  for (const ProvenAxis& axis : axes) limits.emplace_back(axis);
+  return limits;
 }
 
 }  // namespace passo::proof

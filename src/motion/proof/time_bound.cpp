@@ -15,7 +15,7 @@ constexpr double fewest_cells = 4;
 constexpr std::size_t most_cells = 40960;
 constexpr std::size_t cells_kept = 8192;
 // 1/x of a bend is known to this share of itself, and rather too small than too large.
-constexpr double precision_of_bend = 1e-9;
+constexpr double precision_of_bend = 1e-5;
 constexpr int most_secants = 60;
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
@@ -29,7 +29,6 @@ constexpr double least_part = 1e-6;
 constexpr double nearly_back = 0.999;
 // Parts of a curve that meet but for this share of its length follow each other.
 constexpr double rounding_of_parts = 1e-12;
-constexpr int halvings = 60;  // of a bisection: down to rounding
 
 template <class Row>
 double squares_of(const Row& slope) {
@@ -38,23 +37,15 @@ double squares_of(const Row& slope) {
   return sum;
 }
 
-// An axis that may start and stop at a velocity needs no ramp there, so its jerk bounds no time.
-std::vector<ProvenAxis> without_jumps(std::vector<ProvenAxis> axes) {
-  for (ProvenAxis& axis : axes) {
-    if (axis.start_stop > MmPerSecond(0)) axis.jerk = MmPerSecond3(0);
-  }
-  return axes;
-}
-
 }  // namespace
 
-TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(without_jumps(options.axes)) {
-  for (const ProvenAxis& axis : axes_) {
-    letters_.push_back(axis.axis);
-    limits_.emplace_back(axis);
-    ramps_.emplace_back(axis, limits_.back());
-    any_falls_ |= limits_.back().falls();
-    any_jumps_ |= axis.start_stop > MmPerSecond(0);
+TimeBound::TimeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits)
+    : axes_(options.axes), limits_(limits), ways_(options.axes) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    letters_.push_back(axes_[i].axis);
+    ramps_.emplace_back(axes_[i], limits_[i]);
+    any_falls_ |= limits_[i].falls();
+    any_jumps_ |= axes_[i].start_stop > MmPerSecond(0);
   }
   find_turning_pairs();
 }
@@ -152,13 +143,31 @@ void TimeBound::add_cells(const ExactCurve& curve, const Place& from, const Plac
 // Where q'', or else q', of the axis is 0.
 TimeBound::Place TimeBound::place_of_turn(const ExactCurve& curve, const Place& from, const Place& to, std::size_t axis,
                                           bool bend) const {
-  const double at_start = bend ? from.bend[axis] : from.slope[axis];
+  const auto value_at = [&](double place) {
+    const Derivatives q = curve.at(axes_[axis].axis, place);
+    return bend ? q.second : q.first;
+  };
+  // The false position, by the Illinois method.
   double low = from.s;
   double high = to.s;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (low + high) / 2;
-    const Derivatives q = curve.at(axes_[axis].axis, middle);
-    ((bend ? q.second : q.first) * at_start > 0 ? low : high) = middle;
+  double at_low = bend ? from.bend[axis] : from.slope[axis];
+  double at_high = bend ? to.bend[axis] : to.slope[axis];
+  int kept = 0;
+  for (int i = 0; i < most_secants && high - low > rounding_of_parts * (to.s - from.s); ++i) {
+    double s = high - at_high * (high - low) / (at_high - at_low);
+    if (!(s > low && s < high)) s = (low + high) / 2;
+    if (!(s > low && s < high)) break;
+    const double here = value_at(s);
+    if (here == 0) {
+      high = s;
+      break;
+    }
+    const bool is_before = here * at_low > 0;
+    (is_before ? low : high) = s;
+    (is_before ? at_low : at_high) = here;
+    if (is_before && kept > 0) at_high /= 2;
+    if (!is_before && kept < 0) at_low /= 2;
+    kept = is_before ? 1 : -1;
   }
   Place place = place_at(curve, high, fastest);
   (bend ? place.bend : place.slope)[axis] = 0;
@@ -323,6 +332,9 @@ double TimeBound::least_time(const Cell& cell, double entry, double exit) const 
     if (!ramps_[i].limits() || !(steepest > cell.standing)) continue;
     double top = steepest * cell.cap;
     if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, squared(axes_[i].velocity.value()));
+    // Nowhere slower than the slower end, it takes no longer than the time so far.
+    const double slowest = std::min({cell.entry.slope[i] * entry, cell.exit.slope[i] * exit, top});
+    if (squared(cell.way[i]) <= squared(time) * slowest) continue;
     const AxisRamp::Squares squares{.start = cell.entry.slope[i] * entry, .end = cell.exit.slope[i] * exit, .top = top};
     time = std::max(time, ramps_[i].least_time(squares, std::abs(cell.way[i])));
   }
@@ -421,7 +433,6 @@ void TimeBound::add_to_line(const Segment& segment, const Place& place) {
     if (limit > 0 && part > standing && (lowest == 0 || limit / part < lowest)) lowest = limit / part;
   };
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (axes_[i].start_stop > MmPerSecond(0)) continue;
     lower(line.acceleration, axes_[i].acceleration.value(), std::abs(place.slope[i]));
     lower(line.jerk, axes_[i].jerk.value(), std::abs(place.slope[i]));
   }
@@ -432,7 +443,9 @@ void TimeBound::raise_by_line(bool steady) {
   if (!line_ || line_->curves == 0) return;
   const RampBound ramp(line_->acceleration, line_->jerk);
   if (!ramp.limits()) return;
-  const double time = ramp.least_time({.steady = line_->steady}, {.steady = steady}, line_->length, line_->top);
+  const double jump = std::sqrt(rest_cap(line_->direction));
+  const double time = ramp.least_time({.speed = jump, .steady = line_->steady}, {.speed = jump, .steady = steady},
+                                      line_->length, line_->top);
   time_ = std::max(time_, line_->began + time);
 }
 

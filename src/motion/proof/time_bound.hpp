@@ -37,7 +37,7 @@ namespace passo::proof {
 
 class TimeBound {
  public:
-  explicit TimeBound(const ProofOptions& options);
+  TimeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits);
 
   // `curve` is that of the move, which has a length and phases.
   void watch(const PlannedMove& move, const ExactCurve& curve);

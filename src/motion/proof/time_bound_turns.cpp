@@ -41,8 +41,7 @@ bool lower(double& x, double turn, double most) {
 
 void TimeBound::find_turning_pairs() {
   const auto counts = [&](const ProvenAxis& axis) {
-    return axis.jerk > MmPerSecond3(0) && axis.velocity > MmPerSecond(0) && axis.acceleration > MmPerSecond2(0) &&
-           !(axis.start_stop > MmPerSecond(0));
+    return axis.jerk > MmPerSecond3(0) && axis.velocity > MmPerSecond(0) && axis.acceleration > MmPerSecond2(0);
   };
   std::size_t place = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {

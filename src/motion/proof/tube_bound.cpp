@@ -33,8 +33,8 @@ std::vector<ProvenAxis> axes_without_jumps(std::vector<ProvenAxis> axes) {
 
 }  // namespace
 
-TubeBound::TubeBound(const ProofOptions& options)
-    : axes_(axes_without_jumps(options.axes)), path_(axes_), speeds_(axes_) {}
+TubeBound::TubeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits)
+    : axes_(axes_without_jumps(options.axes)), path_(axes_), speeds_(axes_, limits) {}
 
 void TubeBound::watch(const PathItem& item) {
   if (const auto* action = std::get_if<Action>(&item)) {
@@ -131,13 +131,21 @@ void TubeBound::go_on_from(std::size_t station, const Times& until, double best)
   from.fill(best);
   const double slack = path_.stations()[station].slack;
   std::array<Pace, most_kinds> leaving;
-  for (std::size_t kind = 0; kind < most_kinds; ++kind) leaving[kind] = pace_of(kind, station, false);
+  std::array<double, most_kinds> sizes{};
+  const auto is_used = [&](std::size_t kind) { return kind < 2 * axes_.size() || kind == line_kind; };
+  for (std::size_t kind = 0; kind < most_kinds; ++kind) {
+    if (!is_used(kind)) continue;
+    leaving[kind] = pace_of(kind, station, false);
+    sizes[kind] = size_of(leaving[kind]);
+  }
   for (std::size_t last = 0; last < most_kinds; ++last) {
     if (until[last] == unused) continue;
     const Pace arriving = pace_of(last, station, true);
     const double size = size_of(arriving);
     for (std::size_t next = 0; next < most_kinds; ++next) {
-      const double shared = size + size_of(leaving[next]) - size_of_difference(arriving, leaving[next]);
+      // The shared part is at most twice the smaller of both.
+      if (!is_used(next) || until[last] + 2 * slack * std::min(size, sizes[next]) <= from[next]) continue;
+      const double shared = size + sizes[next] - size_of_difference(arriving, leaving[next]);
       from[next] = std::max(from[next], until[last] + slack * shared);
     }
   }
@@ -203,9 +211,8 @@ double TubeBound::line_time(std::size_t station) const {
   }
   way -= slack;
   if (!(way > 0) || !limited) return way * size;
-  const ProvenAxis along{.acceleration = MmPerSecond2(strength)};
-  return AxisRamp(along, SpeedLimit(along))
-      .least_time({.start = entry * entry, .end = exit * exit, .top = 1 / (size * size)}, way);
+  if (!(strength > 0)) return way * size;
+  return AxisRamp::least_time_by(strength, {.start = entry * entry, .end = exit * exit, .top = 1 / (size * size)}, way);
 }
 
 }  // namespace passo::proof

@@ -28,7 +28,7 @@ namespace passo::proof {
 
 class TubeBound {
  public:
-  explicit TubeBound(const ProofOptions& options);
+  TubeBound(const ProofOptions& options, const std::vector<SpeedLimit>& limits);
 
   void watch(const PathItem& item);
   // Call once, after the last item.

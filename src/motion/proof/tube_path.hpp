@@ -40,6 +40,11 @@ inline constexpr std::size_t stations_seen = 32;
 constexpr bool is_seen(std::size_t back) {
   return back <= 4 || (back <= stations_seen && back % 4 == 0);
 }
+// Their numbers, from 0 on.
+constexpr std::size_t number_seen(std::size_t back) {
+  return back <= 4 ? back - 1 : 2 + back / 4;
+}
+inline constexpr std::size_t most_seen = number_seen(stations_seen) + 1;
 
 class TubePath {
  public:

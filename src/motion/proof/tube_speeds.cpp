@@ -7,7 +7,6 @@ namespace passo::proof {
 namespace {
 
 constexpr double nowhere = -1e18;
-constexpr double endless = 1e18;                          // the square of a speed that does not limit
 constexpr std::array<std::size_t, 3> spans = {1, 4, 16};  // of the legs whose normals are asked
 constexpr double parallel = 1e-6;
 constexpr double as_good = 0.98;
@@ -20,9 +19,10 @@ double speed_on(double way, double time, double strength) {
 
 }  // namespace
 
-TubeSpeeds::TubeSpeeds(const std::vector<ProvenAxis>& axes) : axes_(axes) {
-  for (const ProvenAxis& axis : axes_) {
-    const SpeedLimit limit(axis);
+TubeSpeeds::TubeSpeeds(const std::vector<ProvenAxis>& axes, const std::vector<SpeedLimit>& limits) : axes_(axes) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const ProvenAxis& axis = axes_[i];
+    const SpeedLimit limit = axis.start_stop > MmPerSecond(0) ? SpeedLimit(axis) : limits[i];
     ramps_.emplace_back(axis, limit);
     tops_.push_back(axis.velocity.value() > 0 ? axis.velocity.value() : TubePath::fastest);
     strengths_.push_back(std::max(limit.at(0), 0.0));
@@ -38,6 +38,7 @@ void TubeSpeeds::limit(const std::vector<Station>& path, Rests rests) {
     for (std::size_t d = 0; d < 2 * axes_.size(); ++d) most[d] = tops_[d / 2];
   }
   knows_speeds_ = false;
+  forget_times(path.size());
   const Walk forwards{path, false};
   const Walk backwards{path, true};
   for (int round = 0; round < 2; ++round) {
@@ -48,8 +49,15 @@ void TubeSpeeds::limit(const std::vector<Station>& path, Rests rests) {
     leaving_ = std::move(leaving);
     arriving_ = std::move(arriving);
     knows_speeds_ = true;
+    forget_times(path.size());
     if (round == 0) limit_planes(forwards);
   }
+}
+
+void TubeSpeeds::forget_times(std::size_t stations) {
+  Times unknown;
+  unknown.fill(-1);
+  times_.assign(stations, unknown);
 }
 
 void TubeSpeeds::pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds) {
@@ -71,8 +79,7 @@ void TubeSpeeds::pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds)
 }
 
 // `start_place` is that of the station before, and becomes that of this one.
-TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::size_t direction,
-                                       double& start_place) const {
+TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::size_t direction, double& start_place) {
   const std::size_t axis = direction / 2;
   const double sign = sign_of(direction);
   const Station& here = walk.station(i);
@@ -91,7 +98,7 @@ TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::siz
     if (leg.group != group) group = 0;
     if (!is_seen(i - j + 1)) continue;
     const double time = least_time(walk, j - 1, i, feed, group);
-    if (time >= ramps_[axis].least_time({.start = 0, .end = endless, .top = endless}, latest - lowest)) {
+    if (ramps_[axis].comes_from_rest(latest - lowest, time)) {
       known = std::max(known, lowest);
       break;
     }
@@ -119,13 +126,20 @@ double TubeSpeeds::axis_time(const std::vector<Station>& path, std::size_t from,
   return ramps_[axis].least_time({.start = squared(start), .end = squared(end), .top = squared(tops_[axis])}, way);
 }
 
-// Between two stations of a walk. `feed` is the greatest on the legs between them.
-double TubeSpeeds::least_time(const Walk& walk, std::size_t from, std::size_t to, double feed,
-                              std::uint16_t group) const {
+// Between two stations of a walk. `feed` is the greatest on the legs between them. The time is the same for all
+// directions and both walks, so it is kept.
+double TubeSpeeds::least_time(const Walk& walk, std::size_t from, std::size_t to, double feed, std::uint16_t group) {
   const std::size_t first = std::min(walk.number(from), walk.number(to));
   const std::size_t last = std::max(walk.number(from), walk.number(to));
-  const Station& start = walk.path[first];
-  const Station& end = walk.path[last];
+  double& time = times_[last][number_seen(last - first)];
+  if (time < 0) time = time_between(walk.path, first, last, feed, group);
+  return time;
+}
+
+double TubeSpeeds::time_between(const std::vector<Station>& path, std::size_t first, std::size_t last, double feed,
+                                std::uint16_t group) const {
+  const Station& start = path[first];
+  const Station& end = path[last];
   double time = 0;
   double squares = 0;
   for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
@@ -133,8 +147,8 @@ double TubeSpeeds::least_time(const Walk& walk, std::size_t from, std::size_t to
     if ((group >> axis & 1U) != 0) squares += way * way;
     const double least = std::abs(way) - start.slack - end.slack;
     if (!(least > 0)) continue;
-    time = std::max(time, knows_speeds_ ? axis_time(walk.path, first, last, 2 * axis + (way < 0 ? 1 : 0), {})
-                                        : least / tops_[axis]);
+    time = std::max(
+        time, knows_speeds_ ? axis_time(path, first, last, 2 * axis + (way < 0 ? 1 : 0), {}) : least / tops_[axis]);
   }
   return std::max(time, (std::sqrt(squares) - start.slack - end.slack) / feed);
 }
@@ -214,17 +228,17 @@ void TubeSpeeds::combine(std::size_t station, const Plane& plane) {
       const Limit& other = limits_[b];
       const double turn = one.x * other.y - one.y * other.x;
       if (std::abs(turn) < parallel) continue;
-      const auto meet = [&](double x, double y, std::size_t direction) {
-        const double share = (x * other.y - y * other.x) / turn;
-        const double rest = (one.x * y - one.y * x) / turn;
-        if (share < 0 || rest < 0) return;
-        double& most = most_[station][direction];
-        most = std::min(most, share * one.most + rest * other.most);
+      // Of the sum with the weights `share` and `rest` along x: share = other.y / turn, rest = −one.y / turn. Along −x
+      // both have the other sign, and along y x takes the place of y.
+      const auto meet = [&](double of_one, double of_other, std::size_t up) {
+        const double share = of_other / turn;
+        const double rest = of_one / turn;
+        const double sum = share * one.most + rest * other.most;
+        if (share >= 0 && rest >= 0) most_[station][up] = std::min(most_[station][up], sum);
+        if (share <= 0 && rest <= 0) most_[station][up + 1] = std::min(most_[station][up + 1], -sum);
       };
-      meet(1, 0, 2 * plane.first);
-      meet(-1, 0, 2 * plane.first + 1);
-      meet(0, 1, 2 * plane.second);
-      meet(0, -1, 2 * plane.second + 1);
+      if (one.y * other.y <= 0) meet(-one.y, other.y, 2 * plane.first);
+      if (one.x * other.x <= 0) meet(one.x, -other.x, 2 * plane.second);
     }
   }
 }

@@ -23,7 +23,8 @@ constexpr double sign_of(std::size_t direction) {
 
 class TubeSpeeds {
  public:
-  explicit TubeSpeeds(const std::vector<ProvenAxis>& axes);
+  // `limits`: those of an axis with a start-stop velocity do not count.
+  TubeSpeeds(const std::vector<ProvenAxis>& axes, const std::vector<SpeedLimit>& limits);
 
   struct Rests {  // at the first and the last of two stations
     bool first = false;
@@ -68,8 +69,12 @@ class TubeSpeeds {
   };
 
   void pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds);
-  Speed speed_at(const Walk& walk, std::size_t i, std::size_t direction, double& start_place) const;
-  double least_time(const Walk& walk, std::size_t from, std::size_t to, double feed, std::uint16_t group) const;
+  using Times = std::array<double, most_seen>;
+  void forget_times(std::size_t stations);
+  Speed speed_at(const Walk& walk, std::size_t i, std::size_t direction, double& start_place);
+  double least_time(const Walk& walk, std::size_t from, std::size_t to, double feed, std::uint16_t group);
+  double time_between(const std::vector<Station>& path, std::size_t first, std::size_t last, double feed,
+                      std::uint16_t group) const;
   void limit_planes(const Walk& walk);
   void add_limits(const Walk& walk, std::size_t i, std::size_t until, const Plane& plane);
   void combine(std::size_t station, const Plane& plane);
@@ -82,6 +87,7 @@ class TubeSpeeds {
   std::vector<Speeds> arriving_;
   std::vector<std::array<double, most_directions>> most_;  // by planes
   std::vector<Limit> limits_;
+  std::vector<Times> times_;   // of least_time(), by the last station; below 0: unknown
   bool knows_speeds_ = false;  // speeds from a previous round are available
 };
 
