@@ -119,6 +119,39 @@ TEST_F(CommandLine, a_hold_or_an_override_that_makes_no_sense_is_refused) {
   }
 }
 
+// Measured from the steps of X: 640 steps/mm, at F600 6400 steps/s. A change takes effect within 0.1 s.
+TEST_F(CommandLine, adaptive_feed_scales_the_speed_where_the_program_enables_it) {
+  write("load.csv", "time_s,factor\n0,1\n1,0.25\n3,0\n4,1\n");
+  const std::string options = "-q --adaptive-feed " + path("load.csv") + " --trace " + path("t.csv");
+  const auto steps_between = [&](double from, double to) {
+    std::istringstream lines(read(path("t.csv")));
+    std::string line;
+    int steps = 0;
+    while (std::getline(lines, line)) {
+      const double t = std::strtod(line.c_str(), nullptr);
+      if (t > from && t < to) ++steps;
+    }
+    return steps;
+  };
+  EXPECT_EQ(run_text("G21 M52 P1\nG1 X20 F600\nM2\n", options).code, 0);
+  EXPECT_NEAR(steps_between(0.2, 0.9), 0.7 * 6400, 2);
+  EXPECT_NEAR(steps_between(1.2, 2.9), 1.7 * 1600, 2);
+  EXPECT_EQ(steps_between(3.2, 3.9), 0);
+  EXPECT_NEAR(steps_between(4.2, 4.4), 0.2 * 6400, 2);
+  EXPECT_EQ(steps_between(0, 9), 12800);
+  EXPECT_EQ(run_text("G21 G1 X20 F600\nM2\n", options).code, 0);
+  EXPECT_NEAR(steps_between(1.2, 1.9), 0.7 * 6400, 2);
+}
+
+TEST_F(CommandLine, a_wrong_file_of_adaptive_feed_is_refused) {
+  write("load.csv", "0,1\n1,-0.5\n");
+  const Outcome wrong = run_text("G21 G1 X20 F600\nM2\n", "--adaptive-feed " + path("load.csv"));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("load.csv:2:1: error"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("adaptive-feed.bad-line"), std::string::npos) << wrong.err;
+  EXPECT_EQ(run_text("G21 G1 X20 F600\nM2\n", "--adaptive-feed " + path("none.csv")).code, 2);
+}
+
 TEST_F(CommandLine, an_existing_picture_survives_a_program_that_is_wrong) {
   write("a.png", "precious");
   const Outcome outcome = run_text("G21 G1 X1\nM2\n", "--picture " + path("a.png"));

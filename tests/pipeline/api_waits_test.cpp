@@ -128,14 +128,16 @@ TEST(ApiWaits, are_described) {
 TEST(ApiOverrides, are_a_hundred_percent_again_after_a_job) {
   ApiRun run;
   run.own();
-  run.post("/override", R"({"feed": 1.5, "rapids": 0.5, "spindle": 0.8})");
+  run.post("/override", R"({"feed": 1.5, "adaptive_feed": 0.9, "rapids": 0.5, "spindle": 0.8})");
   for (const char* const end : {"%\n", "M2\n"}) {
     run.post(fmt::format("/programs/{}/run", run.upload(std::string("%\nG21 G91 G1 X2 F600\n") + end)));
     ASSERT_TRUE(run.turn_until_state("Run"));
-    EXPECT_EQ(run.get("/status")["overrides"], (Json{{"feed", 1.5}, {"rapids", 0.5}, {"spindle", 0.8}}));
+    EXPECT_EQ(run.get("/status")["overrides"],
+              (Json{{"feed", 1.5}, {"adaptive_feed", 0.9}, {"rapids", 0.5}, {"spindle", 0.8}}));
     ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; }));
   }
-  EXPECT_EQ(run.get("/status")["overrides"], (Json{{"feed", 1.0}, {"rapids", 1.0}, {"spindle", 1.0}}));
+  EXPECT_EQ(run.get("/status")["overrides"],
+            (Json{{"feed", 1.0}, {"adaptive_feed", 0.9}, {"rapids", 1.0}, {"spindle", 1.0}}));
 }
 
 // Two tools cut lines at Z-1. Between them the tool is changed, at X0 Y0 Z5.

@@ -264,6 +264,34 @@ TEST(MidRunSwitches, adaptive_feed_counts_with_m52_only) {
   }
 }
 
+// As in LinuxCNC, adaptive feed applies to rapids too. The feed override does not.
+TEST(MidRunSwitches, adaptive_feed_slows_rapids_down_too) {
+  for (const bool jerk : {false, true}) {
+    std::array<double, 3> times{};
+    for (const int way : {0, 1, 2}) {
+      Switched run("G21 M52 P" + std::string(way == 1 ? "1" : "0") + "\nG0 X40\nM2\n", jerk);
+      if (way > 0) run.drive().set_adaptive_feed(0.1);
+      run.run_to();
+      times[static_cast<std::size_t>(way)] = run.time();
+    }
+    EXPECT_EQ(times[2], times[0]);
+    EXPECT_GT(times[1], 5 * times[0]);
+    Switched stopped("G21 M52 P1\nG0 X40\nM2\n", jerk);
+    stopped.drive().set_adaptive_feed(0);
+    stopped.run_to();
+    EXPECT_EQ(stopped.drive().state(), State::held);
+    EXPECT_EQ(stopped.x(), 0);
+  }
+}
+
+TEST(MidRunSwitches, adaptive_feed_multiplies_with_the_override) {
+  Switched run("G21 M52 P1\nG1 X20 F600\nM2\n");
+  run.drive().set_adaptive_feed(0.5);
+  run.drive().set_feed_override(0.5);
+  run.run_to();
+  EXPECT_NEAR(run.time(), 8, 0.1);
+}
+
 TEST(MidRunSwitches, a_feed_of_nothing_stands_until_there_is_more) {
   for (const bool jerk : {false, true}) {
     Switched run("G21 G1 X20 F600\nM2\n", jerk);

@@ -172,6 +172,7 @@ class RandomActs {
   void override_something() {
     ++tally_.overrides;
     if (random_.chance(0.25)) return drive_.set_rapid_override(random_.between(0.1, 1));
+    if (random_.chance(0.25)) return drive_.set_adaptive_feed(random_.between(0.05, 1));
     drive_.set_feed_override(random_.chance(0.3) ? 1 : random_.between(0.05, 2));
   }
   void go_on_from_rest() {

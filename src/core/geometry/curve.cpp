@@ -71,12 +71,12 @@ double reach(const Curve::ArcData& arc, double toward) {
 
 }  // namespace
 
-Curve Curve::line(const Point& start, const Point& end) {
+Curve Curve::line(const Point& start, const Point& end, const SurfaceScale& surface) {
   Curve curve;
   curve.start_ = start;
   curve.end_ = end;
   const Point travel = end - start;
-  curve.length_ = counted_length(travel);
+  curve.length_ = counted_length(travel, surface);
   // This divides instead of multiplying by 1/length, because a length of 1e-310 has no reciprocal.
   for (std::size_t i = 0; i < axis_count && curve.length_ > 0; ++i) {
     curve.slope_.values[i] = travel.values[i] / curve.length_;
@@ -99,7 +99,7 @@ Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, 
               .sweep = sweep});
 }
 
-Curve Curve::arc(const Point& start, const Point& end, const ArcData& arc) {
+Curve Curve::arc(const Point& start, const Point& end, const ArcData& arc, const SurfaceScale& surface) {
   Curve curve;
   curve.shape_ = Shape::arc;
   curve.start_ = start;
@@ -109,7 +109,7 @@ Curve Curve::arc(const Point& start, const Point& end, const ArcData& arc) {
   Point travel = end - start;
   travel[arc.first] = 0;
   travel[arc.second] = 0;
-  const double along = length_in(travel, CountedGroup::xyz);
+  const double along = length_in(travel, CountedGroup::xyz, surface);
   const double around = (arc.start_radius + arc.end_radius) / 2 * std::abs(arc.sweep);
   const double outward = arc.end_radius - arc.start_radius;
   curve.length_ = std::sqrt(around * around + outward * outward + along * along);
@@ -354,6 +354,23 @@ Curve Curve::turned(double cosine, double sine) const {
     turned.arc_.start_angle += std::atan2(sine, cosine);
   }
   return turned;
+}
+
+Curve Curve::with_turns_scaled(double by, double along) const {
+  Curve scaled = *this;
+  for (const Axis axis : {Axis::a, Axis::b, Axis::c}) {
+    for (Point* const of : {&scaled.start_, &scaled.end_, &scaled.slope_, &scaled.square_, &scaled.cube_}) {
+      (*of)[axis] *= by;
+    }
+  }
+  if (along == 1) return scaled;
+  scaled.length_ *= along;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    scaled.slope_.values[i] /= along;
+    scaled.square_.values[i] /= along * along;
+    scaled.cube_.values[i] /= along * along * along;
+  }
+  return scaled;
 }
 
 Box Curve::extents_of_ends() const {

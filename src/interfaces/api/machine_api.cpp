@@ -101,7 +101,7 @@ WebAnswer MachineApi::jog(const ApiCall& call) {
 WebAnswer MachineApi::set_overrides(const ApiCall& call) {
   JsonMembers members(call.members());
   const request::Override wanted{.feed = members.number("feed"),
-                                 .adaptive_feed = {},
+                                 .adaptive_feed = members.number("adaptive_feed"),
                                  .spindle = members.number("spindle"),
                                  .rapids = members.number("rapids")};
   return members.end() ? ask(wanted) : bad_body(members.reason());

@@ -149,8 +149,8 @@ void CodeFamily::emit_feed_rate(double units) {
   const double linear = units * state_.length_unit();
   if (state_.modal.per_revolution())
     return emit(operation::SetFeedRate{operation::FeedPerRevolution{Mm(linear), units}});
-  emit(operation::SetFeedRate{
-      operation::FeedPerSecond{MmPerSecond(linear / seconds_per_minute), units / seconds_per_minute}});
+  emit(operation::SetFeedRate{operation::FeedPerSecond{MmPerSecond(linear / seconds_per_minute),
+                                                       units / seconds_per_minute, state_.modal.inverse_time()}});
 }
 
 // The range is one spindle, or with $-1 all spindles if the code allows that. Without `$` it is spindle 0.

@@ -15,8 +15,10 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
     options.axes.add(axis.axis);
     options.travel[axis.axis] = {.low = axis.travel_low, .high = axis.travel_high};
     options.velocity[axis.axis] = axis.velocity;
+    options.surface_radius[axis.axis] = axis.surface_radius;
   }
   options.tolerance = machine.path_tolerance;
+  options.turn_tolerance = machine.has_rotary_axis() ? machine.path_tolerance_deg : 0;
   options.spindle_limit = machine.tool.highest_rpm;
   options.spindle_run_up = machine.spindle.run_up;
   options.threads_hold_speed = machine.spindle.counts_per_turn == 0;

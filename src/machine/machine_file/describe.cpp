@@ -133,6 +133,10 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
                         axis.start_stop_rate().value());
   }
   if (axis.inverted) line += ", inverted";
+  if (axis.surface_radius) {
+    line += *axis.surface_radius > Mm(0) ? fmt::format(", feed at a radius of {:g} mm", axis.surface_radius->value())
+                                         : ", feed at the tool's radius";
+  }
   return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit) + describe_screw(axis, unit) +
          describe_encoder(axis, unit);
 }
@@ -161,7 +165,8 @@ std::string describe_spindle(const SpindleDescription& spindle) {
 std::string describe(const MachineDescription& machine) {
   const BoardDescription& board = machine.board;
   std::string out = fmt::format("machine         {}\n", machine.name);
-  out += fmt::format("path tolerance  {:g} mm\n", machine.path_tolerance.value());
+  out += fmt::format("path tolerance  {:g} mm", machine.path_tolerance.value());
+  out += machine.has_rotary_axis() ? fmt::format(", {:g} deg\n", machine.path_tolerance_deg) : "\n";
   out += fmt::format("board           clock {} Hz, {:.1f} to {} events/s, step pulse {:g} us\n",
                      sensible_number(board.clock.value()), board.lowest_event_rate().value(),
                      sensible_number(board.highest_event_rate.value()), board.step_pulse.value() * 1e6);

@@ -20,6 +20,10 @@ namespace {
 
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 
+constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
+constexpr NumberKey radius_key{"radius_mm", 0.01, 1e5, "20"};
+constexpr std::string_view radius_of_tool = "tool";
+
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
 constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
 constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
@@ -73,6 +77,7 @@ class MachineReader {
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
+  static std::optional<Mm> read_surface_radius(TableReader& reader, Axis axis);
   std::optional<HomeDescription> read_home_of(TableReader& reader, const AxisDescription& axis);
   void read_second_of(TableReader& reader, AxisDescription& axis);
   static void read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
@@ -84,7 +89,9 @@ class MachineReader {
   void number_motors();
   void number_second_motors();
 
-  void finish(TableReader& reader) const { reader.finish(document_.complete, {"name", path_tolerance_key.name}); }
+  void finish(TableReader& reader) const {
+    reader.finish(document_.complete, {"name", path_tolerance_key.name, path_tolerance_deg_key.name});
+  }
 
   const TomlDocument& document_;
   const TomlReporter& reporter_;
@@ -99,6 +106,8 @@ MachineDescription MachineReader::read() {
   TableReader top(document_.root, "", {}, reporter_);
   if (const auto name = top.text("name", "My machine", Need::required)) machine_.name = *name;
   if (const auto tolerance = top.number(path_tolerance_key, Need::optional)) machine_.path_tolerance = Mm(*tolerance);
+  machine_.path_tolerance_deg =
+      top.number(path_tolerance_deg_key, Need::optional).value_or(machine_.path_tolerance_deg);
   const TomlEntry* board = top.table("board", "a table [board] with the board's clock", Need::required);
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
@@ -266,6 +275,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   description.axis = axis;
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
   description.inverted = reader.flag("inverted").value_or(false);
+  if (is_rotary(axis)) description.surface_radius = read_surface_radius(reader, axis);
   description.home = read_home_of(reader, description);
   const auto end = [this](TableReader& inner) { finish(inner); };
   description.screw = read_screw_of(reader, is_rotary(axis), reporter_, end);
@@ -278,6 +288,22 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   }
   if (reader.has(motor_key.name) && !result.motor) motors_are_readable_ = false;
   finish(reader);
+}
+
+// The tool's distance from the axis is its Z, so it is known of A and B only.
+std::optional<Mm> MachineReader::read_surface_radius(TableReader& reader, Axis axis) {
+  if (!reader.has_text(radius_key.name)) {
+    const auto radius = reader.number(radius_key, Need::optional);
+    return radius ? std::optional(Mm(*radius)) : std::nullopt;
+  }
+  const auto word = reader.text(radius_key.name, radius_of_tool, Need::optional);
+  if (word == radius_of_tool && axis != Axis::c) return Mm(0);
+  reader.error(
+      "machine.radius", radius_key.name,
+      machine_file_says::key_is.with(
+          {{"key", reader.full_name(radius_key.name)}, {"value", fmt::format("\"{}\"", *word)}}),
+      axis == Axis::c ? "a radius in millimetres" : fmt::format("a radius in millimetres, or \"{}\"", radius_of_tool));
+  return std::nullopt;
 }
 
 std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, const AxisDescription& axis) {

@@ -147,6 +147,11 @@ std::optional<bool> TableReader::flag(std::string_view key) {
   return std::nullopt;
 }
 
+bool TableReader::has_text(std::string_view key) const {
+  const TomlEntry* const entry = find(table_, key);
+  return entry != nullptr && std::holds_alternative<std::string>(entry->value.content);
+}
+
 std::optional<std::string> TableReader::text(std::string_view key, std::string_view example, Need need) {
   const std::string line = fmt::format("{} = \"{}\"", key, example);
   const TomlEntry* entry = ask(key, line, need);

@@ -37,6 +37,7 @@ class TableReader {
   TableReader(const TomlTable& table, std::string path, const SourceLocation& place, const TomlReporter& reporter);
 
   bool has(std::string_view key) const { return find(table_, key) != nullptr; }
+  bool has_text(std::string_view key) const;
   SourceLocation place_of(std::string_view key) const;  // the position of its value; that of the table if there is no
                                                         // value
 

@@ -65,7 +65,10 @@ bool ChordFitter::goes_on_after(std::uint64_t number) {
   const Point out = next->curve.end() - next->curve.start();
   const double before = length_of(in);
   const double after = length_of(out);
-  if (dot(in, out) < sharpest * before * after || counted_group(in) != counted_group(out)) return false;
+  const SurfaceScale& surface = line->surface;
+  if (dot(in, out) < sharpest * before * after || counted_group(in, surface) != counted_group(out, surface)) {
+    return false;
+  }
   const double turn = distance(in * (1 / before), out * (1 / after));
   return turn * before * after <= 2 * share_of_tolerance * tolerance_ * (before + after);
 }
@@ -222,10 +225,11 @@ bool ChordFitter::passes(Fit& fit) const {
 
   // The cubic's parameter counts its length where it is fastest, so that |dP/ds| is at most 1
   // and the feed need not be reduced anywhere.
-  const CountedGroup group = counted_group(vertices_.back().way);
+  const SurfaceScale& surface = segment_at(ahead_.first())->surface;
+  const CountedGroup group = counted_group(vertices_.back().way, surface);
   fit.length = 0;
   for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    fit.length = std::max(fit.length, length_in(fit.slope_at(u), group));
+    fit.length = std::max(fit.length, length_in(fit.slope_at(u), group, surface));
   }
   return fit.length >= least_length * whole;
 }
@@ -244,7 +248,7 @@ void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) 
   if (fit.end_is_free) {
     auto& after = std::get<Segment>(ahead_[next].item);
     ahead_[next].moved = distance(free_end, end);
-    after.curve = Curve::line(free_end, after.curve.end());
+    after.curve = Curve::line(free_end, after.curve.end(), after.surface);
     end = free_end;
   }
   segment.curve = Curve::cubic(start, fit.slope_at(0) * share, end, fit.slope_at(1) * share, Mm(fit.length));

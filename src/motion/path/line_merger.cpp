@@ -27,6 +27,7 @@ bool are_played_alike(const Segment& before, const Segment& after) {
 
 bool are_alike(const Segment& before, const Segment& after) {
   return are_played_alike(before, after) && before.tolerance == after.tolerance && before.merge == after.merge &&
+         before.turn_tolerance == after.turn_tolerance && before.surface == after.surface &&
          before.mode != PathMode::exact_stop && before.work_zero == after.work_zero;
 }
 
@@ -70,10 +71,12 @@ bool LineMerger::absorbs(const Segment& merged, const Segment& line, const Chord
   const Point own = line.curve.end() - line.curve.start();
   const Point before = end_ - merged.curve.start();
   if (!(dot(own, before) > 0)) return false;
-  const CountedGroup group = counted_group(own);
-  if (group != counted_group(before) || group != counted_group(chord.travel)) return false;
+  const SurfaceScale& surface = merged.surface;
+  const CountedGroup group = counted_group(own, surface);
+  if (group != counted_group(before, surface) || group != counted_group(chord.travel, surface)) return false;
   if (!cone_.has(chord.direction)) return false;
-  return !(length_in(chord.travel, group) < least_share_of_length * (programmed_ + line.curve.length().value()));
+  return !(length_in(chord.travel, group, surface) <
+           least_share_of_length * (programmed_ + line.curve.length().value()));
 }
 
 // The corner before this line is rounded within a wider tolerance than the line's own, and may use all of it on this
@@ -135,7 +138,7 @@ bool LineMerger::next(PathItem& item, double& deviation) {
   const bool alone = stays_apart(merged);
   while (!alone && taken_ < most_merged && pull() && is_line(ahead_) && extend(merged, deviation)) {
   }
-  if (taken_ > 1) merged.curve = Curve::line(merged.curve.start(), end_);
+  if (taken_ > 1) merged.curve = Curve::line(merged.curve.start(), end_, merged.surface);
   mode_before_ = merged.mode;
   tolerance_before_ = merged.tolerance.value();
   return true;

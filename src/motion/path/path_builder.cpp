@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "spline_pieces.hpp"
+#include "turn_scale.hpp"
 #include <fmt/format.h>
 
 #include "passo/geometry/plane_arc.hpp"
@@ -56,6 +57,7 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
                          const MachineResults& answers)
     : operations_(operations),
       options_(options),
+      has_surfaces_(std::ranges::any_of(options.surface_radius.values, [](const auto& r) { return r.has_value(); })),
       diagnostics_(diagnostics),
       answers_(answers),
       spline_(std::make_unique<SplinePieces>()) {
@@ -168,7 +170,9 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
 }
 
 bool PathBuilder::add_line(const Point& work_end, bool rapid, PathItem& item) {
-  return add_curve(Curve::line(position_, machine_end(work_end)), rapid, item);
+  const Point end = machine_end(work_end);
+  const SurfaceScale surface = surface_to(end, rapid);
+  return add_curve(Curve::line(position_, end, surface), rapid, item, surface);
 }
 
 bool PathBuilder::add_probe(const operation::StraightProbe& probe, PathItem& item) {
@@ -243,8 +247,9 @@ bool PathBuilder::add_arc(const operation::ArcFeed& arc, PathItem& item) {
   const double end_second = end[second] - center[second];
   const double start_radius = std::hypot(start_first, start_second);
   const double end_radius = std::hypot(end_first, end_second);
+  const SurfaceScale surface = surface_to(end, false);
   if (arc.turns == 0 || std::max(start_radius, end_radius) < still) {
-    return add_curve(Curve::line(position_, end), false, item);
+    return add_curve(Curve::line(position_, end, surface), false, item, surface);
   }
 
   const double start_angle = std::atan2(start_second, start_first);
@@ -256,7 +261,7 @@ bool PathBuilder::add_arc(const operation::ArcFeed& arc, PathItem& item) {
                             .end_radius = end_radius,
                             .start_angle = start_angle,
                             .sweep = sweep_between(start_angle, std::atan2(end_second, end_first), arc.turns)};
-  return add_curve(Curve::arc(position_, end, data), false, item);
+  return add_curve(Curve::arc(position_, end, data, surface), false, item, surface);
 }
 
 // In the work frame the arc lies in its plane. So the sweep is computed, and the arc is cut into chords, in the work
@@ -339,12 +344,12 @@ bool PathBuilder::next_spline_piece(PathItem& item) {
   return false;
 }
 
-bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item) {
+bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item, const SurfaceScale& surface) {
   if (!curve.has_length()) return false;
   check_axes(curve);
   check_travel(curve);
   position_ = curve.end();
-  const MmPerSecond speed = rapid ? MmPerSecond(std::numeric_limits<double>::infinity()) : feed_along(curve);
+  const MmPerSecond speed = rapid ? MmPerSecond(std::numeric_limits<double>::infinity()) : feed_along(curve, surface);
   if (!rapid && lock() != SpindleLock::none) check_thread(curve, speed);
   item = Segment{.curve = curve,
                  .speed = speed,
@@ -352,6 +357,8 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .mode = path_mode_,
                  .tolerance = tolerance_,
                  .merge = merge_,
+                 .turn_tolerance = tolerance_ > Mm(0) ? options_.turn_tolerance : 0,
+                 .surface = surface,
                  .work_zero = frame_.machine_from_work(Point()),
                  .heeds = heeds(),
                  .lock = rapid ? SpindleLock::none : lock(),
@@ -361,9 +368,11 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item) {
 }
 
 // An axis that does not move keeps its value bit for bit. The conversion by the frame could change its last bits.
+// Angles have 52 bits, so that PathSmoother can measure them in other units and back without rounding (turn_scale.hpp).
 Point PathBuilder::machine_end(const Point& work_end) const {
   Point end = frame_.machine_from_work(work_end);
   for (const Axis axis : all_axes) {
+    if (is_rotary(axis)) end[axis] = with_52_bits(end[axis]);
     if (std::abs(end[axis] - position_[axis]) < still) end[axis] = position_[axis];
   }
   return end;

@@ -1,10 +1,12 @@
 // PathBuilder: feeds, and what waits for the spindle or follows it.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "path_sentences.hpp"
 #include <fmt/format.h>
 
+#include "passo/geometry/euclid.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/run_up.hpp"
 
@@ -20,6 +22,16 @@ constexpr double rounding_of_feed = 1e-9;
 double rounded_down(double value, int decimals) {
   const double unit = std::pow(10.0, decimals);
   return std::floor(value * unit) / unit;
+}
+
+// A smaller radius (mm) counts as this one. At the rotation axis itself the surface stands still at any speed.
+constexpr double least_radius = 0.01;
+
+// Radii between two steps of this share count as equal, so that lines at nearly the same depth are still alike.
+constexpr double radius_step = 0.002;
+
+double rounded_radius(double radius) {
+  return std::exp(std::round(std::log(std::max(radius, least_radius)) / radius_step) * radius_step);
 }
 
 bool turns_only_rotary_axes(const Curve& curve) {
@@ -58,9 +70,38 @@ bool PathBuilder::must_await_index(const PathItem& item) {
   return in_step_ && !was;
 }
 
-MmPerSecond PathBuilder::feed_along(const Curve& curve) {
+// The surfaces that count on the way to a point. A rapid has no feed, and a thread its pitch along the linear axes.
+SurfaceScale PathBuilder::surface_to(const Point& machine_end, bool rapid) const {
+  SurfaceScale scale;
+  if (!has_surfaces_ || rapid || synchronised_pitch_) return scale;
+  for (const Axis axis : {Axis::a, Axis::b, Axis::c}) {
+    const std::optional<Mm>& given = options_.surface_radius[axis];
+    if (!given) continue;
+    double radius = given->value();
+    if (radius == 0) {
+      const double from = frame_.work_from_machine(position_)[Axis::z];
+      const double to = frame_.work_from_machine(machine_end)[Axis::z];
+      radius = rounded_radius((std::abs(from) + std::abs(to)) / 2);
+    }
+    scale[axis] = radius * std::numbers::pi / 180;
+  }
+  return scale;
+}
+
+MmPerSecond PathBuilder::feed_along(const Curve& curve, const SurfaceScale& surface) {
   if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
-  const bool is_rotary = turns_only_rotary_axes(curve);
+  const bool only_turns = turns_only_rotary_axes(curve);
+  const double on_surface = std::sqrt(surface.square_of(curve.end() - curve.start()));
+  const auto* const timed = std::get_if<operation::FeedPerSecond>(&feed_rate_.feed);
+  if (timed != nullptr && timed->by_time && on_surface > 0) {
+    // The duration is that without the surface. The length is not.
+    const double length = curve.length().value();
+    const double counted = only_turns ? counted_length(curve.end() - curve.start())
+                                      : std::sqrt(std::max(length * length - on_surface * on_surface, 0.0));
+    const double rate = only_turns ? timed->rotary : timed->linear.value();
+    if (rate > 0 && counted > 0) return MmPerSecond(rate * length / counted);
+  }
+  const bool is_rotary = only_turns && on_surface == 0;
   const double rate = std::visit(
       [is_rotary](const auto& feed) { return is_rotary ? feed.rotary : feed.linear.value(); }, feed_rate_.feed);
   if (std::holds_alternative<operation::FeedPerRevolution>(feed_rate_.feed)) return feed_with_spindle(rate);

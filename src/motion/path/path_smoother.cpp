@@ -6,6 +6,7 @@
 
 #include "pace.hpp"
 #include "tube_spline.hpp"
+#include "turn_scale.hpp"
 
 #include "passo/geometry/euclid.hpp"
 
@@ -31,11 +32,16 @@ Segment& segment_in(PathItem& item) {
 class PathSmoother::Implementation {
  public:
   Implementation(Source<PathItem>& path, Smoothness smoothness)
-      : reader_(path), placer_(reader_, smoothness), spline_(reader_, smoothness) {}
+      : scale_(path), reader_(scale_), placer_(reader_, smoothness), spline_(reader_, smoothness) {}
 
-  bool next(PathItem& item);
+  bool next(PathItem& item) {
+    if (!next_scaled(item)) return false;
+    if (auto* const segment = std::get_if<Segment>(&item)) convert_to_degrees(*segment);
+    return true;
+  }
 
  private:
+  bool next_scaled(PathItem& item);
   const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
   void give_exact(const ExactPiece& exact, PathItem& item);
   bool give_span(PathItem& item);
@@ -53,6 +59,7 @@ class PathSmoother::Implementation {
   void write_part(const Part& part, Segment& segment) const;
   void stop_at_the_end(const Knot& knot, Segment& segment) const;
 
+  TurnScale scale_;
   RunReader reader_;
   KnotPlacer placer_;
   TubeSpline spline_;
@@ -76,7 +83,7 @@ bool PathSmoother::next(PathItem& item) {
   return implementation_->next(item);
 }
 
-bool PathSmoother::Implementation::next(PathItem& item) {
+bool PathSmoother::Implementation::next_scaled(PathItem& item) {
   for (;;) {
     if (in_span_) {
       give_part(item);
@@ -133,7 +140,8 @@ void PathSmoother::Implementation::write_part(const Part& part, Segment& segment
       ((begins ? span_.from.knot.s : piece(part.first).start) + (ends ? span_.to.knot.s : piece(part.last).end())) / 2;
   std::uint64_t number = part.first;
   while (number < part.last && piece(number).end() <= middle) ++number;
-  const CountedGroup group = counted_group(piece(number).first_tangent);
+  const SurfaceScale& surface = piece(number).segment.surface;
+  const CountedGroup group = counted_group(piece(number).first_tangent, surface);
   segment = piece(number).segment;
   segment.curve = Curve::cubic(span_.from.place, span_.from.tangent, span_.to.place, span_.to.tangent, Mm(width));
   const Point in = begins ? span_.from.tangent : segment.curve.tangent(Mm(part.from));
@@ -144,7 +152,7 @@ void PathSmoother::Implementation::write_part(const Part& part, Segment& segment
   const Point control = between * 2 - (in + out) * 0.5;
   double steepest = 0;
   for (const Point& tangent : {in, (in + control) * 0.5, between, (control + out) * 0.5, out}) {
-    steepest = std::max(steepest, length_in(tangent, group));
+    steepest = std::max(steepest, length_in(tangent, group, surface));
   }
   const bool even = span_.from.knot.rate == 1 && span_.to.knot.rate == 1;
   const bool is_short = steepest < worth_raising && segment.lock == SpindleLock::none;
@@ -219,7 +227,7 @@ void PathSmoother::Implementation::cut_span() {
 
 void PathSmoother::Implementation::add_chord(const Piece& path, const Point& end) {
   Segment segment = path.segment;
-  segment.curve = Curve::line(place_, end);
+  segment.curve = Curve::line(place_, end, segment.surface);
   segment.mode = PathMode::exact_stop;
   place_ = end;
   if (segment.curve.has_length()) chords_.push_back(std::move(segment));

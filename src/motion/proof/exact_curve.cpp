@@ -13,21 +13,23 @@ using Complex = std::complex<double>;
 // A radius that grows by a smaller share of itself is constant.
 constexpr double rounding_of_radii = 1e-12;
 
-double dot(const Point& a, const Point& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < axis_count; ++i) sum += a.values[i] * b.values[i];
-  return sum;
+// The axes are three groups of three: X Y Z, A B C and U V W.
+static_assert(axis_count == 9 && index_of(Axis::a) == 3 && index_of(Axis::u) == 6);
+
+double dot(const Point& a, const Point& b, double degree = 1) {
+  std::array<double, 3> sums{};
+  for (std::size_t i = 0; i < axis_count; ++i) sums[i / 3] += a.values[i] * b.values[i];
+  return sums[0] + degree * degree * sums[1] + sums[2];
 }
 
 // Three sums side by side: a single sum would wait for each of its nine additions.
-static_assert(axis_count % 3 == 0);
-double squared_distance(const Point& a, const Point& b) {
+double squared_distance(const Point& a, const Point& b, double degree = 1) {
   std::array<double, 3> sums{};
   for (std::size_t i = 0; i < axis_count; ++i) {
     const double between = b.values[i] - a.values[i];
-    sums[i % sums.size()] += between * between;
+    sums[i / 3] += between * between;
   }
-  return sums[0] + sums[1] + sums[2];
+  return sums[0] + degree * degree * sums[1] + sums[2];
 }
 
 // The angle between two slopes, and by how much their logarithms differ. A slope that is 0 has no direction.
@@ -73,8 +75,8 @@ Derivatives imaginary_part(const ArcDerivatives& arc) {
 
 }  // namespace
 
-double distance(const Point& a, const Point& b) {
-  return std::sqrt(squared_distance(a, b));
+double distance(const Point& a, const Point& b, double degree) {
+  return std::sqrt(squared_distance(a, b, degree));
 }
 
 bool ExactCurve::in_plane(Axis axis) const {
@@ -223,33 +225,33 @@ double ExactCurve::fastest_of_all() const {
   return std::sqrt(squares);
 }
 
-double ExactCurve::nearest_at_best(const Point& point, double from, double to) const {
-  return distance(point, place((from + to) / 2)) - fastest_ * (to - from) / 2;
+double ExactCurve::nearest_at_best(const Point& point, double from, double to, double degree) const {
+  return distance(point, place((from + to) / 2), degree) - fastest_ * std::max(degree, 1.0) * (to - from) / 2;
 }
 
-ExactCurve::Nearest ExactCurve::nearest(const Point& point, double from, double to) const {
-  if (circles_) return nearest_of_circle(point, from, to);
-  if (!is_line()) return nearest_of_bent(point, from, to);
+ExactCurve::Nearest ExactCurve::nearest(const Point& point, double from, double to, double degree) const {
+  if (circles_) return nearest_of_circle(point, from, to, degree);
+  if (!is_line()) return nearest_of_bent(point, from, to, degree);
   const Point way = curve_.end() - curve_.start();
-  const double share = dot(point - curve_.start(), way) / dot(way, way);
+  const double share = dot(point - curve_.start(), way, degree) / dot(way, way, degree);
   const double s = std::clamp(share * length(), from, to);
-  return {.s = s, .distance = distance(point, place(s))};
+  return {.s = s, .distance = distance(point, place(s), degree)};
 }
 
 // A circle's nearest place lies in the direction of the point. If the part does not reach that far, it is an end.
-ExactCurve::Nearest ExactCurve::nearest_of_circle(const Point& point, double from, double to) const {
+ExactCurve::Nearest ExactCurve::nearest_of_circle(const Point& point, double from, double to, double degree) const {
   const Curve::ArcData& arc = curve_.arc_data();
   const double angle = std::atan2(point[arc.second] - arc.second_center, point[arc.first] - arc.first_center);
   const double way_of_a_turn = 2 * std::numbers::pi * length() / std::abs(arc.sweep);
   const double way = (angle - arc.start_angle) * length() / arc.sweep;
   const double turns = std::round(((from + to) / 2 - way) / way_of_a_turn);
   const double s = std::clamp(way + turns * way_of_a_turn, from, to);
-  return {.s = s, .distance = distance(point, place(s))};
+  return {.s = s, .distance = distance(point, place(s), degree)};
 }
 
 // Takes the best of a row of points. Between its neighbours, where the way from the point is at right angles to the
 // curve, it is nearest: Newton's method, and halves where that would leave the part.
-ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from, double to) const {
+ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from, double to, double degree) const {
   constexpr double piece = 0.2;  // radians
   constexpr int most_steps = 40;
   constexpr double near = 1e-8;  // a share of the part: its square is the error of the distance
@@ -259,7 +261,7 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
   int best = 0;
   double least = INFINITY;
   for (int i = 0; i <= parts; ++i) {
-    const double here = squared_distance(point, place(from + step * i));
+    const double here = squared_distance(point, place(from + step * i), degree);
     if (here < least) {
       least = here;
       best = i;
@@ -273,9 +275,10 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
     double steep = 0;  // and its derivative
     const Local here = local(s);
     for (std::size_t k = 0; k < axis_count; ++k) {
+      const double weight = is_rotary(all_axes[k]) ? degree * degree : 1;
       const double away = here.place.values[k] - point.values[k];
-      pull += away * here.slopes[k].first;
-      steep += here.slopes[k].first * here.slopes[k].first + away * here.slopes[k].second;
+      pull += weight * away * here.slopes[k].first;
+      steep += weight * (here.slopes[k].first * here.slopes[k].first + away * here.slopes[k].second);
     }
     (pull > 0 ? high : low) = s;
     const double next = steep > 0 ? s - pull / steep : low;
@@ -284,7 +287,7 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
     s = is_inside ? next : (low + high) / 2;
     if (is_inside && moved < near * step) break;
   }
-  const double here = squared_distance(point, place(s));
+  const double here = squared_distance(point, place(s), degree);
   return here <= least ? Nearest{s, std::sqrt(here)} : Nearest{from + step * best, std::sqrt(least)};
 }
 

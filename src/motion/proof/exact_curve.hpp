@@ -47,10 +47,10 @@ class ExactCurve {
     double s = 0;
     double distance = 0;  // over all axes
   };
-  // Returns the nearest point in the part from..to.
-  Nearest nearest(const Point& point, double from, double to) const;
+  // Returns the nearest point in the part from..to. A degree of A, B or C counts as `degree` millimetres.
+  Nearest nearest(const Point& point, double from, double to, double degree = 1) const;
   // A lower bound of that distance, for a tenth of the search's cost.
-  double nearest_at_best(const Point& point, double from, double to) const;
+  double nearest_at_best(const Point& point, double from, double to, double degree = 1) const;
 
  private:
   double turning_of_all() const;
@@ -62,8 +62,8 @@ class ExactCurve {
   };
   Local local(double s) const;
   bool is_circle() const;
-  Nearest nearest_of_circle(const Point& point, double from, double to) const;
-  Nearest nearest_of_bent(const Point& point, double from, double to) const;
+  Nearest nearest_of_circle(const Point& point, double from, double to, double degree) const;
+  Nearest nearest_of_bent(const Point& point, double from, double to, double degree) const;
 
   Curve curve_;
   double turning_;
@@ -71,6 +71,7 @@ class ExactCurve {
   bool circles_;    // an arc of constant radius without motion outside its plane
 };
 
-double distance(const Point& a, const Point& b);
+// A degree of A, B or C counts as `degree` millimetres.
+double distance(const Point& a, const Point& b, double degree = 1);
 
 }  // namespace passo::proof

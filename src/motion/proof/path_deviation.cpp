@@ -27,18 +27,23 @@ void PathDeviation::programmed(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
   if (segment == nullptr) {
     ++programmed_stretch_;
-    last_tolerance_ = 0;
+    last_tolerance_ = last_turn_tolerance_ = 0;
     return;
   }
   if (!segment->curve.has_length()) return;
   const double own = segment->tolerance.value();
+  const double own_turn = segment->turn_tolerance > 0 ? segment->turn_tolerance : own;
+  const double tolerance = std::max({own, last_tolerance_, exact});
+  const double turn_tolerance = std::max({own_turn, last_turn_tolerance_, exact});
   const ExactCurve curve(segment->curve);
   const int count = pieces_of(curve, 1);
   Programmed& programmed = chain_.emplace_back(Programmed{.curve = curve,
-                                                          .tolerance = std::max({own, last_tolerance_, exact}),
+                                                          .tolerance = tolerance,
+                                                          .degree = tolerance / turn_tolerance,
                                                           .line = segment->source.line,
                                                           .pieces = count});
   last_tolerance_ = own;
+  last_turn_tolerance_ = own_turn;
   for (int i = 0; i < count; ++i) {
     const double from = curve.length() * i / count;
     pieces_.push_back({.of = &programmed,
@@ -74,7 +79,7 @@ void PathDeviation::begin(const Point& place, Seconds time) {
   if (!is_in_stretch(0)) return;
   Piece& first = pieces_.front();
   first.now = {.multiple = 0, .finding = {}};
-  first.now.raise(distance(first.begin, place), *first.of, time);
+  first.now.raise(distance(first.begin, place, first.of->degree), *first.of, time);
   reached_ = 1;
   most_ = kept * std::max(1.0, first.now.multiple);
 }
@@ -114,18 +119,19 @@ void PathDeviation::Worst::raise(double away, const Programmed& of, Seconds time
 PathDeviation::Worst PathDeviation::passed(const Worst& before, const Piece& piece, const Stride& stride) const {
   Worst past = before;
   const double tolerance = piece.of->tolerance;
-  const double at_end = distance(piece.begin, *place_);
+  const double degree = piece.of->degree;
+  const double at_end = distance(piece.begin, *place_, degree);
   if (at_end <= before.multiple * tolerance) return past;
   const double most = std::min(most_, piece.now.multiple);
-  const bool counts = stride.curve.nearest_at_best(piece.begin, stride.from, stride.to) < most * tolerance;
-  past.raise(counts ? stride.curve.nearest(piece.begin, stride.from, stride.to).distance : at_end, *piece.of,
+  const bool counts = stride.curve.nearest_at_best(piece.begin, stride.from, stride.to, degree) < most * tolerance;
+  past.raise(counts ? stride.curve.nearest(piece.begin, stride.from, stride.to, degree).distance : at_end, *piece.of,
              stride.time);
   return past;
 }
 
 void PathDeviation::stay(Piece& piece, const Point& place, Seconds time) {
-  if (distance(piece.begin, place) <= piece.now.multiple * piece.of->tolerance) return;
-  piece.now.raise(piece.of->curve.nearest(place, piece.from, piece.to).distance, *piece.of, time);
+  if (distance(piece.begin, place, piece.of->degree) <= piece.now.multiple * piece.of->tolerance) return;
+  piece.now.raise(piece.of->curve.nearest(place, piece.from, piece.to, piece.of->degree).distance, *piece.of, time);
 }
 
 void PathDeviation::give_up() {
@@ -150,15 +156,15 @@ void PathDeviation::end_stretch(Seconds time) {
   Worst best{.multiple = reached_ > 0 ? INFINITY : 0, .finding = {}};
   for (; is_in_stretch(0); drop_front()) {
     const Piece& piece = pieces_.front();
-    best.raise(distance_from_last(piece.begin), *piece.of, time);
+    best.raise(distance_from_last(piece.begin, *piece.of), *piece.of, time);
     if (piece.now.multiple < best.multiple) best = piece.now;
-    if (!is_in_stretch(1)) best.raise(distance_from_last(piece.of->curve.place(piece.to)), *piece.of, time);
+    if (!is_in_stretch(1)) best.raise(distance_from_last(piece.of->curve.place(piece.to), *piece.of), *piece.of, time);
   }
   if (best.multiple > proof_.deviation.multiple()) proof_.deviation = best.finding;
 }
 
-double PathDeviation::distance_from_last(const Point& place) const {
-  return place_ ? distance(place, *place_) : INFINITY;
+double PathDeviation::distance_from_last(const Point& place, const Programmed& of) const {
+  return place_ ? distance(place, *place_, of.degree) : INFINITY;
 }
 
 void PathDeviation::rest(Seconds time) {

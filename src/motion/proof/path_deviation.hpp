@@ -1,8 +1,9 @@
 // PathDeviation: the maximum distance between programmed and planned path, in both directions.
 //
 // Two points move along the two paths from start to end, and never back. The result is the smallest distance that they
-// can keep, a Fréchet distance (Alt and Godau 1995), with each point measured in units of its tolerance. Nearest points
-// alone are not enough: a path that turns, or has loops smaller than its tolerance, is near itself.
+// can keep, a Fréchet distance (Alt and Godau 1995), with each point measured in units of its tolerances: millimetres
+// in that of the path, degrees of A, B and C in their own, and the root of the sum of the squares of the two. Nearest
+// points alone are not enough: a path that turns, or has loops smaller than its tolerance, is near itself.
 //
 // The planned path is processed in small pieces. For each piece of the programmed path, the smallest distance is stored
 // with which the two points can be there now. A piece is dropped if it needs twice as much as the best one and more
@@ -39,6 +40,7 @@ class PathDeviation {
   struct Programmed {
     ExactCurve curve;
     double tolerance;
+    double degree;  // millimetres for which a degree counts: the tolerance divided by that of A, B and C
     std::uint32_t line;
     int pieces;  // the number of pieces kept
   };
@@ -73,7 +75,7 @@ class PathDeviation {
   void give_up();
   void drop_front();
   void end_stretch(Seconds time);
-  double distance_from_last(const Point& place) const;
+  double distance_from_last(const Point& place, const Programmed& of) const;
 
   MotionProof& proof_;
   std::deque<Programmed> chain_;
@@ -83,6 +85,7 @@ class PathDeviation {
   std::uint64_t programmed_stretch_ = 0;
   std::uint64_t planned_stretch_ = 0;
   double last_tolerance_ = 0;
+  double last_turn_tolerance_ = 0;
   std::optional<Point> place_;  // the last point of the planned path
 };
 

@@ -30,8 +30,8 @@ void TubePath::add(const Segment& segment) {
   const double own = segment.tolerance.value();
   slack_ = std::max({own, last_slack_, exact_tolerance});
   last_slack_ = own;
-  feed_ = std::min(segment.speed.value() * curve.feed_factor(), fastest);
-  group_ = group_of(curve);
+  allow_for_turns(segment, curve);
+  find_feed(segment, curve);
   if (stations_.empty()) {
     stations_.push_back({.place = piece_of(curve, 0, 0).from});
   } else if (way_ == 0) {
@@ -44,6 +44,37 @@ void TubePath::add(const Segment& segment) {
   const int count = 1 + static_cast<int>(turning);
   for (int i = 0; i < count; ++i) {
     add_piece(curve, curve.length() * i / count, curve.length() * (i + 1) / count);
+  }
+}
+
+// Millimetres and degrees share one distance here. Where an axis turns, the larger of the two tolerances holds for it,
+// from the last stop on: the motion may turn before the program does.
+void TubePath::allow_for_turns(const Segment& segment, const ExactCurve& curve) {
+  for (const Axis axis : {Axis::a, Axis::b, Axis::c}) {
+    if (!curve.moves(axis) || segment.turn_tolerance <= turn_slack_) continue;
+    turn_slack_ = segment.turn_tolerance;
+    for (Station& station : stations_) {
+      if (station.slack > 0) station.slack = std::max(station.slack, turn_slack_);
+      station.around = std::max(station.around, turn_slack_);
+    }
+    leg_.around = std::max(leg_.around, turn_slack_);
+  }
+  slack_ = std::max(slack_, turn_slack_);
+}
+
+// Where a surface counts, the feed of X Y Z alone is at most the programmed one. If nothing but one surface moves, its
+// feed in degrees is known.
+void TubePath::find_feed(const Segment& segment, const ExactCurve& curve) {
+  feed_ = std::min(segment.speed.value() * curve.feed_factor(), fastest);
+  group_ = group_of(curve);
+  if (!segment.surface.counts_any()) return;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const Axis axis = axes_[i].axis;
+    if (!is_rotary(axis) || (group_ >> i & 1U) == 0 || !curve.moves(axis)) continue;
+    const double scale = segment.surface[axis];
+    group_ = scale > 0 ? static_cast<std::uint16_t>(1U << i) : std::uint16_t{0};
+    if (scale > 0) feed_ = std::min(segment.speed.value() / scale, fastest);
+    return;
   }
 }
 
@@ -135,6 +166,7 @@ void TubePath::rest() {
   end_leg();
   if (!stations_.empty()) stations_.back().slack = 0;
   last_slack_ = 0;
+  turn_slack_ = 0;
 }
 
 void TubePath::restart() {

@@ -76,6 +76,8 @@ class TubePath {
   void widen(const Piece& piece);
   void end_leg();
   std::uint16_t group_of(const ExactCurve& curve) const;
+  void allow_for_turns(const Segment& segment, const ExactCurve& curve);
+  void find_feed(const Segment& segment, const ExactCurve& curve);
 
   const std::vector<ProvenAxis>& axes_;
   std::vector<Station> stations_;
@@ -84,6 +86,7 @@ class TubePath {
   double bulge_ = 0;       // the largest of its pieces
   double last_slack_ = 0;  // the tolerance of the previous segment
   double slack_ = 0;       // the tolerance around the current segment
+  double turn_slack_ = 0;  // the largest tolerance of A, B and C since one of them turned; 0: none has turned
   double feed_ = 0;        // of the current segment
   std::uint16_t group_ = 0;
 };

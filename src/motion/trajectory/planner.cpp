@@ -69,7 +69,10 @@ void Planner::set_feed_override(double factor) {
   implementation_->wish([factor](MidRunWishes& wishes) { wishes.feeds.override = factor; });
 }
 void Planner::set_adaptive_feed(double factor) {
-  implementation_->wish([factor](MidRunWishes& wishes) { wishes.feeds.adaptive = factor; });
+  implementation_->wish([this, factor](MidRunWishes& wishes) {
+    wishes.feeds.adaptive = factor;
+    wishes.feeds.limits = &implementation_->limits;
+  });
 }
 void Planner::set_rapid_override(double factor) {
   implementation_->wish([&](MidRunWishes& wishes) {

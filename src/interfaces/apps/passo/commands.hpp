@@ -62,6 +62,7 @@ struct RunArguments {
   std::uint64_t passes = 1;            // number of runs of a main program that ends with M99
   std::vector<std::string> holds;      // holds: SECONDS, or SECONDS:SECONDS with a duration
   std::vector<std::string> overrides;  // PERCENT@SECONDS
+  std::string adaptive_feed;           // file of factors for M52; empty: 1
   std::vector<std::string> touches;    // ranges LOW:HIGH of axes: "X10:60,Z:-2"
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
   SimulatedMotors motors;              // of a virtual or emulated machine

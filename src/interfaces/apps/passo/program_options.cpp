@@ -77,6 +77,9 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       "--hold-at", arguments.holds,
       "SECONDS: feed hold at that time, which ends the run; SECONDS:PAUSE: continue after PAUSE seconds");
   command.add_option("--override", arguments.overrides, "PERCENT@SECONDS: feed override from that time on");
+  command.add_option("--adaptive-feed", arguments.adaptive_feed,
+                     "file with the machine's own feed factor for programs with M52 P1: SECONDS,FACTOR in each line, "
+                     "factors 0 to 1");
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch: a block (e.g. Z:-1.5 or X10:60,Y10:50,Z:-2), an STL "
                      "file or a height map (e.g. part.stl@X100,Y80,Z-20); can be repeated");
@@ -124,6 +127,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       "  passo run examples/drill-board.ngc -m examples/machines/forty-eight.toml -p board.svg --colour-by tool "
       "--no-rapids\n"
       "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20\n"
+      "  passo run part.ngc -m examples/machines/router.toml --adaptive-feed load.csv\n"
       "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2\n"
       "  passo run holes.ngc -m examples/machines/first-machine.toml --board sim:first_board --true-path drilled.ngc");
 }

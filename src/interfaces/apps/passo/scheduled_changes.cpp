@@ -7,6 +7,7 @@
 #include "machine_connection.hpp"
 #include "program_input.hpp"
 
+#include "passo/activity/adaptive_feed_file.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/link/await.hpp"
 
@@ -89,9 +90,22 @@ std::optional<ScheduledChanges> ScheduledChanges::read(const std::vector<std::st
     }
     changes.changes_.push_back({.at = Seconds(both->second), .factor = both->first / 100});
   }
-  std::stable_sort(changes.changes_.begin(), changes.changes_.end(),
-                   [](const Change& a, const Change& b) { return a.at < b.at; });
+  changes.sort();
   return changes;
+}
+
+void ScheduledChanges::sort() {
+  std::ranges::stable_sort(changes_, {}, &Change::at);
+}
+
+bool ScheduledChanges::add_adaptive_feed(const std::string& file) {
+  Diagnostics diagnostics;
+  const auto factors = read_adaptive_feed(file, diagnostics);
+  show(diagnostics);
+  if (!factors) return false;
+  for (const AdaptiveFeedChange& own : *factors) changes_.push_back({.at = own.at, .adaptive = own.factor});
+  sort();
+  return true;
 }
 
 Seconds ScheduledChanges::act(MachineSession& session, const VirtualMachine& machine,
@@ -99,15 +113,15 @@ Seconds ScheduledChanges::act(MachineSession& session, const VirtualMachine& mac
   const Seconds most = update_rest(session, machine, description);
   for (; next_ < changes_.size() && changes_[next_].at <= now(session) && session.busy(); ++next_) {
     // The next hold waits until this hold is over.
-    if (!changes_[next_].factor && holds_now_) break;
+    if (changes_[next_].is_hold() && holds_now_) break;
     apply(changes_[next_], session);
   }
   return most;
 }
 
 void ScheduledChanges::apply(const Change& change, MachineSession& session) {
-  if (change.factor) {
-    try_request(session, request::Override{.feed = change.factor});
+  if (!change.is_hold()) {
+    try_request(session, request::Override{.feed = change.factor, .adaptive_feed = change.adaptive});
     return;
   }
   const Seconds committed = session.status().committed;

@@ -1,4 +1,5 @@
-// ScheduledChanges: changes that `passo run` makes while a program runs: holds and feed overrides at given times.
+// ScheduledChanges: changes that `passo run` makes while a program runs: holds, feed overrides and factors of adaptive
+// feed at given times.
 #pragma once
 
 #include <optional>
@@ -44,11 +45,15 @@ class ScheduledChanges {
   // text on standard error, and returns nothing.
   static std::optional<ScheduledChanges> read(const std::vector<std::string>& holds,
                                               const std::vector<std::string>& overrides);
+  // Adds the factors of a file (adaptive_feed_file.hpp). Shows what is wrong with it, and returns false.
+  [[nodiscard]] bool add_adaptive_feed(const std::string& file);
 
   struct Change {
     Seconds at{0};
-    std::optional<double> factor = {};  // feed factor; empty: a hold
-    std::optional<Seconds> pause = {};  // duration of the hold; empty: the hold ends the run
+    std::optional<double> factor = {};    // feed factor
+    std::optional<double> adaptive = {};  // the machine's own feed factor (M52)
+    std::optional<Seconds> pause = {};    // duration of a hold; empty: the hold ends the run
+    bool is_hold() const { return !factor && !adaptive; }
   };
   // In order of time.
   const std::vector<Change>& all() const { return changes_; }
@@ -65,6 +70,7 @@ class ScheduledChanges {
   Seconds now(const MachineSession& session) const { return session.now() - begun_; }
   Seconds update_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   void apply(const Change& change, MachineSession& session);
+  void sort();
 
   std::vector<Change> changes_;
   std::size_t next_ = 0;

@@ -9,7 +9,7 @@ TEST(Describe, tells_a_machine_as_a_person_reads_it) {
   ASSERT_TRUE(machine);
   EXPECT_EQ(describe(*machine),
             "machine         Test machine\n"
-            "path tolerance  0.02 mm\n"
+            "path tolerance  0.02 mm, 0.05 deg\n"
             "board           clock 16000000 Hz, 244.1 to 50000 events/s, step pulse 2.5 us\n"
             "tool            Spindle, up to 10000 rpm, 3 mm\n"
             "axis X          motor 0, 100 steps/mm, 0.01 mm/step, -150 to 150 mm, 25 mm/s (2500 steps/s), "

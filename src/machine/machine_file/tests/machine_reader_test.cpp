@@ -42,6 +42,21 @@ TEST(MachineReader, reads_every_key_into_its_unit) {
   EXPECT_TRUE(a.inverted);
 }
 
+TEST(MachineReader, angles_have_a_tolerance_of_their_own) {
+  EXPECT_EQ(parsed(sound_machine).path_tolerance_deg, 0.05);
+  EXPECT_EQ(parsed("path_tolerance_deg = 0.2\n" + sound_machine).path_tolerance_deg, 0.2);
+}
+
+TEST(MachineReader, the_feed_may_be_that_of_a_cylinder) {
+  EXPECT_FALSE(parsed(sound_machine).axes[1].surface_radius);
+  const MachineDescription fixed = parsed(replaced(sound_machine, "[axis.A]\n", "[axis.A]\nradius_mm = 20\n"));
+  EXPECT_EQ(fixed.axes[1].surface_radius, Mm(20));
+  EXPECT_THAT(describe(fixed), testing::HasSubstr("feed at a radius of 20 mm\n"));
+  const MachineDescription by_tool = parsed(replaced(sound_machine, "[axis.A]\n", "[axis.A]\nradius_mm = \"tool\"\n"));
+  EXPECT_EQ(by_tool.axes[1].surface_radius, Mm(0));
+  EXPECT_THAT(describe(by_tool), testing::HasSubstr("feed at the tool's radius\n"));
+}
+
 TEST(MachineReader, a_jerk_limit_may_be_given_and_is_none_otherwise) {
   EXPECT_EQ(parsed(sound_machine).axes[0].jerk, MmPerSecond3(0));
   const MachineDescription machine =

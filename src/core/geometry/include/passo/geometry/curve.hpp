@@ -1,7 +1,8 @@
 // Curve: one geometric piece of a path. Its parameter is the length s to which the feed rate applies.
 //
 // s runs from 0 to length(). s is the travel of X Y Z in millimetres if any of them moves, otherwise that of U V W,
-// otherwise that of A B C in degrees (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion.
+// otherwise that of A B C in degrees (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion. Where an axis
+// turns a cylinder of known radius, the way of its surface counts like X, Y and Z (SurfaceScale).
 //
 // - A line moves every axis in proportion to s.
 // - An arc rotates two axes of a plane about a centre and moves all others in proportion (helix). If the
@@ -14,6 +15,7 @@
 #include <array>
 
 #include "passo/geometry/axes.hpp"
+#include "passo/geometry/surface_scale.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -37,7 +39,7 @@ class Curve {
     double sweep = 0;        // in radians, counterclockwise positive, including full turns
   };
 
-  static Curve line(const Point& start, const Point& end);
+  static Curve line(const Point& start, const Point& end, const SurfaceScale& surface = {});
   // Returns a cubic from `start` to `end` with the given dP/ds at its ends (Hermite). `length` is the range of the
   // parameter, above 0.
   static Curve cubic(const Point& start, const Point& start_tangent, const Point& end, const Point& end_tangent,
@@ -46,7 +48,7 @@ class Curve {
   static Curve arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                    double second_center, double sweep);
   // The same, with precomputed radii and start angle.
-  static Curve arc(const Point& start, const Point& end, const ArcData& arc);
+  static Curve arc(const Point& start, const Point& end, const ArcData& arc, const SurfaceScale& surface = {});
 
   // Returns the piece between two values of s as a separate curve, with the same points, tangents and second
   // derivatives. Its ends are bit-identical to at(from) and at(to).
@@ -54,6 +56,8 @@ class Curve {
   // Returns the curve rotated about Z at the origin, by the angle with this cosine and sine. The plane of an arc must
   // be XY, or contain neither X nor Y.
   Curve turned(double cosine, double sine) const;
+  // Returns the curve with the values of A, B and C multiplied by `by`, and its parameter by `along`.
+  Curve with_turns_scaled(double by, double along) const;
 
   Shape shape() const { return shape_; }
   const ArcData& arc_data() const { return arc_; }

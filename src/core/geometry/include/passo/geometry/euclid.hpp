@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "passo/geometry/axes.hpp"
+#include "passo/geometry/surface_scale.hpp"
 
 namespace passo {
 
@@ -21,23 +22,23 @@ inline double distance(const Point& a, const Point& b) {
   return length_of(a - b);
 }
 
-// The group of axes whose travel is the length s: X Y Z, else U V W, else A B C (Curve).
+// The group of axes whose travel is the length s: X Y Z and surfaces that count, else U V W, else A B C (Curve).
 enum class CountedGroup : std::uint8_t { xyz, uvw, abc };
-inline double square_in(const Point& travel, CountedGroup group) {
+inline double square_in(const Point& travel, CountedGroup group, const SurfaceScale& surface = {}) {
   const std::size_t first = group == CountedGroup::xyz ? 0 : group == CountedGroup::uvw ? 6 : 3;
-  double sum = 0;
+  double sum = group == CountedGroup::xyz ? surface.square_of(travel) : 0;
   for (std::size_t i = first; i < first + 3; ++i) sum += travel.values[i] * travel.values[i];
   return sum;
 }
-inline double length_in(const Point& travel, CountedGroup group) {
-  return std::sqrt(square_in(travel, group));
+inline double length_in(const Point& travel, CountedGroup group, const SurfaceScale& surface = {}) {
+  return std::sqrt(square_in(travel, group, surface));
 }
-inline CountedGroup counted_group(const Point& travel) {
-  if (square_in(travel, CountedGroup::xyz) > 0) return CountedGroup::xyz;
+inline CountedGroup counted_group(const Point& travel, const SurfaceScale& surface = {}) {
+  if (square_in(travel, CountedGroup::xyz, surface) > 0) return CountedGroup::xyz;
   return square_in(travel, CountedGroup::uvw) > 0 ? CountedGroup::uvw : CountedGroup::abc;
 }
-inline double counted_length(const Point& travel) {
-  return length_in(travel, counted_group(travel));
+inline double counted_length(const Point& travel, const SurfaceScale& surface = {}) {
+  return length_in(travel, counted_group(travel, surface), surface);
 }
 
 }  // namespace passo

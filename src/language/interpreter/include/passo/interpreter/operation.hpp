@@ -49,11 +49,12 @@ struct SelectPlane {
 struct SetFeedMode {
   FeedMode mode = FeedMode::units_per_minute;
 };
-// The feed of G94. Inverse time (G93) never occurs here: the interpreter converts it with the length of each move, as
-// LinuxCNC does. `rotary` is for moves of A B C only.
+// The feed of G94. The interpreter converts inverse time (G93) with the length of each move, as LinuxCNC does.
+// `rotary` is for moves of A B C only.
 struct FeedPerSecond {
   MmPerSecond linear{0};
-  double rotary = 0;  // degrees/s, with any length unit
+  double rotary = 0;     // degrees/s, with any length unit
+  bool by_time = false;  // from inverse time, so that the duration of the move counts
 };
 // The feed of G95, per revolution of the spindle.
 struct FeedPerRevolution {

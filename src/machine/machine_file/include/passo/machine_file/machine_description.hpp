@@ -85,6 +85,9 @@ struct AxisDescription {
   MmPerSecond3 jerk{0};            // 0: no limit
   MmPerSecond start_stop{0};       // the motor starts and stops at this velocity without a ramp; 0: always with a ramp
   bool inverted = false;           // true: the motor has the reversed direction
+  // Of the cylinder that a rotary axis turns: the feed is that of its surface. Empty: degrees count. 0: the distance
+  // of the tool from the rotation axis.
+  std::optional<Mm> surface_radius = {};
   std::optional<HomeDescription> home = {};
   std::optional<ScrewDescription> screw = {};
   std::optional<SecondMotor> second = {};
@@ -179,6 +182,7 @@ struct PinsDescription {
 struct MachineDescription {
   std::string name;
   Mm path_tolerance{0.01};
+  double path_tolerance_deg = 0.05;  // of rotary axes
   BoardDescription board;
   ToolDescription tool;
   ProbeDescription probe;
@@ -189,6 +193,9 @@ struct MachineDescription {
   std::vector<Axis> homing = {};       // the axes that are homed, in the order of homing
   std::vector<int> homing_turns = {};  // group of each of them: axes with the same number seek their switches together
 
+  bool has_rotary_axis() const {
+    return std::ranges::any_of(axes, [](const AxisDescription& axis) { return is_rotary(axis.axis); });
+  }
   // The motors of the board: one for each axis, then the second motors in the order of their axes.
   std::uint8_t motor_count() const {
     return static_cast<std::uint8_t>(axes.size() +

@@ -43,8 +43,12 @@ struct PathOptions {
   PerAxis<MmPerSecond> velocity{};  // maximum speeds of the axes, for feeds that follow the spindle; 0: no feed is
                                     // rejected
   Mm tolerance{0.01};               // for junctions, if the program gives none (G64 P)
-  double spindle_limit = 0;         // maximum spindle speed, rpm; 0: no spindle speed is rejected
-  Point start;                      // machine position at the start
+  double turn_tolerance = 0;        // of A, B and C at junctions, degrees; 0: they share the tolerance
+  // Of the cylinders that A, B and C turn: the feed is then that of the surface. Empty: it is not. 0: the tool's
+  // distance from the rotation axis, Z in the work coordinate system.
+  PerAxis<std::optional<Mm>> surface_radius{};
+  double spindle_limit = 0;  // maximum spindle speed, rpm; 0: no spindle speed is rejected
+  Point start;               // machine position at the start
   // True: more operations may follow later, so nothing is switched off at the end of the source.
   bool open_ended = false;
   // The spindle's time from standstill to 1000 rpm. Motion waits for the spindle, and tapping leaves room to reverse
@@ -128,10 +132,11 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   bool begin_spline(const operation::NurbsFeed& curve, PathItem& item);
   bool next_spline_piece(PathItem& item);
   void be_piece(bool last, Segment& segment) const;
-  bool add_curve(const Curve& curve, bool rapid, PathItem& item);
+  bool add_curve(const Curve& curve, bool rapid, PathItem& item, const SurfaceScale& surface = {});
+  SurfaceScale surface_to(const Point& machine_end, bool rapid) const;
 
   Point machine_end(const Point& work_end) const;
-  MmPerSecond feed_along(const Curve& curve);
+  MmPerSecond feed_along(const Curve& curve, const SurfaceScale& surface);
   MmPerSecond feed_with_spindle(double mm_per_revolution);
   void set_spindle_speed(double revolutions_per_minute);
   void set_path_mode(const operation::SetPathMode& mode);
@@ -159,6 +164,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
 
   Source<Operation>& operations_;
   const PathOptions& options_;
+  const bool has_surfaces_;  // some axis turns a cylinder of known radius
   Diagnostics& diagnostics_;
   const MachineResults& answers_;
 

@@ -6,11 +6,11 @@
 // over the longest distance that the tolerance allows. Long lines and arcs between junctions stay lines and arcs,
 // shortened accordingly. The result consists of lines, arcs and cubics (Curve::cubic). Actions pass unchanged.
 //
-// Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes,
-// millimetres and degrees alike. The end of each segment is bit-identical to the start of the next. Within a run dP/ds
-// and d²P/ds² are continuous, and the last segment of a run has the mode exact_stop. The result does not depend on when
-// items are pulled. Memory is bounded: 256 knots, of at most 64 pieces each, and 512 lines. Time: about 1 µs per
-// segment, 1.5 µs with slow_bending. See docs/decisions/0013.
+// Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes. A degree
+// counts as much as tolerance / turn_tolerance millimetres (Segment). The end of each segment is bit-identical to the
+// start of the next. Within a run dP/ds and d²P/ds² are continuous, and the last segment of a run has the mode
+// exact_stop. The result does not depend on when items are pulled. Memory is bounded: 256 knots, of at most 64 pieces
+// each, and 512 lines. Time: about 1 µs per segment, 1.5 µs with slow_bending. See docs/decisions/0013.
 #pragma once
 
 #include <cstdint>

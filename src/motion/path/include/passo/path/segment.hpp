@@ -29,7 +29,12 @@ struct Segment {
   PathMode mode = PathMode::continuous;  // at the junction to the next segment
   Mm tolerance{0};                       // maximum deviation from the path at the junction to the next segment
   Mm merge{0};                           // tolerance for merging lines; a part of the tolerance
-  Point work_zero{};                     // zero of the work coordinate system in machine coordinates
+  // Maximum deviation of A, B and C there, in degrees. 0: they share the tolerance, and a degree counts as a
+  // millimetre.
+  double turn_tolerance = 0;
+  SurfaceScale surface{};  // the axes that turn and count for the length s
+  double turn_unit = 1;    // degrees for 1 of the curve's A, B and C; not 1 only inside PathSmoother
+  Point work_zero{};       // zero of the work coordinate system in machine coordinates
   OverridePermissions heeds{};
   SpindleLock lock = SpindleLock::none;
   Mm pitch{0};  // for a lock: the distance per revolution; `speed` follows from the commanded spindle speed
