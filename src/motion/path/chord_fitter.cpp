@@ -8,8 +8,11 @@
 namespace passo {
 namespace {
 
-// Of the tolerance: how far the chords may be from the cubic. The rest is the tube around the cubic.
+// Of the tolerance: how far the chords may be from the cubic. The rest is the tube around the cubic. A cubic through
+// few chords follows features of the curve as if they were rounding, and must leave more of the tube.
 constexpr double share_of_tolerance = 0.98;
+constexpr double share_for_few = 0.5;
+constexpr std::size_t few = 20;
 // Of the tolerance: a misfit below this is no worse than none.
 constexpr double no_misfit = 0.02;
 // A fit is longer than the best one if its error is at most so many times the least.
@@ -209,11 +212,11 @@ ChordFitter::Fit ChordFitter::best_fit() {
     const bool is_near = passes(longer);
     if (!is_near && !is_all && best.count == 0 && overlap_ > 0 && vertices_.size() < patience) continue;
     if (!is_near || longer.error > hopeless * best.error) break;
-    if (longer.error <= best.error) best = longer;
+    const bool leaves_tube = vertices_.size() >= few || longer.deviation <= share_for_few * tolerance_;
+    if (leaves_tube && longer.error <= best.error) best = longer;
     if (is_all) break;
   }
   if (best.end_is_free) cut(best);
-
   return best;
 }
 
@@ -321,8 +324,11 @@ bool ChordFitter::passes(Fit& fit) const {
     share_before = share;
   }
   double square = 0;
-  for (std::size_t i = 0; i < misfit.size(); ++i)
-    square += (9 + 2 * static_cast<double>(i)) * dot(misfit[i], misfit[i]);
+  double weight = 9;  // 2 k + 1
+  for (const Point& part : misfit) {
+    square += weight * dot(part, part);
+    weight += 2;
+  }
   // The direction is known the better the longer the window is, and the curvature with its square: in between, by
   // trial.
   fit.error = std::max(std::sqrt(square) / whole, no_misfit * tolerance_) / (whole * std::sqrt(whole));
