@@ -329,9 +329,7 @@ bool ChordFitter::passes(Fit& fit) const {
     square += weight * dot(part, part);
     weight += 2;
   }
-  // The direction is known the better the longer the window is, and the curvature with its square: in between, by
-  // trial.
-  fit.error = std::max(std::sqrt(square) / whole, no_misfit * tolerance_) / (whole * std::sqrt(whole));
+  fit.error = std::max(std::sqrt(square) / whole, no_misfit * tolerance_) / std::sqrt(whole);
   fit.window = whole;
 
   // The cubic's parameter counts its length where it is fastest, so that |dP/ds| is at most 1

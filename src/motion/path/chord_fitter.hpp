@@ -62,7 +62,7 @@ class ChordFitter {
     double window = 0;  // length of the chords that were fitted
     double length = 0;
     double deviation = 0;
-    double error = 1e300;  // of the curvature, 1/mm, up to a constant
+    double error = 1e300;  // the misfit; a longer fit may have a little more
 
     Point way_at(double u) const { return (parts[0] + (parts[1] + parts[2] * u) * u) * u; }
     Point slope_at(double u) const { return parts[0] + (parts[1] * 2 + parts[2] * (3 * u)) * u; }
