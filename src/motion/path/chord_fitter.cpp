@@ -8,33 +8,66 @@
 namespace passo {
 namespace {
 
-// Of the tolerance: how far the chords may be from the cubic. Rounding to a grid of half the tolerance leaves up to
-// 0.36 of it (half a diagonal of the grid), and the cubic's own error comes on top. The rest is the tube around the
-// cubic.
-constexpr double share_of_tolerance = 0.5;
-// Of the tolerance: the misfit that neighbouring residuals have in common. Found by trial: less stops at rounding where
-// it goes on in the same way for long (near slopes like 3/4), more lets cubics go on where the curve does not follow.
-constexpr double common_share = 0.03;
-// The cosine of the sharpest turn from chord to chord: a right angle, as in the stairs of a grid.
-constexpr double sharpest = -1e-3;
+// Of the tolerance: how far the chords may be from the cubic. The rest is the tube around the cubic. A cubic through
+// few chords follows features of the curve as if they were rounding, and must leave more of the tube.
+constexpr double share_of_tolerance = 0.98;
+constexpr double share_for_few = 0.5;
+constexpr std::size_t few = 20;
+// Of the tolerance: a misfit below this is no worse than none.
+constexpr double no_misfit = 0.02;
+// A fit is longer than the best one if its error is at most so many times the least.
+constexpr double hopeless = 4;
+// A chord's distance is measured at so many places that this share of the tolerance is not noticed between them.
+constexpr double close_enough = 0.02;
+constexpr double most_parts = 64;
+// After a fit so many chords are tried, even if fewer have none.
+constexpr std::size_t patience = 96;
+// A turn that would move a vertex by more than this share of the tolerance is a corner if it is also seen from so far
+// away, in tolerances, where rounding hardly turns anything. What turns by more than that from there is a corner.
+constexpr double sure_share = 0.5;
+constexpr double look_around = 16;
+constexpr double most_turn = 0.5;
+// The cosine of the sharpest turn from chord to chord: a little more than the right angle of the stairs of a grid,
+// whose chords a free end may have moved.
+constexpr double sharpest = -0.3;
+// Of the tolerance: a shorter chord may be a step of rounding in one axis, whichever axes count for the length.
+constexpr double short_chord = 2;
 // The cubic is at least this share of its chords: stairs along a diagonal of the grid are 1.41 times as long as it.
 constexpr double least_length = 0.7;
+// A free end of the cubic is where it comes nearest to the chords in this part of it. Further on it is not known well.
+constexpr double cut_from = 0.6;
+constexpr double cut_to = 0.8;
+// Of the chords of a cubic, so much before its end counts for the next one too, so that both have the same direction.
+constexpr double overlap_share = 0.15;
+constexpr std::size_t most_behind = 128;
 
 // In tolerances: so far from a corner nothing is fitted. There the motion is slow, and the corner needs all of the
 // tube.
 constexpr double clearance = 15;
 constexpr double far = 1e9;
 
-// The number of chords tried next, after this number was fitted.
-constexpr std::uint64_t more_than(std::uint64_t count) {
-  return count + count / 2;
-}
+// The next window is so many times as long as the last one.
+constexpr double growth = 1.4;
 
 // The weight of an end that must be met, among weights whose sum is 1.
 constexpr double pinning = 1e6;
 
 Point unit(const Point& way) {
   return way * (1 / length_of(way));
+}
+
+// Legendre's polynomials of the degrees 4 to 7, at x from -1 to 1.
+std::array<double, 4> next_polynomials(double x) {
+  std::array<double, 4> found{};
+  double before = 1;
+  double here = x;
+  for (int k = 1; k < 7; ++k) {
+    const double next = ((2 * k + 1) * x * here - k * before) / (k + 1);
+    before = here;
+    here = next;
+    if (k >= 3) found[static_cast<std::size_t>(k - 3)] = next;
+  }
+  return found;
 }
 
 }  // namespace
@@ -65,44 +98,108 @@ bool ChordFitter::goes_on_after(std::uint64_t number) {
   const Point out = next->curve.end() - next->curve.start();
   const double before = length_of(in);
   const double after = length_of(out);
+  if (dot(in, out) < sharpest * before * after) return false;
   const SurfaceScale& surface = line->surface;
-  if (dot(in, out) < sharpest * before * after || counted_group(in, surface) != counted_group(out, surface)) {
-    return false;
-  }
+  const bool is_step = std::min(before, after) <= short_chord * tolerance_;
+  if (!is_step && counted_group(in, surface) != counted_group(out, surface)) return false;
   const double turn = distance(in * (1 / before), out * (1 / after));
-  return turn * before * after <= 2 * share_of_tolerance * tolerance_ * (before + after);
+  const double seen = turn * before * after / (2 * tolerance_ * (before + after));
+  return seen <= sure_share || (seen <= 1 && turns_by_noise(number));
 }
 
+// Whether the turn after a line is hardly seen from further away.
+bool ChordFitter::turns_by_noise(std::uint64_t number) {
+  const double around = look_around * tolerance_;
+  const Point in = way_back(number, around);
+  const Point out = way_ahead(number + 1, around);
+  const double before = length_of(in);
+  const double after = length_of(out);
+  if (!(before > 0 && after > 0)) return false;
+  const double noise = 2 * tolerance_ * (1 / std::max(before, around) + 1 / std::max(after, around));
+  return distance(in * (1 / before), out * (1 / after)) <= std::max(most_turn, noise);
+}
+
+// The way to the end of a line from about a distance before it, as far as the lines are known.
+Point ChordFitter::way_back(std::uint64_t number, double distance) const {
+  const Point& end = segment_at(number)->curve.end();
+  Point way;
+  for (std::uint64_t i = number + 1; i-- > ahead_.first();) {
+    way = end - segment_at(i)->curve.start();
+    if (dot(way, way) >= distance * distance) return way;
+  }
+  for (std::size_t i = behind_.size(); i-- > 0;) {
+    way = end - behind_[i];
+    if (dot(way, way) >= distance * distance) return way;
+  }
+  return way;
+}
+
+Point ChordFitter::way_ahead(std::uint64_t number, double distance) {
+  const Point start = segment_at(number)->curve.start();
+  const std::uint64_t most = number + most_behind;
+  Point way;
+  for (std::uint64_t i = number; i < most && has(i) && segment_at(i) != nullptr; ++i) {
+    if (segment_at(i)->curve.shape() != Curve::Shape::line) break;
+    way = segment_at(i)->curve.end() - start;
+    if (dot(way, way) >= distance * distance || segment_at(i)->mode == PathMode::exact_stop) break;
+  }
+  return way;
+}
+
+void ChordFitter::add(const Vertex& vertex, double weight) {
+  double power = vertex.s * weight;
+  for (std::size_t i = 0; i < sums_.moments.size(); ++i) {
+    sums_.moments[i] = sums_.moments[i] + vertex.way * power;
+    power *= vertex.s;
+  }
+  power = vertex.s * vertex.s * weight;
+  for (double& sum : sums_.powers) {
+    sum += power;
+    power *= vertex.s;
+  }
+}
+
+// Of stairs along a grid only what goes along the curve counts for s: else s would go on faster than the curve by
+// up to 1.41, and by another factor where the curve has another direction. The weights in the sums are those of the
+// trapezoidal rule over s: half the chord's length belongs to each of its ends.
 void ChordFitter::add_chord(std::uint64_t number) {
   const Curve& chord = segment_at(number)->curve;
   const Point& start = segment_at(ahead_.first())->curve.start();
-  const auto add = [&](const Vertex& vertex, double weight) {
-    double power = vertex.s * weight;
-    for (std::size_t i = 0; i < sums_.moments.size(); ++i) {
-      sums_.moments[i] = sums_.moments[i] + vertex.way * power;
-      power *= vertex.s;
-    }
-    power = vertex.s * vertex.s * weight;
-    for (double& sum : sums_.powers) {
-      sum += power;
-      power *= vertex.s;
-    }
-  };
-  const double length = chord.length().value();
-  // The trapezoidal rule over s: half the chord's length belongs to each of its ends.
+  const Point way = chord.end() - chord.start();
+  const double around = look_around * tolerance_;
+  heading_ = heading_ * (around / (around + chord.length().value())) + way;
+  const double length = std::max(0.0, dot(way, heading_) / length_of(heading_));
   if (!vertices_.empty()) add(vertices_.back(), length / 2);
   const double s = vertices_.empty() ? length : vertices_.back().s + length;
   vertices_.push_back({.s = s, .way = chord.end() - start, .deviation = ahead_[number].deviation});
   add(vertices_.back(), length / 2);
 }
 
-ChordFitter::Fit ChordFitter::longest_fit() {
+void ChordFitter::add_what_is_behind() {
+  const Point& start = segment_at(ahead_.first())->curve.start();
+  const Point direction = unit(first_heading_);
+  Vertex after;
+  for (std::size_t i = behind_.size(); i-- > 0 && -after.s < overlap_;) {
+    const Point way = behind_[i] - start;
+    const double length = std::max(0.0, dot(after.way - way, direction));
+    if (after.s < 0) add(after, length / 2);
+    after = {.s = after.s - length, .way = way};
+    add(after, length / 2);
+  }
+}
+
+// The cubic whose curvature is known best. Where rounding is what is left, more chords are better; where the curve is
+// no cubic, fewer.
+ChordFitter::Fit ChordFitter::best_fit() {
   const std::uint64_t first = ahead_.first();
+  if (!(overlap_ > 0)) first_heading_ = way_ahead(first, look_around * tolerance_);
   add_chords(1);
-  Fit longest;
-  for (std::uint64_t goal = least_fitted; goal <= most_fitted; goal = more_than(goal)) {
+  Fit best;
+  while (vertices_.size() < most_fitted) {
+    const double goal = growth * vertices_.back().s;
+    const std::size_t least = std::max<std::size_t>(least_fitted, vertices_.size() + 1);
     bool goes_on = goes_on_after(first + vertices_.size() - 1);
-    while (goes_on && vertices_.size() < goal) {
+    while (goes_on && vertices_.size() < most_fitted && (vertices_.size() < least || vertices_.back().s < goal)) {
       add_chord(first + vertices_.size());
       goes_on = goes_on_after(first + vertices_.size() - 1);
     }
@@ -111,13 +208,17 @@ ChordFitter::Fit ChordFitter::longest_fit() {
       stay_clear_of_the_end();
       goes_on = true;
     }
-    if (vertices_.size() < least_fitted || vertices_.size() <= longest.count) break;
-    const Fit longer = fit(goes_on);
-    if (longer.count == 0) break;
-    if (!longer.misses) longest = longer;
+    if (vertices_.size() < least_fitted || vertices_.back().s <= best.window) break;
+    Fit longer = solved(goes_on);
+    const bool is_near = passes(longer);
+    if (!is_near && !is_all && best.count == 0 && overlap_ > 0 && vertices_.size() < patience) continue;
+    if (!is_near || longer.error > hopeless * best.error) break;
+    const bool leaves_tube = vertices_.size() >= few || longer.deviation <= share_for_few * tolerance_;
+    if (leaves_tube && longer.error <= best.error) best = longer;
     if (is_all) break;
   }
-  return longest;
+  if (best.end_is_free) cut(best);
+  return best;
 }
 
 bool ChordFitter::comes_to_a_corner() {
@@ -135,21 +236,9 @@ void ChordFitter::stay_clear_of_the_end() {
 void ChordFitter::add_chords(std::size_t count) {
   vertices_.clear();
   sums_ = {};
+  heading_ = first_heading_;
+  add_what_is_behind();
   for (std::size_t i = 0; i < count; ++i) add_chord(ahead_.first() + i);
-}
-
-// A free end moves the start of the next chord. If that is too much for the chord or for its tube, the cubic ends at
-// the vertex.
-ChordFitter::Fit ChordFitter::fit(bool end_is_free) const {
-  constexpr double share = 0.25;
-  if (end_is_free) {
-    Fit free = solved(true);
-    const Segment& next = *segment_at(ahead_.first() + vertices_.size());
-    const double moved = distance(free.way_at(1), vertices_.back().way);
-    if (moved <= share * std::min(next.curve.length().value(), tolerance_)) return passes(free) ? free : Fit{};
-  }
-  Fit pinned = solved(false);
-  return passes(pinned) ? pinned : Fit{};
 }
 
 // The three normal equations, in u = s / length, by Gauss's elimination.
@@ -157,7 +246,7 @@ ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
   const double length = vertices_.back().s;
   const double end_weight = end_is_free ? 0 : pinning;
   std::array<double, 5> powers{};
-  Fit fit{.count = vertices_.size(), .parts = {}, .end_is_free = end_is_free};
+  Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
   double scale = 1 / length;
   for (std::size_t i = 0; i < powers.size(); ++i) {
     scale /= length;
@@ -182,46 +271,67 @@ ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
   return fit;
 }
 
+Point ChordFitter::Fit::miss_at(double u, const Point& way, Point& direction) const {
+  direction = unit(slope_at(u));
+  const Point residual = way - way_at(u);
+  return residual - direction * dot(residual, direction);
+}
+
 // Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and in the chords' middles,
-// and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic, as long as every chord
-// goes forward.
+// and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a chord goes back
+// along it counts as distance.
 bool ChordFitter::passes(Fit& fit) const {
   const double whole = vertices_.back().s;
   const double bend =
       2 * std::max(length_of(fit.parts[1]), length_of(fit.parts[1] + fit.parts[2] * 3)) / (whole * whole);
-  const auto miss_at = [&](double u, const Point& way, Point& direction) {
-    direction = unit(fit.slope_at(u));
-    const Point residual = way - fit.way_at(u);
-    return residual - direction * dot(residual, direction);
-  };
   const double most = share_of_tolerance * tolerance_;
+  const double until = fit.end_is_free ? cut_to * whole : whole;
   Vertex before;
-  Point miss_before;
   double off_before = ahead_.front().moved;
-  double common = 0;
+  double back = 0;
+  Point miss_before;
+  std::array<double, 4> share_before{};
+  std::array<Point, 4> misfit{};
   for (const Vertex& vertex : vertices_) {
     Point direction;
-    const Point miss = miss_at(vertex.s / whole, vertex.way, direction);
-    if (!(dot(vertex.way - before.way, direction) > 0)) return false;
+    const Point miss = fit.miss_at(vertex.s / whole, vertex.way, direction);
     const double off = length_of(miss);
     const double chord = vertex.s - before.s;
-    double between = chord * chord * bend / 8;
-    double deviation = std::max(off, off_before);
-    if (deviation + between + vertex.deviation > most / 2) {
-      const Point middle = miss_at((vertex.s + before.s) / (2 * whole), (vertex.way + before.way) * 0.5, direction);
-      deviation = std::max(deviation, length_of(middle));
-      between /= 4;
+    const std::array<double, 4> share = next_polynomials(2 * vertex.s / whole - 1);
+    for (std::size_t i = 0; i < misfit.size(); ++i) {
+      misfit[i] = misfit[i] + (miss_before * share_before[i] + miss * share[i]) * (chord / 2);
     }
-    deviation += between + vertex.deviation;
-    if (deviation > most) return false;
-    fit.deviation = std::max(fit.deviation, deviation);
-    common += chord * dot(miss, miss_before);
+    if (before.s < until) {
+      back = std::max(0.0, back - dot(vertex.way - before.way, direction));
+      double between = chord * chord * bend / 8;
+      double deviation = std::max(off, off_before) + back;
+      if (deviation + between + vertex.deviation > most / 2) {
+        const double parts = std::min(most_parts, std::ceil(std::sqrt(between / (close_enough * tolerance_))));
+        for (double part = 1; part < parts; ++part) {
+          const double to = part / parts;
+          const Point way = before.way + (vertex.way - before.way) * to;
+          const Point inner = fit.miss_at((before.s + chord * to) / whole, way, direction);
+          deviation = std::max(deviation, length_of(inner) + back);
+        }
+        between /= parts * parts;
+      }
+      deviation += between + vertex.deviation;
+      if (deviation > most) return false;
+      fit.deviation = std::max(fit.deviation, deviation);
+    }
     before = vertex;
     off_before = off;
     miss_before = miss;
+    share_before = share;
   }
-  const double most_common = common_share * tolerance_;
-  fit.misses = common > most_common * most_common * whole;
+  double square = 0;
+  double weight = 9;  // 2 k + 1
+  for (const Point& part : misfit) {
+    square += weight * dot(part, part);
+    weight += 2;
+  }
+  fit.error = std::max(std::sqrt(square) / whole, no_misfit * tolerance_) / std::sqrt(whole);
+  fit.window = whole;
 
   // The cubic's parameter counts its length where it is fastest, so that |dP/ds| is at most 1
   // and the feed need not be reduced anywhere.
@@ -234,6 +344,50 @@ bool ChordFitter::passes(Fit& fit) const {
   return fit.length >= least_length * whole;
 }
 
+// Ends the cubic where it comes nearest to the chords.
+void ChordFitter::cut(Fit& fit) const {
+  constexpr double least_rest = 1e-3;  // of a chord: a shorter rest is no chord
+  const double from = cut_from * fit.window;
+  const double to = cut_to * fit.window;
+  double nearest = far;
+  double end = 1;
+  Vertex before;
+  for (std::size_t i = 0; before.s < to; before = vertices_[i++]) {
+    const Vertex& vertex = vertices_[i];
+    if (vertex.s <= from) continue;
+    Point direction;
+    const Point miss = fit.miss_at(before.s / fit.window, before.way, direction);
+    const Point change = fit.miss_at(vertex.s / fit.window, vertex.way, direction) - miss;
+    const double chord = vertex.s - before.s;
+    const double first = std::max(least_rest, (from - before.s) / chord);
+    const double last = std::min(1.0, (to - before.s) / chord);
+    const double square = dot(change, change);
+    double share = square > 0 ? std::max(first, std::min(last, -dot(miss, change) / square)) : last;
+    if (share > 1 - least_rest) share = 1;
+    const double off = length_of(miss + change * share);
+    if (off >= nearest) continue;
+    const Point way = before.way + (vertex.way - before.way) * share;
+    end = (before.s + chord * share) / fit.window;
+    for (int k = 0; k < 2; ++k) {
+      const Point slope = fit.slope_at(end);
+      end += dot(way - fit.way_at(end), slope) / dot(slope, slope);
+    }
+    nearest = off;
+    fit.count = share < 1 ? i : i + 1;
+    fit.share = share < 1 ? share : 0;
+    fit.moved = distance(fit.way_at(end), way);
+  }
+  double power = 1;
+  for (Point& part : fit.parts) part = part * (power *= end);
+  fit.length *= end;
+}
+
+void ChordFitter::remember(std::uint64_t end) {
+  const std::uint64_t from = std::max(ahead_.first(), end - std::min<std::uint64_t>(end, most_behind));
+  for (std::uint64_t i = from; i < end; ++i) behind_.push_back(segment_at(i)->curve.start());
+  if (behind_.size() > 2 * most_behind) behind_.erase(behind_.begin(), behind_.end() - most_behind);
+}
+
 void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) {
   const std::uint64_t first = ahead_.first();
   const std::uint64_t next = first + fit.count;
@@ -242,17 +396,20 @@ void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) 
   const Point free_end = start + fit.way_at(1);
   const double share = 1 / fit.length;
   const PathMode mode = segment_at(next - 1)->mode;
+  remember(next + (fit.share > 0 ? 1 : 0));
   std::swap(item, ahead_[first].item);
   auto& segment = std::get<Segment>(item);
   segment.mode = mode;
   if (fit.end_is_free) {
     auto& after = std::get<Segment>(ahead_[next].item);
-    ahead_[next].moved = distance(free_end, end);
+    ahead_[next].moved = fit.moved;
     after.curve = Curve::line(free_end, after.curve.end(), after.surface);
     end = free_end;
   }
   segment.curve = Curve::cubic(start, fit.slope_at(0) * share, end, fit.slope_at(1) * share, Mm(fit.length));
   deviation = fit.deviation;
+  overlap_ = overlap_share * fit.window;
+  first_heading_ = unit(fit.slope_at(1)) * (look_around * tolerance_);
   ahead_.drop_before(next);
 }
 
@@ -267,11 +424,13 @@ bool ChordFitter::next(PathItem& item, double& deviation) {
     if (mode_before_ == PathMode::continuous) tolerance_ = std::min(tolerance_, tolerance_before_);
     goes_on = !stays_apart && goes_on_after(ahead_.first());
   }
-  const Fit fit = goes_on && since_corner_ >= clearance * tolerance_ ? longest_fit() : Fit{};
+  const Fit fit = goes_on && since_corner_ >= clearance * tolerance_ ? best_fit() : Fit{};
   if (fit.count > 0) {
     emit_cubic(fit, item, deviation);
     since_corner_ = far;
   } else {
+    if (ahead != nullptr) remember(ahead_.first() + 1);
+    overlap_ = 0;
     std::swap(item, ahead_.front().item);
     deviation = ahead_.front().deviation + ahead_.front().moved;
     ahead_.drop_front();
@@ -281,6 +440,8 @@ bool ChordFitter::next(PathItem& item, double& deviation) {
   tolerance_before_ = segment != nullptr ? segment->tolerance.value() : 0;
   if (mode_before_ == PathMode::exact_stop) {
     since_corner_ = far;
+    behind_.clear();
+    overlap_ = 0;
   } else if (fit.count == 0) {
     since_corner_ = goes_on ? since_corner_ + segment->curve.length().value() : 0;
   }

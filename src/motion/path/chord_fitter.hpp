@@ -43,7 +43,7 @@ class ChordFitter {
     double moved = 0;  // displacement of the line's start by a cubic's free end
   };
   struct Vertex {
-    double s = 0;          // the length of the chords up to here
+    double s = 0;          // the length of the chords up to here, along their heading
     Point way;             // vector from the start of the first chord
     double deviation = 0;  // deviation of the previous chord from the program
   };
@@ -54,29 +54,40 @@ class ChordFitter {
   };
   // The cubic start + parts[0] u + parts[1] u² + parts[2] u³, u from 0 to 1.
   struct Fit {
-    std::size_t count = 0;  // number of chords; 0: there is no cubic
-    std::array<Point, 3> parts{};
+    std::size_t count = 0;     // number of chords; 0: there is no cubic
+    double share = 0;          // of the chord after them that is replaced too
+    double moved = 0;          // distance of the cubic's end from the chords
     bool end_is_free = false;  // otherwise the cubic ends at the last chord's end
+    std::array<Point, 3> parts{};
+    double window = 0;  // length of the chords that were fitted
     double length = 0;
     double deviation = 0;
-    bool misses = false;  // the misfit exceeds that of rounding
+    double error = 1e300;  // the misfit; a longer fit may have a little more
 
     Point way_at(double u) const { return (parts[0] + (parts[1] + parts[2] * u) * u) * u; }
     Point slope_at(double u) const { return parts[0] + (parts[1] * 2 + parts[2] * (3 * u)) * u; }
+    // Of a place beside the cubic: the distance across it.
+    Point miss_at(double u, const Point& way, Point& direction) const;
   };
 
   bool has(std::uint64_t number);
   const Segment* segment_at(std::uint64_t number) const { return std::get_if<Segment>(&ahead_[number].item); }
   bool may_begin(const Segment& segment) const;
   bool goes_on_after(std::uint64_t number);
+  bool turns_by_noise(std::uint64_t number);
+  Point way_back(std::uint64_t number, double distance) const;
+  Point way_ahead(std::uint64_t number, double distance);
+  void add(const Vertex& vertex, double weight);
   void add_chord(std::uint64_t number);
   void add_chords(std::size_t count);
+  void add_what_is_behind();
   bool comes_to_a_corner();
   void stay_clear_of_the_end();
-  Fit longest_fit();
-  Fit fit(bool end_is_free) const;
+  Fit best_fit();
   Fit solved(bool end_is_free) const;
   bool passes(Fit& fit) const;
+  void cut(Fit& fit) const;
+  void remember(std::uint64_t end);
   void emit_cubic(const Fit& fit, PathItem& item, double& deviation);
 
   LineMerger merger_;
@@ -86,8 +97,13 @@ class ChordFitter {
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
   double since_corner_ = 1e9;  // mm; large after a stop
+  // The starts of the last chords, and how far back (mm) the next cubic is fitted to them too.
+  std::vector<Point> behind_;
+  double overlap_ = 0;
   // Of the current chords.
   double tolerance_ = 0;
+  Point first_heading_;
+  Point heading_;  // the mean direction of the last chords, times its distance
   std::vector<Vertex> vertices_;
   Sums sums_;
 };

@@ -1,6 +1,7 @@
 #include "line_merger.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "passo/geometry/euclid.hpp"
 
@@ -12,6 +13,21 @@ constexpr double rounding = 1e-9;
 
 // A merged line may be shorter than its pieces by this share, so that its time is not less than theirs.
 constexpr double least_share_of_length = 0.99;
+
+// Of the tolerance: how far an arc may be from its chord to be replaced by it; and an arc of which all is so close to
+// its ends that half of the tube around the chord is left.
+constexpr double nearly_straight = 0.05;
+constexpr double tiny = 0.5;
+// Less of the arc's length than this is no chord of it.
+constexpr double least_share_of_arc = 0.9;
+
+// How far an arc is from its chord, if both are passed evenly. An upper bound.
+double distance_from_chord(const Curve::ArcData& arc) {
+  const double radius = std::max(arc.start_radius, arc.end_radius);
+  const double sweep = std::abs(arc.sweep);
+  const double change = std::abs(arc.start_radius - arc.end_radius);
+  return std::min(2 * radius, radius * sweep * sweep * (1.0 / 8 + sweep / 100) + change * sweep);
+}
 
 bool is_line(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
@@ -60,8 +76,28 @@ bool LineMerger::pull() {
   if (!has_ahead_ && !at_end_) {
     has_ahead_ = path_.next(ahead_);
     at_end_ = !has_ahead_;
+    ahead_off_ = 0;
+    auto* const segment = has_ahead_ ? std::get_if<Segment>(&ahead_) : nullptr;
+    if (segment != nullptr && segment->curve.shape() == Curve::Shape::arc) straighten(*segment);
+    mode_read_ = segment != nullptr ? segment->mode : PathMode::exact_stop;
+    tolerance_read_ = segment != nullptr ? segment->tolerance.value() : 0;
   }
   return has_ahead_;
+}
+
+void LineMerger::straighten(Segment& segment) {
+  if (segment.lock != SpindleLock::none) return;
+  if (segment.mode == PathMode::exact_path || mode_read_ == PathMode::exact_path) return;
+  double tolerance = segment.tolerance.value();
+  if (mode_read_ == PathMode::continuous) tolerance = std::min(tolerance, tolerance_read_);
+  const Curve::ArcData& arc = segment.curve.arc_data();
+  const double off = distance_from_chord(arc);
+  const bool is_tiny = 2 * std::max(arc.start_radius, arc.end_radius) <= tiny * tolerance;
+  if (!is_tiny && off > nearly_straight * tolerance) return;
+  const Curve chord = Curve::line(segment.curve.start(), segment.curve.end(), segment.surface);
+  if (chord.length() < segment.curve.length() * least_share_of_arc) return;
+  segment.curve = chord;
+  ahead_off_ = off;
 }
 
 LineMerger::Chord::Chord(const Point& way) : travel(way), length(length_of(way)), direction(way * (1 / length)) {}
@@ -114,6 +150,7 @@ bool LineMerger::extend(Segment& merged, double& deviation) {
   if (deviation == 0) exact_.narrow(chord.direction, chord.length);
   cone_.narrow(chord.direction, chord.length);
   programmed_ += line.curve.length().value();
+  off_ = std::max(off_, ahead_off_);
   merged.mode = line.mode;
   end_ = line.curve.end();
   ++taken_;
@@ -133,12 +170,14 @@ bool LineMerger::next(PathItem& item, double& deviation) {
     return true;
   }
   item = ahead_;
+  off_ = ahead_off_;
   auto& merged = std::get<Segment>(item);
   begin(merged);
   const bool alone = stays_apart(merged);
   while (!alone && taken_ < most_merged && pull() && is_line(ahead_) && extend(merged, deviation)) {
   }
   if (taken_ > 1) merged.curve = Curve::line(merged.curve.start(), end_, merged.surface);
+  deviation += off_;
   mode_before_ = merged.mode;
   tolerance_before_ = merged.tolerance.value();
   return true;

@@ -7,6 +7,10 @@
 // directions. So each vertex has the same cost. A line that was programmed in pieces becomes one line again, with the
 // total length and time.
 //
+// An arc that hardly leaves its chord becomes this chord first: short arcs, with which CAM programs write a curve, are
+// then merged and fitted like chords, and circles of a few micrometres, with which they drill, are no circles for the
+// motion.
+//
 // Only lines with equal speed, kind, tolerance and length-defining axes are merged. No merged line reverses.
 #pragma once
 
@@ -50,6 +54,7 @@ class LineMerger {
   };
 
   bool pull();
+  void straighten(Segment& segment);
   // `merged`: the first line, with the mode of the last; `line`: the next line.
   bool absorbs(const Segment& merged, const Segment& line, const Chord& chord) const;
   void begin(const Segment& merged);
@@ -58,7 +63,11 @@ class LineMerger {
   double merge_tolerance(const Segment& merged) const;
 
   Source<PathItem>& path_;
-  PathItem ahead_;  // read and not yet returned
+  PathItem ahead_;        // read and not yet returned
+  double ahead_off_ = 0;  // distance of an arc from the chord that replaces it
+  // The junction before what was read last.
+  PathMode mode_read_ = PathMode::exact_stop;
+  double tolerance_read_ = 0;
   bool has_ahead_ = false;
   bool at_end_ = false;
 
@@ -66,6 +75,7 @@ class LineMerger {
   Point end_;
   int taken_ = 0;
   double programmed_ = 0;
+  double off_ = 0;  // the largest distance of its arcs from their chords
   // The mode of the junction before the merged line.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
