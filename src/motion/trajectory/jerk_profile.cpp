@@ -146,8 +146,9 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
       const double jerk = guessed_jerk * cell.jerk;
       const double sixfold = 6 * way;
       const double with_jerk = std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4;
-      // Where cells before had more jerk, the motion is faster already, and may stay so.
-      most = std::min(x[node] > 0 ? most : infinity, std::max(with_jerk, x[node]));
+      // Where cells before had more jerk, the motion is faster already, and may stay so. In the first cell the
+      // acceleration at the other node is 2 x / 3 s.
+      most = std::min(x[node] > 0 ? most : 1.5 * acceleration * cell.length, std::max(with_jerk, x[node]));
     }
     x[next] = std::min(x[next], most);
     node = next;
