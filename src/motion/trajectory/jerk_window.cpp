@@ -33,26 +33,27 @@ void JerkWindow::begin_at(const PathState& start, const Point& stopped) {
   profile_.drop(profile_.size());
   if (start.speed > 0) profile_.begin_in_motion({.speed = start.speed, .acceleration = start.acceleration});
   start_ = start;
-  start_squared_ = start.speed * start.speed;
+  stopped_ = stopped;
+  after_corner_ = false;
   cut_ = start.segment;
   started_ = cutting_ = closed_ = false;
   length_ = 0;
   way_to_rest_ = std::numeric_limits<double>::infinity();
   given_ = decided_ = 0;
-  const Segment* const segment = stops_ != nullptr && start.speed == 0 ? path_.at(start.segment) : nullptr;
-  if (segment != nullptr) begin_with(stops_->at_start(segment->curve.tangent(Mm(start.s)), stopped));
-}
-
-void JerkWindow::begin_with(double most_squared) {
-  start_squared_ = most_squared;
-  profile_.begin_at_stop(most_squared);
 }
 
 // Begins where the window before has ended: at a stop between two segments.
 void JerkWindow::begin_after_stop() {
   begin_at({.segment = path_.first()});
-  const Segment* const segment = stops_ != nullptr ? path_.front() : nullptr;
-  if (segment != nullptr) begin_with(stops_->between(end_direction_, segment->curve.tangent(Mm(0))).start);
+  after_corner_ = true;
+}
+
+// The greatest speed (squared) at the start. Nothing is read from the path before it is needed.
+double JerkWindow::start_squared(const Segment& first) const {
+  if (start_.speed > 0) return start_.speed * start_.speed;
+  if (stops_ == nullptr) return 0;
+  const Point direction = first.curve.tangent(Mm(start_.s));
+  return after_corner_ ? stops_->between(end_direction_, direction).start : stops_->at_start(direction, stopped_);
 }
 
 // The greatest speed (squared) at the stop after that segment. A path that waits for its next line may go on there.
@@ -132,13 +133,12 @@ bool JerkWindow::goes_from_rest_to_rest(PlannedMove& move) {
   cutter_.begin(*segment, {.from = start_.s, .feed = feeds_.speed_on(*segment)});
   if (!cutter_.is_straight()) return false;
   move.begin_on(*segment);
+  const double start = start_squared(*segment);  // first: it needs the direction in which the window before ended
   end_direction_ = segment->curve.tangent(segment->curve.length());
   const double end = end_squared_after(start_.segment, end_direction_);
-  add_rest_to_rest({.from = start_.s,
-                    .to = segment->curve.length().value(),
-                    .entry = std::sqrt(start_squared_),
-                    .exit = std::sqrt(end)},
-                   cutter_.path_limits(), move);
+  add_rest_to_rest(
+      {.from = start_.s, .to = segment->curve.length().value(), .entry = std::sqrt(start), .exit = std::sqrt(end)},
+      cutter_.path_limits(), move);
   cut_ = start_.segment + 1;
   started_ = closed_ = true;
   return true;
@@ -167,18 +167,19 @@ void JerkWindow::pull() {
   const bool rests = rest < length + least;
   if (rests) way_to_rest_ = length_;
   const Segment* after = rests ? nullptr : path_.after(cut_);
+  if (!started_) {
+    estimate_ = start_squared(*segment);
+    if (start_.speed == 0) profile_.begin_at_stop(estimate_);
+  } else {
+    const Segment& before = *path_.at(cut_ - 1);
+    estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
+  }
   end_squared_ = 0;
   if (after == nullptr && !rests) {
     end_direction_ = segment->curve.tangent(segment->curve.length());
     end_squared_ = end_squared_after(cut_, end_direction_);
   }
   const double exit = after == nullptr ? end_squared_ : cutter_.joint_cap(*segment, *after);
-  if (!started_) {
-    estimate_ = start_squared_;
-  } else {
-    const Segment& before = *path_.at(cut_ - 1);
-    estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
-  }
   cutter_.begin(*segment, {.from = from,
                            .to = rest < length - least ? rest : length,
                            .entry_squared = estimate_,

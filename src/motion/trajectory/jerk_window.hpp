@@ -49,7 +49,7 @@ class JerkWindow {
   bool add_cell(std::size_t i, PlannedMove& move) const;
   bool goes_from_rest_to_rest(PlannedMove& move);
   void pull();
-  void begin_with(double most_squared);
+  double start_squared(const Segment& first) const;
   void begin_after_stop();
   double end_squared_after(std::uint64_t number, const Point& direction) const;
   void look_ahead();
@@ -62,8 +62,9 @@ class JerkWindow {
   std::size_t most_queued_;
 
   PathState start_;
-  double start_squared_ = 0;  // of the speed; at a stop: the greatest one to begin with
-  std::uint64_t cut_ = 0;     // the first segment that is not completely in the profile
+  Point stopped_;              // at a stop: the velocity with which the motion before ended
+  bool after_corner_ = false;  // at a stop: the window before ended in `end_direction_`
+  std::uint64_t cut_ = 0;      // the first segment that is not completely in the profile
   bool started_ = false;
   bool cutting_ = false;
   double estimate_ = 0;  // squared: the highest entry speed of the next cell
