@@ -23,7 +23,7 @@ namespace {
 constexpr double rounding = 1e-6;
 
 // The prover's allowance for rounding.
-constexpr double most_of_limit = 1.0005;
+constexpr double most_of_limit = 1.0001;
 
 // Without limits of jerk: the worst of 3,000 programs took 1.0097 times the bound.
 constexpr double most_of_bound = 1.015;

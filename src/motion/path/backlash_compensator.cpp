@@ -11,6 +11,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using std::numbers::pi;
+// Of a curve's length, and in mm: a curve is not divided so near to its ends. A spline that begins along one axis has a
+// turning point of another axis there except for rounding, and a piece of 1e-17 mm is no path for a planner.
+constexpr double least_share_of_curve = 1e-6;
+constexpr double least_piece = 1e-6;
 
 // An axis of an arc's plane turns back where its angle, from the axis, is a multiple of pi.
 double next_turn_of_arc(const Curve::ArcData& arc, Axis axis, double length, double from) {
@@ -29,16 +33,18 @@ double next_turn_of_arc(const Curve::ArcData& arc, Axis axis, double length, dou
 
 // The next place after `from` where the axis turns back. Infinity if there is none.
 double next_turn(const Curve& curve, Axis axis, double from) {
+  const double length = curve.length().value();
+  const double least = std::min(least_piece, least_share_of_curve * length);
   double next = infinity;
   if (curve.shape() == Curve::Shape::arc) {
     const Curve::ArcData& arc = curve.arc_data();
-    if (axis == arc.first || axis == arc.second) next = next_turn_of_arc(arc, axis, curve.length().value(), from);
+    if (axis == arc.first || axis == arc.second) next = next_turn_of_arc(arc, axis, length, from + least);
   } else {
     for (const Mm turn : curve.turning_points(axis)) {
-      if (turn.value() > from) next = std::min(next, turn.value());
+      if (turn.value() > from + least) next = std::min(next, turn.value());
     }
   }
-  return next < curve.length().value() ? next : infinity;
+  return next < length - least ? next : infinity;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace passo {
 namespace {
 
 // Limits are checked with this factor, because a plan has finitely many digits.
-constexpr double slack = 1.0005;
+constexpr double slack = 1.0001;
 constexpr double place_rounding = 1e-9;  // mm
 
 MotionProof begun(const ProofOptions& options) {

@@ -10,6 +10,7 @@
 
 #include "emergency_brake.hpp"
 #include "jerk_window.hpp"
+#include "rest.hpp"
 #include "shorten.hpp"
 #include "soonest_stop.hpp"
 #include "speed_change.hpp"
@@ -41,6 +42,7 @@ class JerkLaw final : public SpeedLaw {
   explicit JerkLaw(const LawInputs& inputs)
       : axes_(axes_with_limits(inputs.limits)),
         path_(inputs.path),
+        stops_(inputs.limits),
         wishes_(inputs.wishes),
         most_queued_(inputs.most_queued),
         emergency_brake_(inputs.limits),
@@ -91,7 +93,7 @@ class JerkLaw final : public SpeedLaw {
       }
       if (!look_ahead(outlook, state.segment, move)) return;
       append(move, plan);
-      if (move.ends_at_rest()) return;
+      if (ends_at_stop(move, state.segment)) return;
       since_trial += move.duration().value();
       state = PathState::behind(move, state.segment);
     }
@@ -99,7 +101,11 @@ class JerkLaw final : public SpeedLaw {
 
  private:
   std::unique_ptr<JerkWindow> new_window() const {
-    return std::make_unique<JerkWindow>(axes_, path_, wishes_.feeds, most_queued_);
+    return std::make_unique<JerkWindow>(JerkWindow::Inputs{.axes = axes_,
+                                                           .path = path_,
+                                                           .feeds = wishes_.feeds,
+                                                           .stops = stops_.any() ? &stops_ : nullptr,
+                                                           .most_queued = most_queued_});
   }
 
   // Begins anew, at rest.
@@ -107,7 +113,7 @@ class JerkLaw final : public SpeedLaw {
     now_ = state;
     rest_.reset();
     change_.reset();
-    window_->begin_at(state);
+    window_->begin_at(state, stopped_);
     fastest_ = wishes_.feeds;
     unsuited_ = false;
   }
@@ -116,8 +122,16 @@ class JerkLaw final : public SpeedLaw {
     if (!pull(move)) return false;
     rest_ = shorten(move, wishes_.longest_move);
     now_ = PathState::behind(move, path_.first());
-    if (!rest_ && (has_stopped() || move.ends_at_rest())) now_.speed = now_.acceleration = 0;
+    if (rest_ || !(has_stopped() || ends_at_stop(move, path_.first()))) return true;
+    if (stops_.any()) stopped_ = move.segment.curve.tangent(move.to) * now_.speed;
+    now_.speed = now_.acceleration = 0;
     return true;
+  }
+
+  // At a stop of the path the motors may stop at once.
+  bool ends_at_stop(const PlannedMove& move, std::uint64_t segment) {
+    if (move.ends_at_rest()) return true;
+    return stops_.any() && move.to >= move.segment.curve.length() && path_.after(segment) == nullptr;
   }
 
   // At the end of a stop the motion rests, whatever speed rounding has left: the window is that of the plan before.
@@ -245,12 +259,14 @@ class JerkLaw final : public SpeedLaw {
 
   std::vector<LimitedAxis> axes_;
   PathAhead& path_;
+  StopSpeeds stops_;
   const MidRunWishes& wishes_;
   std::size_t most_queued_;
   EmergencyBrake emergency_brake_;
   std::unique_ptr<JerkWindow> window_;
 
   PathState now_;                      // at the end of the last move given
+  Point stopped_;                      // how fast the axes were when the machine last came to a stop
   std::optional<PlannedMove> rest_;    // the rest of a move that was too long
   std::optional<SpeedChange> change_;  // leads to the window's start
   std::size_t given_pieces_ = 0;       // pieces of the change

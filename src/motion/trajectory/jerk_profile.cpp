@@ -146,8 +146,9 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
       const double jerk = guessed_jerk * cell.jerk;
       const double sixfold = 6 * way;
       const double with_jerk = std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4;
-      // Where cells before had more jerk, the motion is faster already, and may stay so.
-      most = std::min(x[node] > 0 ? most : infinity, std::max(with_jerk, x[node]));
+      // Where cells before had more jerk, the motion is faster already, and may stay so. In the first cell the
+      // acceleration at the other node is 2 x / 3 s.
+      most = std::min(x[node] > 0 ? most : 1.5 * acceleration * cell.length, std::max(with_jerk, x[node]));
     }
     x[next] = std::min(x[next], most);
     node = next;
@@ -166,15 +167,47 @@ void JerkProfile::grade() {
   }
 }
 
+double JerkProfile::most_at_start() const {
+  if (in_motion_) return states_[0].speed * states_[0].speed;
+  return start_squared_ > 0 ? std::min({start_squared_, entry_cap_[0], node_cap_[0], stop_cap(0, true)}) : 0;
+}
+
+double JerkProfile::most_at_end() const {
+  if (!(end_squared_ > 0)) return 0;
+  const double velocity =
+      velocity_cap(cells_.size() - 1, [](const AxisShape& shape, double) { return shape.slope_out; });
+  return std::min({end_squared_, planned_velocity * planned_velocity * velocity, stop_cap(cells_.size() - 1, false)});
+}
+
+// The greatest x with which a motion may begin or end at a stop without acceleration along the path: no axis'
+// acceleration jumps there where the path bends, and none has more jerk than it may.
+double JerkProfile::stop_cap(std::size_t cell, bool begins) const {
+  double cap = infinity;
+  const AxisShape* shape = shapes(cell);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double bend = std::abs(begins ? shape->bend_in : shape->bend_out);
+    const double third = std::abs(begins ? shape->third_in : shape->third_out);
+    if (bend > 0) cap = std::min(cap, unseen_jump * axes_[k].acceleration / bend);
+    if (third > 0) cap = std::min(cap, std::pow(planned_share * axes_[k].jerk / third, 2.0 / 3));
+  }
+  return cap;
+}
+
 // Puts `guess_` at this share of the squares of the caps, or lower where it takes longer to get there.
 void JerkProfile::guess(double share, double growth) {
   const std::size_t n = cells_.size();
   guess_.assign(n + 1, 0.0);
-  for (std::size_t k = 0; k < n; ++k) guess_[k] = share * std::min(entry_cap_[k], node_cap_[k]);
-  guess_[0] = in_motion_ ? states_[0].speed * states_[0].speed : 0;
-  guess_[n] = 0;
+  const double start = most_at_start();
+  const double end = most_at_end();
+  const double least_inside = in_motion_ ? 0 : std::min(start, end);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double cap = std::min(entry_cap_[k], node_cap_[k]);
+    guess_[k] = std::max(share * cap, std::min(cap, least_inside));
+  }
+  guess_[0] = start;
+  guess_[n] = end;
   guess_from(n, true, growth);
-  guess_[0] = in_motion_ ? states_[0].speed * states_[0].speed : 0;
+  if (in_motion_) guess_[0] = start;
   guess_from(0, false, growth);
   // A window that begins in motion cannot brake harder than that.
   double least = in_motion_ ? guess_[0] : 0;
@@ -189,7 +222,7 @@ void JerkProfile::begin_with_guess() {
   guess(guessed_speed_squared, most_growth);
   const std::vector<double>& x = guess_;
   const std::size_t n = cells_.size();
-  const NodeState front = in_motion_ ? states_[0] : NodeState{};
+  const NodeState front = in_motion_ ? states_[0] : NodeState{.speed = std::sqrt(x[0]), .acceleration = 0};
   states_.resize(n + 1);
   for (std::size_t k = 1; k < n; ++k) {
     const double before = cells_[k - 1].length;
@@ -202,7 +235,7 @@ void JerkProfile::begin_with_guess() {
     states_[k] = {.speed = std::sqrt(x[k]), .acceleration = acceleration};
   }
   states_[0] = front;
-  states_[n] = {};
+  states_[n] = {.speed = std::sqrt(x[n]), .acceleration = 0};
 }
 
 double JerkProfile::duration(std::size_t i) const {
@@ -401,7 +434,8 @@ bool JerkProfile::find_motion_from_slow() {
   return true;
 }
 
-std::size_t JerkProfile::plan(bool closed) {
+std::size_t JerkProfile::plan(bool closed, double end_squared) {
+  end_squared_ = closed ? end_squared : 0;
   kept_.assign(states_.begin(), states_.end());
   if (cells_.size() < fewest_cells && planned_ == 0) even_out();
   grade();
@@ -445,6 +479,7 @@ void JerkProfile::drop(std::size_t count) {
   planned_ -= std::min(planned_, count);
   in_motion_ = !all && states_[0].speed > 0;
   if (all) states_.clear();
+  start_squared_ = 0;
 }
 
 }  // namespace passo

@@ -49,13 +49,15 @@ class JerkProfile {
 
   // Sets the start of an empty profile to that state, in motion.
   void begin_in_motion(const NodeState& state);
+  // Sets the start of an empty profile to a stop. The motion may begin at once with at most that speed (squared).
+  void begin_at_stop(double most_squared) { start_squared_ = most_squared; }
   // Adds a cell, with one shape per axis.
   void push(const JerkCell& cell, const AxisShape* shapes);
   // Returns the square of the highest entry speed of the last cell.
   double last_cap() const { return entry_cap_.back(); }
   // Plans all cells to a stop at the end. Returns the number of decided cells at the front: all if the window is
-  // `closed` (the path does stop at its end).
-  std::size_t plan(bool closed);
+  // `closed` (the path does stop at its end). `end_squared`: the greatest speed (squared) that may be left at the stop.
+  std::size_t plan(bool closed, double end_squared = 0);
   // Adds the phases of a planned cell, at most two.
   void add_phases(std::size_t i, PlannedMove& move) const;
   // Drops the first `count` cells, which have been returned.
@@ -91,12 +93,15 @@ class JerkProfile {
   double acceleration_at(std::size_t cell, double x) const;
   double passing_cap(std::size_t node) const;
   double constant_speed_cap(std::size_t node) const;
+  double stop_cap(std::size_t cell, bool begins) const;
   void prepare();
   void split(std::size_t i);
   void even_out();
   void grade();
   bool split_coarse();
   void guess(double share, double growth);
+  double most_at_start() const;
+  double most_at_end() const;
   void guess_from(std::size_t node, bool backwards, double growth);
   void begin_with_guess();
   double duration(std::size_t i) const;
@@ -121,6 +126,7 @@ class JerkProfile {
   void add_steady(const JerkCell& cell, const NodeState& from, double exit, PlannedMove& move) const;
   Excess excess(std::size_t i) const;
   std::uint32_t axes_near_limits(std::size_t i, const NodeState& most, double jerk) const;
+  bool turns_much(std::size_t i, std::uint32_t axes) const;
   void check_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time, double way,
                   int parts, Excess& worst) const;
   static Inside inside(const NodeState& from, double jerk, double time);
@@ -145,8 +151,10 @@ class JerkProfile {
   std::vector<bool> steady_;         // for each node: passed at the speed limit without acceleration
   std::vector<std::size_t> exceeded_;
   std::vector<Stretch> again_;  // sections to optimise again
-  bool in_motion_ = false;      // the window begins in motion, in the first of the states
-  std::size_t planned_ = 0;     // cells for which the states are a plan to a stop
+  double start_squared_ = 0;    // at a stop: the greatest speed to begin with
+  double end_squared_ = 0;
+  bool in_motion_ = false;   // the window begins in motion, in the first of the states
+  std::size_t planned_ = 0;  // cells for which the states are a plan to a stop
   bool fell_back_ = false;
   JerkOptimizer lift_;
 };

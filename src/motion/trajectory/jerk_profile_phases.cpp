@@ -21,6 +21,7 @@ constexpr double looked_at_closely = 0.96;
 constexpr double not_worth_a_look = 1.02;
 constexpr double looked_at_velocity = 0.99995;
 constexpr int close_parts = 4;
+constexpr double much_of_slope = 0.1;
 constexpr double far_below = 0.95;  // a share of a limit, less than `share_seen` times `looked_at_closely`
 constexpr double unseen_change = 1e-6;
 constexpr double weak = 100;       // mm/s², where axes have no limit
@@ -109,7 +110,7 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   };
   const double pace = worst.pace;
   look(1);
-  const double most = std::max(worst.force, worst.jolt);
+  const double most = std::max({worst.force, worst.jolt, turns_much(i, near) ? worst.pace : 0});
   if (most > looked_at_closely && most < not_worth_a_look) {
     worst = {.pace = pace};
     look(close_parts);
@@ -137,6 +138,19 @@ std::uint32_t JerkProfile::axes_near_limits(std::size_t i, const NodeState& most
   return near;
 }
 
+// Whether the slope of one of the axes changes much in a cell. Else a parabola shows its velocity to six digits.
+bool JerkProfile::turns_much(std::size_t i, std::uint32_t axes) const {
+  const AxisShape* shape = shapes(i);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double change = std::abs(shape->slope_out - shape->slope_in);
+    if ((axes >> k & 1) != 0 &&
+        change > much_of_slope * std::max(std::abs(shape->slope_in), std::abs(shape->slope_out))) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // Looks at half the time of a cell that is not straight, in `parts` parts. `way` is the distance from the cell's start
 // to the start of that half. `axes`: those to look at, one bit each.
 void JerkProfile::check_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time,
@@ -151,16 +165,15 @@ void JerkProfile::check_half(std::size_t i, std::uint32_t axes, const NodeState&
     }
     for (std::size_t k = 0; k < axes_.size(); ++k) {
       if ((axes >> k & 1) == 0) continue;
-      const AxisShape& own = shape[k];
+      const ShapeInside own(shape[k], length);
       std::array<double, 3> force{};
       std::array<double, 3> jolt{};
       std::array<double, 3> pace{};
       for (std::size_t at = 0; at < places.size(); ++at) {
         const double share = (way + places[at].way) / length;
-        const double third = own.third_in + share * (own.third_out - own.third_in);
-        const double bend = own.bend_in + share * (own.bend_out - own.bend_in);
-        const double slope =
-            own.slope_in + share * (own.slope_out - own.slope_in) - length * length * share * (1 - share) / 2 * third;
+        const double third = own.third(share);
+        const double bend = own.bend(share);
+        const double slope = own.slope(share);
         const double v = places[at].state.speed;
         const double a = places[at].state.acceleration;
         pace[at] = slope * v;

@@ -48,9 +48,10 @@ void JerkProfile::split(std::size_t i) {
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     AxisShape& first = shapes(i)[k];
     AxisShape& last = shapes(i + 1)[k];
-    first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
-    first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
-    first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
+    const ShapeInside inside(whole[k], 2 * half);
+    first.third_out = last.third_in = inside.third(0.5);
+    first.bend_out = last.bend_in = inside.bend(0.5);
+    first.slope_out = last.slope_in = inside.slope(0.5);
   }
   entry_cap_.insert(at(entry_cap_, i + 1), constant_speed_cap(i + 1));
 }

@@ -1,6 +1,7 @@
 #include "jerk_window.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "speed_change.hpp"
 
@@ -19,19 +20,21 @@ constexpr std::size_t fewest_in_motion = 32;
 
 }  // namespace
 
-JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, const FeedFactors& feeds,
-                       std::size_t most_queued, const PlanEffort& effort)
-    : path_(path),
-      feeds_(feeds),
-      cutter_(axes),
-      profile_(axes, effort),
-      most_queued_(std::max(most_queued, fewest_queued)),
-      shapes_(axes.size()) {}
+JerkWindow::JerkWindow(const Inputs& inputs, const PlanEffort& effort)
+    : path_(inputs.path),
+      feeds_(inputs.feeds),
+      stops_(inputs.stops),
+      cutter_(inputs.axes),
+      profile_(inputs.axes, effort),
+      most_queued_(std::max(inputs.most_queued, fewest_queued)),
+      shapes_(inputs.axes.size()) {}
 
-void JerkWindow::begin_at(const PathState& start) {
+void JerkWindow::begin_at(const PathState& start, const Point& stopped) {
   profile_.drop(profile_.size());
   if (start.speed > 0) profile_.begin_in_motion({.speed = start.speed, .acceleration = start.acceleration});
   start_ = start;
+  stopped_ = stopped;
+  after_corner_ = false;
   cut_ = start.segment;
   started_ = cutting_ = closed_ = false;
   length_ = 0;
@@ -39,10 +42,34 @@ void JerkWindow::begin_at(const PathState& start) {
   given_ = decided_ = 0;
 }
 
+// Begins where the window before has ended: at a stop between two segments.
+void JerkWindow::begin_after_stop() {
+  begin_at({.segment = path_.first()});
+  after_corner_ = true;
+}
+
+// The greatest speed (squared) at the start. Nothing is read from the path before it is needed.
+double JerkWindow::start_squared(const Segment& first) const {
+  if (start_.speed > 0) return start_.speed * start_.speed;
+  if (stops_ == nullptr) return 0;
+  const Point direction = first.curve.tangent(Mm(start_.s));
+  return after_corner_ ? stops_->between(end_direction_, direction).start : stops_->at_start(direction, stopped_);
+}
+
+// The greatest speed (squared) at the stop after that segment. A path that waits for its next line may go on there.
+double JerkWindow::end_squared_after(std::uint64_t number, const Point& direction) const {
+  if (stops_ == nullptr) return 0;
+  if (const Segment* const after = path_.at(number + 1)) {
+    return stops_->between(direction, after->curve.tangent(Mm(0))).end;
+  }
+  const Action* const action = path_.action();
+  return action != nullptr && action->kind == Action::Kind::await_line ? 0 : stops_->at_end(direction);
+}
+
 bool JerkWindow::can_go_on(double way) {
   while (!closed_ && profile_.size() < most_queued_ && (length_ < way || profile_.size() < fewest_in_motion)) pull();
   if (profile_.size() == 0) return false;
-  decided_ = profile_.plan(closed_);
+  decided_ = profile_.plan(closed_, end_squared_);
   return !profile_.fell_back();
 }
 
@@ -50,12 +77,12 @@ bool JerkWindow::can_rest_after(double way) {
   way_to_rest_ = way;
   while (!closed_ && profile_.size() < most_queued_) pull();
   if (!closed_ || profile_.size() == 0) return false;
-  decided_ = profile_.plan(closed_);
+  decided_ = profile_.plan(closed_, end_squared_);
   return !profile_.fell_back();
 }
 
 bool JerkWindow::next(PlannedMove& move) {
-  for (;; begin_at({.segment = path_.first()})) {
+  for (;; begin_after_stop()) {
     if (goes_from_rest_to_rest(move)) return true;
     while (given_ == decided_ && !(profile_.size() == given_ && closed_)) look_ahead();
     if (given_ < decided_) break;
@@ -93,7 +120,7 @@ void JerkWindow::look_ahead() {
       std::max<std::size_t>(profile_.fell_back() ? profile_.size() : 2 * profile_.size(), first_jerk_window);
   while (!closed_ && profile_.size() < wanted && profile_.size() < most_queued_) pull();
   if (profile_.size() == 0) return;
-  decided_ = profile_.plan(closed_);
+  decided_ = profile_.plan(closed_, end_squared_);
   if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
 }
 
@@ -106,7 +133,12 @@ bool JerkWindow::goes_from_rest_to_rest(PlannedMove& move) {
   cutter_.begin(*segment, {.from = start_.s, .feed = feeds_.speed_on(*segment)});
   if (!cutter_.is_straight()) return false;
   move.begin_on(*segment);
-  add_rest_to_rest(start_.s, segment->curve.length().value(), cutter_.path_limits(), move);
+  const double start = start_squared(*segment);  // first: it needs the direction in which the window before ended
+  end_direction_ = segment->curve.tangent(segment->curve.length());
+  const double end = end_squared_after(start_.segment, end_direction_);
+  add_rest_to_rest(
+      {.from = start_.s, .to = segment->curve.length().value(), .entry = std::sqrt(start), .exit = std::sqrt(end)},
+      cutter_.path_limits(), move);
   cut_ = start_.segment + 1;
   started_ = closed_ = true;
   return true;
@@ -135,13 +167,19 @@ void JerkWindow::pull() {
   const bool rests = rest < length + least;
   if (rests) way_to_rest_ = length_;
   const Segment* after = rests ? nullptr : path_.after(cut_);
-  const double exit = after == nullptr ? 0 : cutter_.joint_cap(*segment, *after);
   if (!started_) {
-    estimate_ = start_.speed * start_.speed;
+    estimate_ = start_squared(*segment);
+    if (start_.speed == 0) profile_.begin_at_stop(estimate_);
   } else {
     const Segment& before = *path_.at(cut_ - 1);
     estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
   }
+  end_squared_ = 0;
+  if (after == nullptr && !rests) {
+    end_direction_ = segment->curve.tangent(segment->curve.length());
+    end_squared_ = end_squared_after(cut_, end_direction_);
+  }
+  const double exit = after == nullptr ? end_squared_ : cutter_.joint_cap(*segment, *after);
   cutter_.begin(*segment, {.from = from,
                            .to = rest < length - least ? rest : length,
                            .entry_squared = estimate_,

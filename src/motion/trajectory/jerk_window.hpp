@@ -12,6 +12,7 @@
 #include "jerk_profile.hpp"
 #include "path_ahead.hpp"
 #include "path_state.hpp"
+#include "rest.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -19,11 +20,18 @@ namespace passo {
 
 class JerkWindow {
  public:
-  // `axes`, `path` and `feeds` must outlive the window. Cells are cut for the feeds at construction.
-  JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, const FeedFactors& feeds, std::size_t most_queued,
-             const PlanEffort& effort = {});
+  struct Inputs {
+    const std::vector<LimitedAxis>& axes;
+    PathAhead& path;
+    const FeedFactors& feeds;           // cells are cut for the feeds at construction
+    const StopSpeeds* stops = nullptr;  // the speeds at stops; null: none
+    std::size_t most_queued = 0;
+  };
+  // The inputs must outlive the window.
+  explicit JerkWindow(const Inputs& inputs, const PlanEffort& effort = {});
 
-  void begin_at(const PathState& start);
+  // Begins there. At a stop: `stopped` is the velocity with which the motion before ended.
+  void begin_at(const PathState& start, const Point& stopped = {});
   // Whether a plan from a start in motion is found, with at least the distance `way` of the path in view (less if the
   // path stops before).
   [[nodiscard]] bool can_go_on(double way);
@@ -41,22 +49,30 @@ class JerkWindow {
   bool add_cell(std::size_t i, PlannedMove& move) const;
   bool goes_from_rest_to_rest(PlannedMove& move);
   void pull();
+  double start_squared(const Segment& first) const;
+  void begin_after_stop();
+  double end_squared_after(std::uint64_t number, const Point& direction) const;
   void look_ahead();
 
   PathAhead& path_;
   const FeedFactors& feeds_;
+  const StopSpeeds* stops_;
   JerkCutter cutter_;
   JerkProfile profile_;
   std::size_t most_queued_;
 
   PathState start_;
-  std::uint64_t cut_ = 0;  // the first segment that is not completely in the profile
+  Point stopped_;              // at a stop: the velocity with which the motion before ended
+  bool after_corner_ = false;  // at a stop: the window before ended in `end_direction_`
+  std::uint64_t cut_ = 0;      // the first segment that is not completely in the profile
   bool started_ = false;
   bool cutting_ = false;
   double estimate_ = 0;  // squared: the highest entry speed of the next cell
   double length_ = 0;    // of all cells since the start
   double way_to_rest_ = std::numeric_limits<double>::infinity();
   bool closed_ = false;
+  double end_squared_ = 0;   // if closed: the greatest speed at the end
+  Point end_direction_;      // if closed
   std::size_t decided_ = 0;  // cells at the front that later cells cannot change
   std::size_t given_ = 0;    // of the decided cells, those returned
   JerkCell cell_;

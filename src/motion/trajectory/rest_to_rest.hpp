@@ -4,6 +4,8 @@
 //                /  \________            speed; the same for deceleration. A short distance omits some phases.
 //                            \__/
 //
+// With start-stop velocities the motion begins and ends with a speed, still without acceleration.
+//
 // Source: the closed forms for limited jerk, for instance L. Biagiotti, C. Melchiorri, "Trajectory Planning for
 // Automatic Machines and Robots" (2008), 3.4.
 #pragma once
@@ -19,7 +21,15 @@ struct PathLimits {
   double jerk = 0;          // mm/s³
 };
 
-// Adds the phases from `from` to `to` (positions on the segment's curve, in mm, from < to) to an empty move.
-void add_rest_to_rest(double from, double to, const PathLimits& limits, PlannedMove& move);
+// The way from stop to stop: positions on the segment's curve, in mm, from < to. The motors may jump to the speed
+// `entry` at the first stop, and from `exit` at the second (mm/s). Both may be lower.
+struct WayBetweenStops {
+  double from = 0;
+  double to = 0;
+  double entry = 0;
+  double exit = 0;
+};
+// Adds the phases of that way to an empty move.
+void add_rest_to_rest(const WayBetweenStops& way, const PathLimits& limits, PlannedMove& move);
 
 }  // namespace passo

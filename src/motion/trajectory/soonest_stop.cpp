@@ -17,7 +17,8 @@ constexpr PlanEffort little{.rounds = 3, .attempts = 2};
 
 std::optional<SpeedChange> fastest_to_rest_after(double way, PathAhead& path, const PathState& from,
                                                  const SpeedChange::Request& request) {
-  JerkWindow window(request.axes, path, request.feeds, most_cells_of_stop, little);
+  JerkWindow window({.axes = request.axes, .path = path, .feeds = request.feeds, .most_queued = most_cells_of_stop},
+                    little);
   window.begin_at(from);
   if (!window.can_rest_after(way)) return std::nullopt;
   std::vector<SpeedChange::Piece> pieces;

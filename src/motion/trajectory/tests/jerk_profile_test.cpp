@@ -105,7 +105,8 @@ TEST(JerkProfile, begins_on_an_axis_without_a_limit_of_jerk_and_goes_on_with_ano
     profile.push(cell, shapes.data());
     way += cell.length;
   }
-  ASSERT_EQ(profile.plan(true), profile.size());
+  const std::size_t decided = profile.plan(true);
+  ASSERT_EQ(decided, profile.size());
   EXPECT_LE(profile.size(), 4 * each);
   double time = 0;
   for (std::size_t i = 0; i < profile.size(); ++i) {

@@ -147,6 +147,62 @@ TEST(StartStop, a_hold_may_end_at_the_end_of_the_path) {
   EXPECT_NEAR(end, plan.back().to.value(), 1e-12);
 }
 
+MotionLimits jerky(double start_stop, double jerk) {
+  MotionLimits limits = limits_with(start_stop);
+  for (const Axis axis : all_axes) limits.jerk[axis] = MmPerSecond3(jerk);
+  return limits;
+}
+
+// With jerk limits: from one speed to another with trapezoids of the acceleration, from there on, and back.
+double seconds_with_jerk(double way, double rest, double top, double acceleration, double jerk) {
+  const double ramp = (top - rest) / acceleration + acceleration / jerk;
+  return 2 * ramp + (way - ramp * (top + rest)) / top;
+}
+
+TEST(StartStop, with_jerk_limits_a_motion_begins_and_ends_with_it_too) {
+  const auto motion = plan(polyline({xyz(0, 0), xyz(30, 0)}, 50), jerky(8, 25'000));
+  EXPECT_EQ(entry_speed(std::get<PlannedMove>(motion.front())), 8);
+  EXPECT_NEAR(exit_speed(std::get<PlannedMove>(motion.back())), 8, 1e-9);
+  EXPECT_NEAR(total_time(motion), seconds_with_jerk(30, 8, 50, 500, 25'000), 1e-9);
+  const auto slow = plan(polyline({xyz(0, 0), xyz(0.5, 0)}, 4), jerky(5, 25'000));
+  EXPECT_NEAR(total_time(slow), 0.5 / 4, 1e-12);
+}
+
+// X stops at its own velocity and Y starts at its own. An axis that reverses shares its velocity between both ways.
+TEST(StartStop, with_jerk_limits_each_side_of_a_corner_has_its_own_speed) {
+  MotionLimits limits = jerky(8, 25'000);
+  limits.start_stop[Axis::y] = MmPerSecond(3);
+  const auto motion = plan(polyline({xyz(0, 0), xyz(20, 0), xyz(20, 20), xyz(40, 20)}, 50), limits);
+  EXPECT_NEAR(exit_speed(std::get<PlannedMove>(motion[0])), 8, 1e-9);
+  EXPECT_NEAR(entry_speed(std::get<PlannedMove>(motion[1])), 3, 1e-9);
+  EXPECT_NEAR(total_time(motion),
+              2 * seconds_with_jerk(20, 8, 50, 500, 25'000) + seconds_with_jerk(20, 3, 50, 500, 25'000), 1e-9);
+  const auto back = plan(polyline({xyz(0, 0), xyz(20, 0), xyz(0, 0)}, 50), limits);
+  EXPECT_NEAR(exit_speed(std::get<PlannedMove>(back[0])), 4, 1e-9);
+  EXPECT_NEAR(entry_speed(std::get<PlannedMove>(back[1])), 4, 1e-9);
+}
+
+// Two lines that a curve joins, so that cells are planned. A hold brakes to a stop, and the motion goes on with it.
+TEST(StartStop, with_jerk_limits_a_path_of_several_segments_begins_with_it) {
+  const std::vector<PathItem> path = polyline({xyz(0, 0), xyz(20, 0), xyz(40, 0)}, 50);
+  const auto motion = plan(path, jerky(8, 25'000));
+  EXPECT_NEAR(entry_speed(std::get<PlannedMove>(motion.front())), 8, 1e-9);
+  EXPECT_NEAR(exit_speed(std::get<PlannedMove>(motion.back())), 8, 1e-9);
+  EXPECT_NEAR(total_time(motion), seconds_with_jerk(40, 8, 50, 500, 25'000), 2e-3);
+  ListSource<PathItem> source(path);
+  Planner planner(source, jerky(8, 25'000));
+  planner.limit_moves_to(Seconds(0.05));
+  MotionItem item;
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(planner.next(item));
+  planner.hold();
+  while (planner.next(item) && std::holds_alternative<PlannedMove>(item)) {
+  }
+  ASSERT_EQ(std::get<Action>(item).kind, Action::Kind::feed_hold);
+  planner.resume();
+  ASSERT_TRUE(planner.next(item));
+  EXPECT_NEAR(entry_speed(std::get<PlannedMove>(item)), 8, 1e-9);
+}
+
 // Whether the velocity of every axis jumps only where the path rests, and there by no more than it may.
 void expect_fair_jumps(const std::vector<MotionItem>& motion, const MotionLimits& limits) {
   PerAxis<Real> velocity;

@@ -38,7 +38,7 @@ struct MotionLimits {
   // constant limit.
   PerAxis<AccelerationCurve> falling;
   // The velocity to which a motor can jump from standstill, and from which it can stop instantly, without losing a
-  // step. 0: none. Planning with jerk limits does not use it.
+  // step. 0: none. Jerk limits hold above it.
   PerAxis<MmPerSecond> start_stop;
   // Limits in addition to those of the axes, at most most_limited_rows. None on a machine with a motor for each axis.
   std::vector<RowLimits> rows = {};
