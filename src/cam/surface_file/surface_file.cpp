@@ -16,7 +16,7 @@ bool is_text(std::string_view bytes) {
 }
 
 // Two triangles a cell bound it; its height is that of the map.
-Surface surface_of(const HeightMap& map) {
+SurfaceFaces faces_of(const HeightMap& map) {
   const auto corner = [&](std::size_t column, std::size_t row) {
     return SurfacePoint{map.columns()[column], map.rows()[row], map.at(column, row)};
   };
@@ -28,7 +28,7 @@ Surface surface_of(const HeightMap& map) {
       all.push_back({corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)});
     }
   }
-  return Surface(std::move(all), [map](double x, double y) { return map.height(x, y); });
+  return {std::move(all), [map](double x, double y) { return map.height(x, y); }};
 }
 
 }  // namespace
@@ -37,15 +37,20 @@ bool looks_like_body(std::string_view bytes) {
   return looks_like_stl(bytes);
 }
 
-Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (looks_like_body(bytes)) return Surface(read_stl(name, bytes, diagnostics));
+SurfaceFaces read_faces(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  if (looks_like_body(bytes)) return {read_stl(name, bytes, diagnostics), {}};
   if (is_text(bytes)) {
     const std::optional<HeightMap> map = read_height_map(name, bytes, diagnostics);
-    return map ? surface_of(*map) : Surface();
+    return map ? faces_of(*map) : SurfaceFaces();
   }
   diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL file nor a height map",
                           "STL, text or binary, or lines x,y,z"));
   return {};
+}
+
+Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  SurfaceFaces faces = read_faces(name, bytes, diagnostics);
+  return faces.triangles.empty() ? Surface() : Surface(std::move(faces.triangles), std::move(faces.height));
 }
 
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics) {

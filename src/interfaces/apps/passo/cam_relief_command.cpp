@@ -153,12 +153,12 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
       read_bytes(arguments.file, {.area = "picture", .expected = "a PNG or TIFF picture, or an STL file"}, findings);
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
+  shape.wished_pitch = pitch_for(job.program);
   ReliefGrid read;
   if (is_level_picture(*bytes)) {
     const PixelLevel level = arguments.channel == "alpha" ? PixelLevel::alpha : PixelLevel::luminance;
     const LevelPicture picture = read_level_picture(arguments.file, *bytes, level, findings);
     if (picture.columns == 0) return std::nullopt;
-    shape.wished_pitch = pitch_for(job.program);
     read.grid = relief_of(picture, shape, arguments.file, findings);
     read.words = fmt::format("{} x {} pixels, {}, {}", picture.columns, picture.rows, picture.kind, arguments.channel);
   } else {
@@ -175,10 +175,12 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
                            "a PNG or TIFF picture, an STL file or a height map x,y,z"));
       return std::nullopt;
     }
-    const Surface body = read_surface(arguments.file, *bytes, findings);
+    SurfaceFaces faces = read_faces(arguments.file, *bytes, findings);
     if (findings.any_error()) return std::nullopt;
-    read.grid = relief_of(body, shape, arguments.file, findings);
-    read.words = counted(body.triangles(), "triangle") + ", seen from above";
+    read.words = counted(faces.triangles.size(), "triangle") + ", seen from above";
+    shape.threads = job.program.threads;
+    read.grid = relief_of({.faces = std::move(faces.triangles), .height = std::move(faces.height)}, shape,
+                          arguments.file, findings);
   }
   if (read.grid.columns == 0) return std::nullopt;
   return read;
