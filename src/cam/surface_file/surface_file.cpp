@@ -1,5 +1,8 @@
 #include "passo/surface_file/surface_file.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -51,6 +54,36 @@ SurfaceFaces read_faces(const std::string& name, std::string_view bytes, Diagnos
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   SurfaceFaces faces = read_faces(name, bytes, diagnostics);
   return faces.triangles.empty() ? Surface() : Surface(std::move(faces.triangles), std::move(faces.height));
+}
+
+// Sorts the edges by the bits of their ends. Two different edges with the same number are too rare to matter.
+std::size_t open_edges(const std::vector<SurfaceTriangle>& triangles) {
+  const auto number = [](const SurfacePoint& point) {
+    std::uint64_t all = 0;
+    for (const double value : {point.x, point.y, point.z}) {
+      all = (all ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9E3779B97F4A7C15U;  // + 0.0: -0 is 0
+      all ^= all >> 32U;
+    }
+    return all;
+  };
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * triangles.size());
+  for (const SurfaceTriangle& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t a = number(triangle[i]);
+      const std::uint64_t b = number(triangle[(i + 1) % 3]);
+      if (a != b) edges.push_back(a * b + (a ^ b));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i;
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    open += (end - i) % 2;
+    i = end;
+  }
+  return open;
 }
 
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics) {
