@@ -49,7 +49,7 @@ measure "a text of 42 characters by a V-shaped cutter" "$passo" cam engrave --te
   --height 10 -o "$new/text.ngc"
 measure "a pocket by constant engagement, 40 x 14 mm, 3 mm cutter" "$passo" cam pocket examples/parts/bracket.svg --layer pocket \
   --tool 3 --depth -6 --step 6 --engagement 60 -o "$new/pocket.ngc"
-"$passo" cam relief examples/reliefs/flower.png --width 60 --depth 4 --step 0.4 -o "$new/flower.ngc" >/dev/null
+"$passo" cam relief examples/reliefs/flower.png --width 60 --depth -4 --step 0.4 -o "$new/flower.ngc" >/dev/null
 measure "the relief of the example cut, cells of 0.1 mm" "$passo" simulate "$new/flower.ngc" --tool ball:3 --cell 0.1
 for program in "${programs[@]}"; do
   measure "$(basename "$program") cut, cells of 0.1 mm" "$passo" simulate "$program" --tool flat:3 --cell 0.1

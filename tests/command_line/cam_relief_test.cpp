@@ -21,7 +21,7 @@ class CamRelief : public passo::test::CommandLine {
 
 TEST_F(CamRelief, three_cutters_carve_a_picture_and_a_machine_can_run_it) {
   const Outcome made = relief(flower +
-                              " --width 20 --depth 3 --rough flat:4 --cutter ball:2 --rest ball:0.8 --scallop 0.2 "
+                              " --width 20 --depth -3 --rough flat:4 --cutter ball:2 --rest ball:0.8 --scallop 0.2 "
                               "--origin center --spindle 12000 -o " +
                               path("f.ngc") + " -p " + path("f.png"));
   EXPECT_EQ(made.code, 0) << made.err;
@@ -96,6 +96,66 @@ TEST_F(CamRelief, a_height_map_is_carved_too) {
               HasSubstr("12 triangles, seen from above\n30 x 20 mm, 3 mm deep; 31 x 21 grid points, 1 mm apart\n"));
 }
 
+struct Block {
+  double low[3];
+  double high[3];
+};
+
+// The text of an STL model.
+std::string stl_of(const std::vector<Block>& blocks) {
+  constexpr int sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  std::string text = "solid part\n";
+  for (const Block& block : blocks) {
+    const auto corner = [&](int i) {
+      return fmt::format("vertex {} {} {}\n", ((i & 1) != 0 ? block.high : block.low)[0],
+                         ((i & 2) != 0 ? block.high : block.low)[1], ((i & 4) != 0 ? block.high : block.low)[2]);
+    };
+    const auto facet = [&](int a, int b, int c) {
+      text += "facet normal 0 0 0\nouter loop\n" + corner(a) + corner(b) + corner(c) + "endloop\nendfacet\n";
+    };
+    for (const auto& side : sides) {
+      facet(side[0], side[1], side[2]);
+      facet(side[0], side[2], side[3]);
+    }
+  }
+  return text + "endsolid part\n";
+}
+
+const std::vector<Block> rib_on_a_plate = {{{0, 0, -9}, {40, 12, -8}}, {{20.05, 1, -8}, {20.3, 11, 0}}};
+
+TEST_F(CamRelief, a_rib_thinner_than_a_cell_stays_and_one_that_was_cut_away_is_found) {
+  const std::string part = write("rib.stl", stl_of(rib_on_a_plate));
+  const std::string plate = write("plate.stl", stl_of({rib_on_a_plate[0], {{39, 11, -8}, {40, 12, 0}}}));
+  const std::string compare = " --tool ball:6 --cell 0.5 --tolerance 0.1 --compare " + part;
+  for (const char* way : {"rows", "contours"}) {
+    const Outcome made = relief(part + " --cutter ball:6 --way " + way + " -o " + path("r.ngc"));
+    EXPECT_EQ(made.code, 0) << made.err;
+    const Outcome good = passo("simulate " + path("r.ngc") + compare);
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_THAT(good.out, HasSubstr("gouges          none deeper than "));
+  }
+  EXPECT_EQ(relief(plate + " --cutter ball:6 -o " + path("p.ngc")).code, 0);
+  const Outcome bad = passo("simulate " + path("p.ngc") + compare);
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.err, HasSubstr("[simulate.gouge]"));
+}
+
+TEST_F(CamRelief, a_model_is_turned_and_has_a_unit) {
+  const std::string part = write("part.stl", stl_of({{{0, 0, 0}, {4, 1, 2}}}));
+  const std::string out = " --cutter flat:3 -o " + path("t.ngc");
+  EXPECT_THAT(relief(part + out).out, HasSubstr("\n4 x 1 mm, 2 mm deep;"));
+  EXPECT_THAT(relief(part + " --up y" + out).out, HasSubstr("\n4 x 2 mm, 1 mm deep;"));
+  EXPECT_THAT(relief(part + " --up -x --input-units inch" + out).out, HasSubstr("\n50.8 x 25.4 mm, 101.6 mm deep;"));
+  const std::string tiny = write("tiny.stl", stl_of({{{0, 0, 0}, {0.01, 0.01, 0.001}}}));
+  const Outcome asked = relief(tiny + out);
+  EXPECT_EQ(asked.code, 2);
+  EXPECT_THAT(asked.err, HasSubstr("the model is 0.01 by 0.01 mm: is it in metres or inches?"));
+  EXPECT_EQ(relief(tiny + " --input-units m" + out).code, 0);
+  const Outcome many = relief(tiny + " --width 10 --pitch 0.001 --overrun 20" + out);
+  EXPECT_EQ(many.code, 2);
+  EXPECT_THAT(many.err, HasSubstr("[relief.too-many-nodes]"));
+}
+
 TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   const std::string out = " -o " + path("r.ngc");
   const auto refused = [&](const std::string& arguments, const std::string& words) {
@@ -113,7 +173,8 @@ TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   refused(flower + " --channel alpha", "it has no alpha channel");
   refused(flower + " --cutter ball", "--cutter: 'ball': expected ball:DIAMETER");
   refused(flower + " --rest drill:1", "--rest: 'drill:1' is not a valid cutter");
-  refused(flower + " --depth 300", "--depth: expected 0.001 to 250 mm, found '300'");
+  refused(flower + " --depth -300", "--depth: expected -250 to -0.001 mm, found '-300'");
+  refused(flower + " --depth 4", "--depth: expected a Z below the top at Z0, found '4'; write --depth -4");
   refused(flower + " --pitch 0.001", "[relief.too-many-nodes]");
   refused(flower + " --origin top", "--origin: expected lower-left");
   refused(flower + " --way waterline", "--way: waterline not in");

@@ -88,7 +88,7 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
   const CarvedPlace start = path.cuts.front().from;
   double lowest = static_cast<double>(start.z) / carved_units;
   for (const CarvedCut& cut : path.cuts) lowest = std::min(lowest, static_cast<double>(cut.to.z) / carved_units);
-  const double free = stock_->free_height(path.cuts);
+  const double free = entry.cuts_with_rim ? stock_->free_height_inside(path.cuts) : stock_->free_height(path.cuts);
   constexpr double nothing = 1e-4;  // mm
   if (entry.is_for_stock && free <= lowest + nothing) return;
   std::size_t next = 0;
@@ -99,7 +99,8 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
     return surface.highest(flat(writer_.place()), flat(start)) <= height + 2 * LevelLines::slack;
   };
   const double over = std::max({at, free, static_cast<double>(start.z) / carved_units});
-  const double begin = std::max(free, static_cast<double>(start.z) / carved_units);
+  const double start_z = static_cast<double>(start.z) / carved_units;
+  const double begin = std::max(free, start_z);
   if (is_near && entry.sideways && at <= lowest + nothing && is_free_at(at)) {
     writer_.cut_to({start.x, start.y, writer_.place().z});
     writer_.cut_to(start);
@@ -110,7 +111,7 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
     writer_.cut_to({start.x, start.y, z});
     if (options_.ramps && over > lowest + nothing) next = ramp_down(path, over, lowest);
   } else {
-    approach(start, begin);
+    approach(start, std::max(begin, entry.cuts_with_rim ? stock_->free_height(flat(start), 0) : begin));
     writer_.cut_to({start.x, start.y, carved_height(begin)});
     if (options_.ramps && begin > lowest + nothing) next = ramp_down(path, begin, lowest);
   }

@@ -4,62 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node_mask.hpp"
 #include "relief_passes.hpp"
 
 #include "passo/carve/relief_surface.hpp"
 
 namespace passo {
 namespace {
-
-// A yes or no for each node of a map.
-class NodeMask {
- public:
-  explicit NodeMask(const TipMap& map) : map_(map), marks_(map.columns * map.rows, 0) {}
-
-  // Nodes by their places in the map: margins counted.
-  char& mark(std::size_t column, std::size_t row) { return marks_[row * map_.columns + column]; }
-  bool at(std::ptrdiff_t column, std::ptrdiff_t row) const {
-    return marks_[static_cast<std::size_t>(row + map_.margin_y) * map_.columns +
-                  static_cast<std::size_t>(column + map_.margin_x)] != 0;
-  }
-  bool near(const FlatPlace& place, const TipSurface& surface) const {
-    const auto node = [](double at, double pitch, std::ptrdiff_t margin, std::size_t count) {
-      const auto nearest = static_cast<std::ptrdiff_t>(std::lround(at / pitch));
-      return std::clamp<std::ptrdiff_t>(nearest, -margin, static_cast<std::ptrdiff_t>(count) - 1 - margin);
-    };
-    return at(node(place.x, surface.pitch_x(), map_.margin_x, map_.columns),
-              node(place.y, surface.pitch_y(), map_.margin_y, map_.rows));
-  }
-  void invert() {
-    for (char& mark : marks_) mark = mark == 0 ? 1 : 0;
-  }
-  // So many nodes more each way.
-  void widen(std::ptrdiff_t columns, std::ptrdiff_t rows) {
-    for (std::size_t row = 0; row < map_.rows; ++row) widen_line(row * map_.columns, 1, map_.columns, columns);
-    for (std::size_t column = 0; column < map_.columns; ++column) widen_line(column, map_.columns, map_.rows, rows);
-  }
-
- private:
-  void widen_line(std::size_t first, std::size_t apart, std::size_t count, std::ptrdiff_t nodes) {
-    std::ptrdiff_t last = -nodes - 1;  // the last mark before
-    std::vector<char>& line = line_;
-    line.assign(count, 0);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (marks_[first + i * apart] != 0) last = static_cast<std::ptrdiff_t>(i);
-      if (static_cast<std::ptrdiff_t>(i) - last <= nodes) line[i] = 1;
-    }
-    last = static_cast<std::ptrdiff_t>(count) + nodes;
-    for (std::size_t i = count; i-- > 0;) {
-      if (marks_[first + i * apart] != 0) last = static_cast<std::ptrdiff_t>(i);
-      if (last - static_cast<std::ptrdiff_t>(i) <= nodes) line[i] = 1;
-    }
-    for (std::size_t i = 0; i < count; ++i) marks_[first + i * apart] = line[i];
-  }
-
-  const TipMap& map_;
-  std::vector<char> marks_;
-  std::vector<char> line_;
-};
 
 // The nodes from which the map goes up or down steeply.
 NodeMask steep_nodes(const TipMap& map, const HeightGrid& surface, Radians steep) {
@@ -143,6 +94,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   NodeMask level = steep;
   level.invert();
   level.widen(step_x, step_y);
+  const NodeMask work = nodes_of_work(tips, surface, step, floor, options);
 
   const float top = *std::max_element(tips.heights.begin(), tips.heights.end());
   const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
@@ -150,24 +102,26 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   const double levels = std::ceil(static_cast<double>(top - lowest) / wanted - 1e-6);
   const double down = levels > 0 ? static_cast<double>(top - lowest) / levels : 0;
   const LevelPathFit fit{.tolerance = options.tolerance.value(), .has_arcs = options.arcs};
-  const ReliefPass::WayEntry entry{.near = cutter.radius.value() * 2};
+  const ReliefPass::WayEntry entry{.near = cutter.radius.value() * 2, .cuts_with_rim = true};
   LevelLines lines(tips, surface.pitch_x, surface.pitch_y);
   for (double i = 1; i <= levels; ++i) {
     const float height = i < levels ? grid_height(Mm(static_cast<double>(top) - down * i)) : lowest;
-    NearestLines work;
+    NearestLines next;
     lines.trace(height, [&](LevelLine&& line) {
-      const auto wants = [&](const FlatPlace& place) { return steep.near(place, tip_surface); };
-      for (LevelLine& part : parts_of(line, wants, step.value() * 2, step.value() * 2)) work.add(std::move(part));
+      const auto wants = [&](const FlatPlace& place) {
+        return steep.near(place, tip_surface) && work.near(place, tip_surface);
+      };
+      for (LevelLine& part : parts_of(line, wants, step.value() * 2, step.value() * 2)) next.add(std::move(part));
     });
-    while (!work.empty()) {
-      const LevelLine line = work.take(pass.flat_place());
+    while (!next.empty()) {
+      const LevelLine line = next.take(pass.flat_place());
       pass.cut_way(fit_level_path(line, static_cast<double>(height), tip_surface, lattice, fit), tip_surface, entry);
     }
     progress(i / levels * 0.7);
   }
   AreaSweep sweep(
       pass, area_of(tips, step_y, nodes_of(cutter.radius, surface.pitch_x)),
-      [&](auto column, auto row) { return level.at(column, row); },
+      [&](auto column, auto row) { return level.at(column, row) && work.at(column, row); },
       [&](auto column, auto row) { return tips.at(column, row); },
       [&](auto column, auto row) {
         const FlatPlace place{static_cast<double>(column) * surface.pitch_x.value(),

@@ -32,6 +32,20 @@ TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm 
                          static_cast<std::size_t>(overrun_nodes(overrun, surface.pitch_y)), options.threads);
 }
 
+NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, Mm around, float floor,
+                       const ReliefProgramOptions& options) {
+  NodeMask mask(map);
+  constexpr float least = 0.001F;  // mm
+  for (std::size_t row = 0; row < map.rows; ++row) {
+    for (std::size_t column = 0; column < map.columns; ++column) {
+      const bool is_high = map.heights[row * map.columns + column] > floor + least;
+      mask.mark(column, row) = !options.only_on_model || is_high ? 1 : 0;
+    }
+  }
+  if (options.only_on_model) mask.widen(nodes_of(around, surface.pitch_x), nodes_of(around, surface.pitch_y));
+  return mask;
+}
+
 // The tip of the grown shape is lower by the stock.
 TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options) {
   const ReliefRoughing& roughing = *options.roughing;
@@ -39,6 +53,17 @@ TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& opti
   TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor_of(surface),
                         roughing_overrun(options), options);
   for (float& height : tips.heights) height = std::min(0.0F, height + stock);
+  if (!options.only_on_model) return tips;
+  // Where there is no work, the tip stays at the top. The finishing cutter must find room around the model.
+  const Mm around = options.finish.cutter.radius * 2 + step_of(roughing.tool, options, true);
+  const NodeMask work = nodes_of_work(tips, surface, around, floor_of(surface) + stock, options);
+  for (std::size_t row = 0; row < tips.rows; ++row) {
+    for (std::size_t column = 0; column < tips.columns; ++column) {
+      const bool is_work = work.at(static_cast<std::ptrdiff_t>(column) - tips.margin_x,
+                                   static_cast<std::ptrdiff_t>(row) - tips.margin_y);
+      if (!is_work) tips.heights[row * tips.columns + column] = 0;
+    }
+  }
   return tips;
 }
 
@@ -150,6 +175,28 @@ void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
     }
     progress(static_cast<double>(first + rows.size()) / static_cast<double>(work.count()));
   }
+}
+
+void finish_rows_on_model(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                          const std::function<void(double)>& progress) {
+  const ReliefProgramOptions& options = pass.options();
+  const Cutter& cutter = options.finish.cutter;
+  const float floor = floor_of(surface);
+  const TipMap tips = tips_of(surface, cutter, floor, finishing_overrun(options), options);
+  pass.set_lattice(lattice);
+  const Mm step = step_of(options.finish, options, false);
+  const NodeMask work = nodes_of_work(tips, surface, step, floor, options);
+  AreaSweep sweep(
+      pass, area_of(tips, step_nodes(step, surface.pitch_y), nodes_of(cutter.radius, surface.pitch_x)),
+      [&](auto column, auto row) { return work.at(column, row); },
+      [&](auto column, auto row) { return tips.at(column, row); },
+      [&](auto column, auto row) {
+        const double x = static_cast<double>(column) * surface.pitch_x.value();
+        const double y = static_cast<double>(row) * surface.pitch_y.value();
+        const FlatPlace place = lattice.turned ? FlatPlace{y, x} : FlatPlace{x, y};
+        return static_cast<float>(pass.stock()->free_height(place, cutter.radius.value() / 2));
+      });
+  sweep.cut(progress);
 }
 
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,

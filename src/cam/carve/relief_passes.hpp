@@ -10,6 +10,7 @@
 #include "level_lines.hpp"
 #include "level_path.hpp"
 #include "move_writer.hpp"
+#include "node_mask.hpp"
 #include "node_run.hpp"
 #include "parallel_rows.hpp"
 #include "stock_in_work.hpp"
@@ -65,6 +66,9 @@ class ReliefPass {
                             // is in between
     bool sideways = false;  // enters at full depth from the side; the stock there is at most one stepover wide
     bool is_for_stock = false;  // skips a toolpath above which there is no stock
+    // The ramp begins where the inner half of the cutter touches the stock: the rest is cut by the rim, as between two
+    // neighbouring toolpaths.
+    bool cuts_with_rim = false;
   };
   // Approaches a toolpath of lines and arcs, descends along it, and cuts all of it. Requires the stock.
   void cut_way(const LevelPath& path, const TipSurface& surface, const WayEntry& entry);
@@ -152,6 +156,9 @@ TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm 
                const ReliefProgramOptions& options);
 // Returns the tip heights of the roughing cutter, including the stock to leave, limited to the top of the stock.
 TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options);
+// Returns the nodes where the program may cut: all, or those where the cutter touches the model, and `around` more.
+NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, Mm around, float floor,
+                       const ReliefProgramOptions& options);
 AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t gap);
 
 void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
@@ -162,6 +169,9 @@ void rough_by_offsets(ReliefPass& pass, const HeightGrid& surface, const NodeLat
 // Finishes in rows or columns, as `way` says; for columns the surface must be transposed.
 void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
+// Does the same only where the model stands.
+void finish_rows_on_model(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                          const std::function<void(double)>& progress);
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                    const std::function<void(double)>& progress);
 // Finishes steep areas at constant heights, the remaining area in rows.

@@ -135,16 +135,18 @@ void ReliefProgram::record(const ReliefTool& tool, Mm overrun, const std::functi
 void ReliefProgram::finish() {
   if (options_.way == FinishStrategy::contours) cut(finish_contours, surface_, false);
   if (options_.way == FinishStrategy::spiral) cut(finish_spiral, surface_, false);
-  if (options_.way == FinishStrategy::rows || options_.way == FinishStrategy::both) cut(finish_rows, surface_, false);
+  const Cut rows = options_.only_on_model ? finish_rows_on_model : finish_rows;
+  if (options_.way == FinishStrategy::rows || options_.way == FinishStrategy::both) cut(rows, surface_, false);
   if (options_.way == FinishStrategy::columns || options_.way == FinishStrategy::both) {
-    cut(finish_rows, surface_.transposed(), true);
+    cut(rows, surface_.transposed(), true);
   }
 }
 
 // Only where somebody asks for it: it costs time.
 void ReliefProgram::watch_stock() {
   const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
-  const bool is_asked = options_.way == FinishStrategy::contours || options_.finish.removal > 0 ||
+  const bool is_asked = options_.only_on_model || options_.way == FinishStrategy::contours ||
+                        options_.finish.removal > 0 ||
                         (options_.roughing && options_.roughing->way == RoughStrategy::offsets) ||
                         holds(options_.roughing) || holds(options_.rest);
   if (!is_asked) return;

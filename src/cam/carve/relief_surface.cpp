@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "body_grid.hpp"
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
@@ -81,14 +83,130 @@ HeightGrid relief_of(const LevelPicture& picture, const ReliefShape& shape, cons
   return completed(std::move(grid), shape, name, diagnostics);
 }
 
-HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics) {
-  const double across = body.high().x - body.low().x;
-  const double up = body.high().y - body.low().y;
-  const double high = body.high().z - body.low().z;
+namespace {
+
+struct BodyBounds {
+  SurfacePoint low;
+  SurfacePoint high;
+};
+
+BodyBounds bounds_of(const std::vector<SurfaceTriangle>& faces) {
+  BodyBounds bounds{.low = faces.front().front(), .high = faces.front().front()};
+  for (const SurfaceTriangle& face : faces) {
+    for (const SurfacePoint& corner : face) {
+      bounds.low = {std::min(bounds.low.x, corner.x), std::min(bounds.low.y, corner.y),
+                    std::min(bounds.low.z, corner.z)};
+      bounds.high = {std::max(bounds.high.x, corner.x), std::max(bounds.high.y, corner.y),
+                     std::max(bounds.high.z, corner.z)};
+    }
+  }
+  return bounds;
+}
+
+// Fine enough for the cutters and for walls, and no finer than anybody could cut.
+Mm body_pitch(const ReliefShape& shape, const Sides& sides) {
+  if (shape.pitch) return *shape.pitch;
+  constexpr double walls = 1400;  // nodes of the longest side
+  constexpr Mm finest{0.01};
+  const Mm coarse = std::max(finest, std::max(sides.x, sides.y) / walls);
+  const Mm wished = std::min(coarse, shape.wished_pitch.value_or(coarse));
+  return std::max(wished, Mm(std::sqrt(sides.x.value() * sides.y.value() / static_cast<double>(most_fine_nodes))));
+}
+
+// What gamma makes of a height between -depth and 0.
+class GammaCurve {
+ public:
+  GammaCurve(Mm depth, double gamma) : depth_(depth.value()), gamma_(gamma) {}
+
+  double at(double z) const {
+    if (gamma_ == 1 || depth_ <= 0) return z;
+    return depth_ * (std::pow(std::clamp(z / depth_ + 1, 0.0, 1.0), gamma_) - 1);
+  }
+  // How far the curve rises above its chord. A gamma above 1 sags below it.
+  double rise(double low, double high) const {
+    if (gamma_ >= 1 || depth_ <= 0 || !(high > low)) return 0;
+    const double slope = (at(high) - at(low)) / (high - low);
+    const double farthest = depth_ * (std::pow(slope / gamma_, 1 / (gamma_ - 1)) - 1);  // where the tangent is parallel
+    const double z = std::clamp(farthest, low, high);
+    return std::max(0.0, at(z) - at(low) - slope * (z - low));
+  }
+
+ private:
+  double depth_;
+  double gamma_;
+};
+
+// Bends all heights; the patches stay above what is bent between their corners.
+void bend(HeightGrid& grid, const GammaCurve& curve) {
+  const std::vector<float> linear = grid.heights;
+  for (float& height : grid.heights) height = static_cast<float>(curve.at(static_cast<double>(height)));
+  const std::size_t columns = grid.columns;
+  for (std::size_t cell = 0; cell + columns + 1 < linear.size(); ++cell) {
+    if (cell % columns == columns - 1) continue;
+    const std::size_t corners[] = {cell, cell + 1, cell + columns, cell + columns + 1};
+    float low = 0;
+    float high = -std::numeric_limits<float>::infinity();
+    for (const std::size_t corner : corners) {
+      low = std::min(low, linear[corner]);
+      high = std::max(high, linear[corner]);
+    }
+    const double rise = curve.rise(static_cast<double>(low), static_cast<double>(high));
+    if (rise <= 0) continue;
+    const double top = curve.at(static_cast<double>(high));
+    const bool is_small = rise < std::min(grid.pitch_x, grid.pitch_y).value() / 4;
+    for (const std::size_t corner : corners) {
+      const double raised = is_small ? curve.at(static_cast<double>(linear[corner])) + rise : top;
+      grid.heights[corner] = std::max(grid.heights[corner], static_cast<float>(raised));
+    }
+  }
+}
+
+// The faces in the units of the grid: columns, rows, and mm below the highest point.
+void put_on_grid(std::vector<SurfaceTriangle>& faces, const BodyBounds& bounds, const HeightGrid& grid, Mm depth,
+                 bool mirror) {
+  const double columns = static_cast<double>(grid.columns - 1);
+  const double across = columns / (bounds.high.x - bounds.low.x);
+  const double up = static_cast<double>(grid.rows - 1) / (bounds.high.y - bounds.low.y);
+  const double high = bounds.high.z - bounds.low.z;
+  const double scale = high > 0 ? depth.value() / high : 0;
+  for (SurfaceTriangle& face : faces) {
+    for (SurfacePoint& corner : face) {
+      corner.x = std::clamp((corner.x - bounds.low.x) * across, 0.0, columns);
+      if (mirror) corner.x = columns - corner.x;
+      corner.y = std::clamp((corner.y - bounds.low.y) * up, 0.0, static_cast<double>(grid.rows - 1));
+      corner.z = (corner.z - bounds.high.z) * scale;
+    }
+  }
+}
+
+// Upside down, what is highest is the lowest point of the top near a place.
+void look_upside_down(BodyCover& cover, const Surface& body, double depth) {
+  const auto inverted = [&body, depth](double x, double y) {
+    const double top = body.top(x, y);
+    return top == Surface::nothing ? 0.0 : -depth - top;
+  };
+  constexpr double beside = 1e-6;
+  cover.at_node = [inverted](double x, double y) {
+    return std::max(std::max(inverted(x - beside, y), inverted(x + beside, y)),
+                    std::max(inverted(x, y - beside), inverted(x, y + beside)));
+  };
+  cover.at_edge = [inverted](const SurfacePoint& point, double x, double y) {
+    return std::max(inverted(point.x + x * beside, point.y + y * beside),
+                    inverted(point.x - x * beside, point.y - y * beside));
+  };
+}
+
+}  // namespace
+
+HeightGrid relief_of(ReliefBody body, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics) {
   const auto refuse = [&](std::string message, std::string expected) {
     diagnostics.add(of_file("relief.bad-body", name, std::move(message), std::move(expected)));
     return HeightGrid{};
   };
+  const BodyBounds bounds = body.faces.empty() ? BodyBounds{} : bounds_of(body.faces);
+  const double across = bounds.high.x - bounds.low.x;
+  const double up = bounds.high.y - bounds.low.y;
+  const double high = bounds.high.z - bounds.low.z;
   if (!(across > 1e-6 && up > 1e-6))
     return refuse("the model has no area when seen from above", "a model with faces that are visible from above");
   const Sides sides = sides_of(shape, across, up, Mm(across));
@@ -97,7 +215,7 @@ HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::s
     return refuse(fmt::format("the model is {:.6g} mm high", depth.value()),
                   "at most 250 mm; check the unit and --depth");
   }
-  const Mm pitch = shape.pitch.value_or(std::max(sides.x, sides.y) / 1000);
+  const Mm pitch = body_pitch(shape, sides);
   const double columns = std::floor(sides.x / pitch + 0.5) + 1;
   const double rows = std::floor(sides.y / pitch + 0.5) + 1;
   if (columns * rows > static_cast<double>(most_nodes)) {
@@ -107,18 +225,37 @@ HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::s
                   .rows = static_cast<std::size_t>(std::max(2.0, rows))};
   grid.pitch_x = sides.x / static_cast<double>(grid.columns - 1);
   grid.pitch_y = sides.y / static_cast<double>(grid.rows - 1);
-  grid.heights.reserve(grid.columns * grid.rows);
-  for (std::size_t y = 0; y < grid.rows; ++y) {
-    const double at_y = body.low().y + up * static_cast<double>(y) / static_cast<double>(grid.rows - 1);
-    for (std::size_t i = 0; i < grid.columns; ++i) {
-      const std::size_t x = shape.mirror ? grid.columns - 1 - i : i;
+  put_on_grid(body.faces, bounds, grid, depth, shape.mirror);
+  BodyCover cover{.columns = grid.columns,
+                  .rows = grid.rows,
+                  .pitch = std::max(grid.pitch_x, grid.pitch_y).value(),
+                  .floor = shape.invert ? 0.0F : static_cast<float>(-depth.value()),
+                  .threads = shape.threads};
+  if (body.height) {
+    const double columns_all = static_cast<double>(grid.columns - 1);
+    cover.has_straight_edges_only = true;
+    cover.at_node = [&, scale = high > 0 ? depth.value() / high : 0](double x, double y) {
+      const double along = (shape.mirror ? columns_all - x : x) / columns_all;
       const double top =
-          body.top(body.low().x + across * static_cast<double>(x) / static_cast<double>(grid.columns - 1), at_y);
-      double share = top == Surface::nothing || high <= 0 ? 0 : (top - body.low().z) / high;
-      if (shape.invert) share = 1 - share;
-      grid.heights.push_back(grid_height(depth * (std::pow(std::clamp(share, 0.0, 1.0), shape.gamma) - 1)));
+          body.height(bounds.low.x + across * along, bounds.low.y + up * y / static_cast<double>(grid.rows - 1));
+      return (top - bounds.high.z) * scale;
+    };
+  }
+  Surface from_above;
+  if (shape.invert) {
+    if (body.height) {
+      cover.at_node = [top = cover.at_node, depth](double x, double y) { return -depth.value() - top(x, y); };
+      cover.at_edge = [depth](const SurfacePoint& point, double, double) { return -depth.value() - point.z; };
+    } else {
+      from_above = Surface(body.faces);
+      look_upside_down(cover, from_above, depth.value());
     }
   }
+  grid.heights = cover_body(body.faces, cover);
+  body = {};
+  bend(grid, GammaCurve(depth, shape.gamma));
+  const auto lowest = static_cast<float>(-depth.value());
+  for (float& height : grid.heights) height = grid_height(Mm(static_cast<double>(std::clamp(height, lowest, 0.0F))));
   ReliefShape sampled = shape;
   sampled.pitch.reset();
   sampled.wished_pitch.reset();

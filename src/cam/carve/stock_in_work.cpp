@@ -97,13 +97,14 @@ void StockInWork::settle() {
 }
 
 // The stock of a cell may stand half a diagonal away from its middle.
-void StockInWork::measure(double around) {
-  if (measured_around_ == around && measured_tool_ == tool_) return;
+void StockInWork::measure(double around, double inside) {
+  if (measured_around_ == around && measured_inside_ == inside && measured_tool_ == tool_) return;
   measured_around_ = around;
+  measured_inside_ = inside;
   measured_tool_ = tool_;
   const Cutter& shape = shapes_[tool_];
   const double near = around + field_.cell() * 0.75;
-  const double wide = shape.radius.value() + near;
+  const double wide = inside + near;
   reach_ = static_cast<std::ptrdiff_t>(wide / field_.cell()) + 1;
   heights_.clear();
   for (std::ptrdiff_t row = 0; row <= reach_; ++row) {
@@ -117,23 +118,28 @@ void StockInWork::measure(double around) {
 }
 
 double StockInWork::free_height(const FlatPlace& place, double around) {
+  return highest(place, around, shapes_[tool_].radius.value());
+}
+
+// `inside`: the distance from the axis within which the cutter must touch nothing.
+double StockInWork::highest(const FlatPlace& place, double around, double inside) {
   settle();
-  measure(around);
+  measure(around, inside);
   const StockBlock& block = field_.block();
   const auto column = static_cast<std::ptrdiff_t>(std::floor((place.x + x0_ - block.low.x) / field_.cell()));
   const auto row = static_cast<std::ptrdiff_t>(std::floor((place.y + y0_ - block.low.y) / field_.cell()));
   const auto last_column = static_cast<std::ptrdiff_t>(field_.columns()) - 1;
   const auto last_row = static_cast<std::ptrdiff_t>(field_.rows()) - 1;
-  float highest = static_cast<float>(field_.bottom() - field_.top());
+  float top = static_cast<float>(field_.bottom() - field_.top());
   for (std::ptrdiff_t y = std::max<std::ptrdiff_t>(0, row - reach_); y <= std::min(last_row, row + reach_); ++y) {
     const float* const cells = field_.below_top(static_cast<std::size_t>(y));
     const float* const shape = &heights_[static_cast<std::size_t>(std::abs(y - row) * (reach_ + 1))];
     for (std::ptrdiff_t x = std::max<std::ptrdiff_t>(0, column - reach_); x <= std::min(last_column, column + reach_);
          ++x) {
-      highest = std::max(highest, cells[x] - shape[std::abs(x - column)]);
+      top = std::max(top, cells[x] - shape[std::abs(x - column)]);
     }
   }
-  return static_cast<double>(highest) + field_.top();
+  return static_cast<double>(top) + field_.top();
 }
 
 double StockInWork::free_height(const std::vector<CarvedCut>& way) {
@@ -153,6 +159,26 @@ double StockInWork::free_height(const std::vector<CarvedCut>& way) {
     since = 0;
   }
   return highest;
+}
+
+double StockInWork::free_height_inside(const std::vector<CarvedCut>& way) {
+  const double radius = shapes_[tool_].radius.value();
+  const double apart = radius / 4;
+  double highest_place = -std::numeric_limits<double>::infinity();
+  double since = apart;
+  for (const CarvedCut& cut : way) {
+    const Curve curve = curve_of(cut);
+    const double length = curve.length().value();
+    since += length;
+    if (since < apart && &cut != &way.back()) continue;
+    const double parts = std::ceil(length / apart);
+    for (double i = 0; i <= parts; ++i) {
+      const Point here = curve.at(Mm(parts > 0 ? length * i / parts : 0));
+      highest_place = std::max(highest_place, highest({here[Axis::x] - x0_, here[Axis::y] - y0_}, apart, radius / 2));
+    }
+    since = 0;
+  }
+  return highest_place;
 }
 
 }  // namespace passo

@@ -35,9 +35,12 @@ class StockInWork {
   double free_height(const FlatPlace& place, double around);
   // Returns the same for a whole toolpath.
   double free_height(const std::vector<CarvedCut>& way);
+  // Returns the lowest tip height at which the inner half of the cutter touches no stock along a toolpath.
+  double free_height_inside(const std::vector<CarvedCut>& way);
 
  private:
-  void measure(double around);
+  void measure(double around, double inside);
+  double highest(const FlatPlace& place, double around, double inside);
 
   HeightField field_;
   std::unique_ptr<StockCutter> cutter_;
@@ -51,6 +54,7 @@ class StockInWork {
   std::vector<float> heights_;
   std::ptrdiff_t reach_ = 0;
   double measured_around_ = -1;
+  double measured_inside_ = 0;
   std::size_t measured_tool_ = 0;
 };
 

@@ -112,11 +112,13 @@ constexpr const char* relief_examples =
 taper:1:5:6 (ball at the tip, degrees per side, diameter). Lengths: mm, or with a unit: 0.2cm, 30mil, 1/8in.
 
 Examples:
-  passo cam relief face.png --width 80 --depth 4 -o face.ngc       rows with a 3 mm ball, scallops of 0.02 mm
-  passo cam relief face.png --width 80 --depth 4 --rough flat:6 --cutter ball:3 --rest ball:1 -o face.ngc
+  passo cam relief face.png --width 80 --depth -4 -o face.ngc      rows with a 3 mm ball, scallops of 0.02 mm
+  passo cam relief face.png --width 80 --depth -4 --rough flat:6 --cutter ball:3 --rest ball:1 -o face.ngc
                                                                    three cutters, changed with M6
   passo cam relief seal.png --mirror --invert --cutter vee:40:3:0.1 --scallop 0.01 -o seal.ngc
   passo cam relief part.stl --cutter ball:2 --way both --step 0.3 -p part.png -o part.ngc
+  passo cam relief case.stl --up y --input-units inch --cutter flat:3 -o case.ngc
+                                                                   the model's Y axis points up
   passo cam relief wall.stl --cutter bull:6:1 --way contours --rough flat:8 --rough-way offsets -o wall.ngc
                                                                    contours on steep areas; roughing by offsets on each level
   passo cam relief face.png --rough flat:6 --rough-removal 3000 --removal 150 --feed-most 2500 -o face.ngc

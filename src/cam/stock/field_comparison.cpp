@@ -2,30 +2,77 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace passo {
+namespace {
 
-double cell_difference(const HeightField& field, const HeightField& target, std::size_t column, std::size_t row) {
-  const std::size_t first_column = column > 0 ? column - 1 : 0;
-  const std::size_t last_column = std::min(column + 1, target.columns() - 1);
-  const std::size_t first_row = row > 0 ? row - 1 : 0;
-  const std::size_t last_row = std::min(row + 1, target.rows() - 1);
-  float low = target.below_top(row)[column];
-  float high = low;
-  for (std::size_t j = first_row; j <= last_row; ++j) {
-    const float* const heights = target.below_top(j);
-    for (std::size_t i = first_column; i <= last_column; ++i) {
-      low = std::min(low, heights[i]);
-      high = std::max(high, heights[i]);
+constexpr std::size_t farthest = 32;  // cells; how far a wall is looked for
+
+// The cells at most `around` away, within the field.
+struct CellBlock {
+  std::size_t first_column;
+  std::size_t last_column;
+  std::size_t first_row;
+  std::size_t last_row;
+
+  CellBlock(const HeightField& field, std::size_t column, std::size_t row, std::size_t around)
+      : first_column(column > around ? column - around : 0),
+        last_column(std::min(column + around, field.columns() - 1)),
+        first_row(row > around ? row - around : 0),
+        last_row(std::min(row + around, field.rows() - 1)) {}
+
+  template <class Is>
+  bool any(const HeightField& field, const Is& is) const {
+    for (std::size_t j = first_row; j <= last_row; ++j) {
+      const float* const heights = field.below_top(j);
+      if (std::any_of(heights + first_column, heights + last_column + 1, is)) return true;
     }
+    return false;
   }
-  const float here = field.below_top(row)[column];
-  if (here > high) return static_cast<double>(here) - static_cast<double>(high);
-  return here < low ? static_cast<double>(here) - static_cast<double>(low) : 0;
+};
+
+// A difference in height, or the way sideways to a cell that is high enough.
+double at_wall(double size, double height, const HeightField& field, std::size_t column, std::size_t row) {
+  for (std::size_t around = 1; around <= farthest; ++around) {
+    const double sideways = static_cast<double>(around) * field.cell();
+    if (sideways >= size) return size;
+    const auto is_high = [&](float other) { return static_cast<double>(other) >= height; };
+    if (CellBlock(field, column, row, around).any(field, is_high)) return sideways;
+  }
+  return size;
 }
 
-FieldDifference compare_fields(const HeightField& field, const HeightField& target, Mm tolerance) {
-  assert(field.columns() == target.columns() && field.rows() == target.rows());
+}  // namespace
+
+double cell_difference(const HeightField& field, const CutTarget& target, std::size_t column, std::size_t row) {
+  if (!target.is_beside.empty() && target.is_beside[row * field.columns() + column]) return 0;
+  const CellBlock near(field, column, row, 1);
+  float low = target.low.below_top(row)[column];
+  float high = target.high.below_top(row)[column];
+  for (std::size_t j = near.first_row; j <= near.last_row; ++j) {
+    const float* const lows = target.low.below_top(j);
+    const float* const highs = target.high.below_top(j);
+    for (std::size_t i = near.first_column; i <= near.last_column; ++i) {
+      low = std::min(low, lows[i]);
+      high = std::max(high, highs[i]);
+    }
+  }
+  const auto here = static_cast<double>(field.below_top(row)[column]);
+  if (here > static_cast<double>(high)) {
+    return at_wall(here - static_cast<double>(high), here, target.high, column, row);
+  }
+  double gouge = std::max(0.0, static_cast<double>(low) - here);
+  if (target.at_most) {
+    const auto wanted = static_cast<double>(target.high.below_top(row)[column]);
+    gouge = std::max(gouge, wanted - static_cast<double>(target.at_most->below_top(row)[column]));
+    if (gouge > 0) gouge = at_wall(gouge, wanted, *target.at_most, column, row);
+  }
+  return -gouge;
+}
+
+FieldDifference compare_fields(const HeightField& field, const CutTarget& target, Mm tolerance) {
+  assert(field.columns() == target.low.columns() && field.rows() == target.low.rows());
   const double cell_area = field.cell() * field.cell();
   FieldDifference found;
   for (std::size_t row = 0; row < field.rows(); ++row) {

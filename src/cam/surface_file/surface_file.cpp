@@ -1,5 +1,8 @@
 #include "passo/surface_file/surface_file.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -16,7 +19,7 @@ bool is_text(std::string_view bytes) {
 }
 
 // Two triangles a cell bound it; its height is that of the map.
-Surface surface_of(const HeightMap& map) {
+SurfaceFaces faces_of(const HeightMap& map) {
   const auto corner = [&](std::size_t column, std::size_t row) {
     return SurfacePoint{map.columns()[column], map.rows()[row], map.at(column, row)};
   };
@@ -28,7 +31,7 @@ Surface surface_of(const HeightMap& map) {
       all.push_back({corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)});
     }
   }
-  return Surface(std::move(all), [map](double x, double y) { return map.height(x, y); });
+  return {std::move(all), [map](double x, double y) { return map.height(x, y); }};
 }
 
 }  // namespace
@@ -37,15 +40,50 @@ bool looks_like_body(std::string_view bytes) {
   return looks_like_stl(bytes);
 }
 
-Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (looks_like_body(bytes)) return Surface(read_stl(name, bytes, diagnostics));
+SurfaceFaces read_faces(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  if (looks_like_body(bytes)) return {read_stl(name, bytes, diagnostics), {}};
   if (is_text(bytes)) {
     const std::optional<HeightMap> map = read_height_map(name, bytes, diagnostics);
-    return map ? surface_of(*map) : Surface();
+    return map ? faces_of(*map) : SurfaceFaces();
   }
   diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL file nor a height map",
                           "STL, text or binary, or lines x,y,z"));
   return {};
+}
+
+Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  SurfaceFaces faces = read_faces(name, bytes, diagnostics);
+  return faces.triangles.empty() ? Surface() : Surface(std::move(faces.triangles), std::move(faces.height));
+}
+
+// Sorts the edges by the bits of their ends. Two different edges with the same number are too rare to matter.
+std::size_t open_edges(const std::vector<SurfaceTriangle>& triangles) {
+  const auto number = [](const SurfacePoint& point) {
+    std::uint64_t all = 0;
+    for (const double value : {point.x, point.y, point.z}) {
+      all = (all ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9E3779B97F4A7C15U;  // + 0.0: -0 is 0
+      all ^= all >> 32U;
+    }
+    return all;
+  };
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * triangles.size());
+  for (const SurfaceTriangle& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t a = number(triangle[i]);
+      const std::uint64_t b = number(triangle[(i + 1) % 3]);
+      if (a != b) edges.push_back(a * b + (a ^ b));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i;
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    open += (end - i) % 2;
+    i = end;
+  }
+  return open;
 }
 
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics) {

@@ -127,7 +127,7 @@ TEST(Relief, of_too_many_nodes_is_refused) {
 }
 
 TEST(Relief, of_a_body_has_its_heights) {
-  const Surface wedge({{{{0, 0, 0}, {10, 0, 5}, {10, 20, 5}}}, {{{0, 0, 0}, {10, 20, 5}, {0, 20, 0}}}});
+  const ReliefBody wedge{.faces = {{{{0, 0, 0}, {10, 0, 5}, {10, 20, 5}}}, {{{0, 0, 0}, {10, 20, 5}, {0, 20, 0}}}}};
   Diagnostics diagnostics;
   const HeightGrid grid = relief_of(wedge, {.pitch = Mm(2)}, "it.stl", diagnostics);
   EXPECT_EQ(grid.columns, 6U);
@@ -135,7 +135,7 @@ TEST(Relief, of_a_body_has_its_heights) {
   EXPECT_NEAR(grid.at(0, 3), -5, 1e-4);
   EXPECT_NEAR(grid.at(3, 7), -2, 1e-4);
   EXPECT_NEAR(relief_of(wedge, {.width = Mm(20), .pitch = Mm(2)}, "it.stl", diagnostics).at(0, 3), -10, 1e-4);
-  EXPECT_EQ(relief_of(Surface(), {}, "it.stl", diagnostics).columns, 0U);
+  EXPECT_EQ(relief_of(ReliefBody(), {}, "it.stl", diagnostics).columns, 0U);
   EXPECT_THAT(render(diagnostics, false), HasSubstr("[relief.bad-body]"));
 }
 

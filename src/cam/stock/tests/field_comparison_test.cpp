@@ -12,7 +12,7 @@ const StockBlock small_plate{{0, 0, -5}, {10, 8, 0}};
 
 TEST(FieldComparison, equal_fields_do_not_differ) {
   const HeightField field = field_of(small_plate, 0.1);
-  const FieldDifference found = compare_fields(field, field, Mm(0));
+  const FieldDifference found = compare_fields(field, target_of(field), Mm(0));
   EXPECT_EQ(found.left.cells, 0U);
   EXPECT_EQ(found.gouge.cells, 0U);
 }
@@ -29,7 +29,7 @@ TEST(FieldComparison, finds_what_is_left_and_what_is_gouged_with_volume_and_plac
       field.set_height(column, row, hill ? -1.5 : column == 70 && row == 40 ? -3 : -2);
     }
   }
-  const FieldDifference found = compare_fields(field, target, Mm(0.02));
+  const FieldDifference found = compare_fields(field, target_of(target), Mm(0.02));
   EXPECT_NEAR(found.left.volume, 0.5, 1e-6);
   EXPECT_EQ(found.left.cells, 100U);
   EXPECT_NEAR(found.left.largest, 0.5, 1e-6);
@@ -47,9 +47,9 @@ TEST(FieldComparison, a_wall_may_be_a_cell_farther) {
     for (std::size_t column = 0; column < 50; ++column) target.set_height(column, row, -4);
     for (std::size_t column = 0; column < 51; ++column) field.set_height(column, row, -4);
   }
-  EXPECT_EQ(compare_fields(field, target, Mm(0.01)).gouge.cells, 0U);
+  EXPECT_EQ(compare_fields(field, target_of(target), Mm(0.01)).gouge.cells, 0U);
   for (std::size_t row = 0; row < 80; ++row) field.set_height(51, row, -4);
-  EXPECT_EQ(compare_fields(field, target, Mm(0.01)).gouge.cells, 80U);
+  EXPECT_EQ(compare_fields(field, target_of(target), Mm(0.01)).gouge.cells, 80U);
 }
 
 }  // namespace

@@ -63,8 +63,10 @@ TEST(StockPicture, shows_differences_from_a_target) {
     for (std::size_t row = 10; row < 20; ++row) target.set_height(column, row, -5);
     for (std::size_t row = 22; row < 30; ++row) target.set_height(column, row, 0);
   }
-  const std::string same = drawn({.field = field, .target = &field}, PictureFormat::png);
-  const std::string other = drawn({.field = field, .target = &target}, PictureFormat::png);
+  const CutTarget even = target_of(field);
+  const CutTarget differs = target_of(target);
+  const std::string same = drawn({.field = field, .target = &even}, PictureFormat::png);
+  const std::string other = drawn({.field = field, .target = &differs}, PictureFormat::png);
   EXPECT_NE(same, other);
 }
 

@@ -41,6 +41,16 @@ class ReliefReading {
     if (text.empty()) return std::nullopt;
     return length(option, text, least, most);
   }
+  // The lowest Z, below the top at Z0.
+  std::optional<Mm> depth(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    const Result<Mm, std::string> read = parse_length("--depth", text, 1);
+    if (read && *read >= Mm(0.001) && *read <= deepest_relief) {
+      refuse(fmt::format("--depth: expected a Z below the top at Z0, found '{0}'; write --depth -{0}", text));
+      return std::nullopt;
+    }
+    return length("--depth", text, -deepest_relief, Mm(-0.001)) * -1;
+  }
   Cutter cutter(const char* option, const std::string& text) {
     const Result<Cutter, std::string> read = parse_cutter(text);
     constexpr Mm widest{200};  // what the table below the cutter is made for
@@ -70,7 +80,7 @@ ReliefShape shape_of(const CamReliefArguments& arguments, ReliefReading& read) {
   ReliefShape shape;
   shape.width = read.perhaps("--width", arguments.width, Mm(0.1), most_length);
   shape.length = read.perhaps("--length", arguments.length, Mm(0.1), most_length);
-  shape.depth = read.perhaps("--depth", arguments.depth, least_length, deepest_relief);
+  shape.depth = read.depth(arguments.depth);
   shape.gamma = arguments.gamma;
   shape.invert = arguments.invert;
   shape.mirror = arguments.mirror;
@@ -122,6 +132,10 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
   program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
   program.overrun = read.perhaps("--overrun", arguments.overrun, Mm(0), Mm(200));
+  program.only_on_model = arguments.area == "model";
+  if (program.only_on_model && program.way == FinishStrategy::spiral) {
+    read.refuse("--area model: expected --way rows, columns, both or contours, found spiral");
+  }
   program.ramps = arguments.entry == "ramp";
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
@@ -141,6 +155,69 @@ Mm pitch_for(const ReliefProgramOptions& program) {
   return std::max(pitch, Mm(0.01));
 }
 
+// Turns and scales the model. The other axes follow by a rotation, so a part never becomes its mirror image.
+void turn(const CamReliefArguments& arguments, std::vector<SurfaceTriangle>& faces) {
+  const double unit = arguments.input_units == "cm"     ? 10
+                      : arguments.input_units == "m"    ? 1000
+                      : arguments.input_units == "inch" ? 25.4
+                                                        : 1;
+  const std::string& up = arguments.up;
+  if (up == "z" && unit == 1) return;
+  for (SurfaceTriangle& face : faces) {
+    for (SurfacePoint& p : face) {
+      const auto [x, y, z] = p;
+      if (up == "-z") p = {x, -y, -z};
+      if (up == "y") p = {x, -z, y};
+      if (up == "-y") p = {x, z, -y};
+      if (up == "x") p = {-z, y, x};
+      if (up == "-x") p = {z, y, -x};
+      p = {p.x * unit, p.y * unit, p.z * unit};
+    }
+  }
+}
+
+// A model that is far too small was drawn in another unit.
+bool is_plausible(const CamReliefArguments& arguments, const std::vector<SurfaceTriangle>& faces,
+                  Diagnostics& findings) {
+  if (!arguments.width.empty() || !arguments.length.empty()) return true;
+  const auto size = [&](double SurfacePoint::*axis) {
+    double low = faces.front().front().*axis;
+    double high = low;
+    for (const SurfaceTriangle& face : faces) {
+      for (const SurfacePoint& p : face) low = std::min(low, p.*axis), high = std::max(high, p.*axis);
+    }
+    return high - low;
+  };
+  const double x = size(&SurfacePoint::x);
+  const double y = size(&SurfacePoint::y);
+  constexpr double least = 1;  // mm
+  if (std::max(x, y) >= least) return true;
+  findings.add(of_file("relief.bad-body", arguments.file,
+                       fmt::format("the model is {:.4g} by {:.4g} mm: is it in metres or inches?", x, y),
+                       "at least 1 mm; --input-units m, inch or cm, or --width"));
+  return false;
+}
+
+// The nodes that the cutters' centres reach; each has a height in memory. Refuses too many.
+bool fits_memory(const ReliefProgramOptions& program, const HeightGrid& grid, const std::string& name,
+                 Diagnostics& findings) {
+  Mm beyond = program.overrun.value_or(program.finish.cutter.radius);
+  if (program.roughing && !program.overrun) {
+    const Mm radius = program.roughing->tool.cutter.radius;
+    beyond = std::max({beyond, radius, program.finish.cutter.radius * 2 - radius});
+  }
+  const double columns = static_cast<double>(grid.columns) + 2 * (beyond / grid.pitch_x + 2);
+  const double rows = static_cast<double>(grid.rows) + 2 * (beyond / grid.pitch_y + 2);
+  if (columns * rows <= static_cast<double>(most_nodes)) return true;
+  findings.add(
+      of_file("relief.too-many-nodes", name,
+              fmt::format("{:.0f} million grid points are too many, {:.3g} mm apart and with the {:.4g} mm that "
+                          "the cutters go beyond the edges",
+                          columns * rows / 1e6, grid.pitch_x.value(), beyond.value()),
+              "at most 67 million; a greater --pitch, or a smaller cutter or --overrun"));
+  return false;
+}
+
 struct ReliefGrid {
   HeightGrid grid;
   std::string words;  // what was read
@@ -153,12 +230,12 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
       read_bytes(arguments.file, {.area = "picture", .expected = "a PNG or TIFF picture, or an STL file"}, findings);
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
+  shape.wished_pitch = pitch_for(job.program);
   ReliefGrid read;
   if (is_level_picture(*bytes)) {
     const PixelLevel level = arguments.channel == "alpha" ? PixelLevel::alpha : PixelLevel::luminance;
     const LevelPicture picture = read_level_picture(arguments.file, *bytes, level, findings);
     if (picture.columns == 0) return std::nullopt;
-    shape.wished_pitch = pitch_for(job.program);
     read.grid = relief_of(picture, shape, arguments.file, findings);
     read.words = fmt::format("{} x {} pixels, {}, {}", picture.columns, picture.rows, picture.kind, arguments.channel);
   } else {
@@ -175,10 +252,21 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
                            "a PNG or TIFF picture, an STL file or a height map x,y,z"));
       return std::nullopt;
     }
-    const Surface body = read_surface(arguments.file, *bytes, findings);
+    SurfaceFaces faces = read_faces(arguments.file, *bytes, findings);
     if (findings.any_error()) return std::nullopt;
-    read.grid = relief_of(body, shape, arguments.file, findings);
-    read.words = counted(body.triangles(), "triangle") + ", seen from above";
+    if (!read.is_body && (arguments.up != "z" || arguments.input_units != "mm")) {
+      findings.add(of_file("relief.bad-body", arguments.file, "a height map cannot be turned or scaled",
+                           "--up and --input-units for a model only"));
+      return std::nullopt;
+    }
+    turn(arguments, faces.triangles);
+    if (read.is_body && !is_plausible(arguments, faces.triangles, findings)) return std::nullopt;
+    read.words = counted(faces.triangles.size(), "triangle") + ", seen from above";
+    const std::size_t open = read.is_body ? open_edges(faces.triangles) : 0;
+    if (open > 0) read.words += fmt::format("; open at {}", counted(open, "edge"));
+    shape.threads = job.program.threads;
+    read.grid = relief_of({.faces = std::move(faces.triangles), .height = std::move(faces.height)}, shape,
+                          arguments.file, findings);
   }
   if (read.grid.columns == 0) return std::nullopt;
   return read;
@@ -275,6 +363,10 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   if (job.shape.margin.value() > 0 && job.shape.margin_at_top && !job.program.overrun) job.program.overrun = Mm(0);
   // A body ends at its edges, and its sides are cut. A picture's edges are where it was cut off.
   job.program.beside = read->is_body ? BesideGrid::nothing : BesideGrid::goes_on;
+  if (!fits_memory(job.program, read->grid, arguments.file, findings)) {
+    show(findings);
+    return exit_bad_program;
+  }
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   const std::string what = std::filesystem::path(arguments.file).filename().string();

@@ -16,6 +16,7 @@
 #include "stock_setup.hpp"
 #include <fmt/format.h>
 
+#include "passo/diagnostics/file_bytes.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/report/stock_body.hpp"
 #include "passo/report/stock_picture.hpp"
@@ -70,23 +71,46 @@ CutSummary cut(const StockJob& job, const Wishes& wishes, const FeedLook& look, 
   return summary;
 }
 
-// The field as the target has it: the face of a body, or what another program leaves. Nothing, with a message.
-std::optional<HeightField> target_of(const SimulateArguments& arguments, const Wishes& wishes, const HeightField& field,
+// The highest that the stock may be in each cell: cut by tools that are thinner, and then raised by what their tips are
+// too high.
+HeightField at_most(const StockJob& job, const Wishes& wishes, const FeedLook& look,
+                    const std::vector<ToolShape>& tools, unsigned threads, const HeightField& field) {
+  HeightField highest = *HeightField::create(field.block(), Mm(field.cell()));
+  const Mm thinner = thinner_for(Mm(field.cell()));
+  std::vector<ToolShape> thin = tools;
+  Mm tip{0};
+  for (ToolShape& tool : thin) {
+    tip = std::max(tip, thinned_tip(tool.cutter, thinner));
+    tool = ToolShape{.cutter = thinned(tool.cutter, thinner)};
+  }
+  cut_stock(job, wishes.stock, look, thin, threads, highest, {});
+  for (std::size_t row = 0; row < highest.rows(); ++row) {
+    float* const heights = highest.below_top(row);
+    for (std::size_t i = 0; i < highest.columns(); ++i) {
+      heights[i] = std::min(0.0F, heights[i] + static_cast<float>(tip.value()));
+    }
+  }
+  return highest;
+}
+
+// The target at the cells of the field: the face of a body, or what another program leaves. Nothing, with a message.
+std::optional<CutTarget> read_target(const SimulateArguments& arguments, const Wishes& wishes, const HeightField& field,
                                      unsigned threads) {
-  HeightField target = *HeightField::create(field.block(), Mm(field.cell()));
   Diagnostics findings;
   if (is_surface(arguments.compare)) {
-    const Surface surface = read_surface(arguments.compare, findings);
+    const auto bytes =
+        read_bytes(arguments.compare, {.area = "surface", .expected = "an STL file or a height map"}, findings);
+    SurfaceFaces faces = bytes ? read_faces(arguments.compare, *bytes, findings) : SurfaceFaces();
     show(findings);
     if (findings.any_error()) return std::nullopt;
-    for (std::size_t row = 0; row < target.rows(); ++row) {
-      for (std::size_t column = 0; column < target.columns(); ++column) {
-        const double top = surface.top(target.x_of(column), target.y_of(row));
-        target.set_height(column, row, top);
-      }
-    }
+    // Between the points of a height map, its triangles are not the surface.
+    const std::vector<SurfaceTriangle> flat = faces.height ? std::vector<SurfaceTriangle>() : faces.triangles;
+    CutTarget target = target_of(flat, Surface(std::move(faces.triangles), std::move(faces.height)), field);
+    // The rim that the program's own stock has is no part of the model.
+    if (!arguments.stock.block.empty()) target.is_beside.clear();
     return target;
   }
+  HeightField target = *HeightField::create(field.block(), Mm(field.cell()));
   ProgramArguments program = arguments.program;
   program.program = arguments.compare;
   std::optional<ProgramReader> reader = streamed_program(program);
@@ -98,11 +122,11 @@ std::optional<HeightField> target_of(const SimulateArguments& arguments, const W
   const auto tools = shapes_or_message(job, wishes.stock, look);
   if (!tools) return std::nullopt;
   cut(job, wishes, look, *tools, threads, target);
-  return target;
+  return target_of(target);
 }
 
 int write_picture(const std::string& path, const SimulateArguments& arguments, const Simulation& simulation,
-                  const HeightField* target) {
+                  const CutTarget* target) {
   Result<OutputFile, OutputError> file = OutputFile::open(path);
   if (!file) return fail(exit_failed, file.error().message);
   const PictureOptions options{.format = *picture_format_of(path),
@@ -113,7 +137,7 @@ int write_picture(const std::string& path, const SimulateArguments& arguments, c
   return done ? exit_done : fail(exit_failed, done.error().message);
 }
 
-int write_files(const SimulateArguments& arguments, const Simulation& simulation, const HeightField* target) {
+int write_files(const SimulateArguments& arguments, const Simulation& simulation, const CutTarget* target) {
   for (const std::string& picture : arguments.pictures) {
     if (const int code = write_picture(picture, arguments, simulation, target); code != exit_done) return code;
   }
@@ -155,11 +179,20 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
                         .numbers = look.numbers(),
                         .tools = *tools,
                         .summary = std::move(summary)};
-  std::optional<HeightField> target;
+  std::optional<CutTarget> target;
   if (!arguments.compare.empty()) {
-    target = target_of(arguments, wishes, simulation.field, threads);
+    target = read_target(arguments, wishes, simulation.field, threads);
     if (!target) return exit_bad_program;
+    const Mm cell(simulation.field.cell());
+    const bool is_body = is_surface(arguments.compare);
+    if (is_body) target->at_most = at_most(job, wishes, look, *tools, threads, simulation.field);
     simulation.difference = compare_fields(simulation.field, *target, Mm(arguments.tolerance));
+    Mm tip{0};
+    for (const ToolShape& tool : *tools) tip = std::max(tip, thinned_tip(tool.cutter, thinner_for(cell)));
+    simulation.difference->unseen_depth = arguments.tolerance + (is_body ? tip.value() : 0);
+    // A whole cell must be cut before it counts, and the thinner tool must reach its middle.
+    simulation.difference->unseen_sideways =
+        is_body ? (cell * std::sqrt(2) + thinner_for(cell)).value() : 2 * cell.value();
   }
   if (const int code = write_files(arguments, simulation, target ? &*target : nullptr); code != exit_done) return code;
   Diagnostics findings(std::numeric_limits<std::size_t>::max());

@@ -82,7 +82,11 @@ std::string to_text(const Simulation& simulation) {
   }
   if (simulation.difference) {
     add("material left", side_in_words(simulation.difference->left));
-    add("gouges", side_in_words(simulation.difference->gouge));
+    const FieldDifference& difference = *simulation.difference;
+    add("gouges", difference.gouge.cells > 0
+                      ? side_in_words(difference.gouge)
+                      : fmt::format("none deeper than {}, or {} sideways into a wall",
+                                    mm_in_words(difference.unseen_depth), mm_in_words(difference.unseen_sideways)));
   }
   return text;
 }
@@ -122,6 +126,8 @@ std::string to_json(const Simulation& simulation, const Diagnostics& findings) {
   if (simulation.difference) {
     json["material_left"] = as_json(simulation.difference->left);
     json["gouges"] = as_json(simulation.difference->gouge);
+    json["unseen_gouge"] = {{"deep_mm", simulation.difference->unseen_depth},
+                            {"sideways_mm", simulation.difference->unseen_sideways}};
   }
   json["findings"] = findings_json(findings.all());
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -4,8 +4,10 @@
 // black lies `depth` below.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "passo/carve/height_grid.hpp"
 #include "passo/carve/level_picture.hpp"
@@ -27,8 +29,17 @@ struct ReliefShape {
   bool margin_at_top = false;     // the border stays at the top; otherwise it is cut down to the depth
   std::optional<Mm> pitch = {};   // for a model: the sample distance; for a picture: the maximum distance of nodes, by
                                   // interpolation
-  // The node distance of a picture if `pitch` is empty, as far as `most_fine_nodes` allow.
+  // The maximum distance of nodes if `pitch` is empty, as far as `most_fine_nodes` allow. A model gets at least
+  // 1,400 nodes along its longest side, but none closer than 0.01 mm.
   std::optional<Mm> wished_pitch = {};
+  unsigned threads = 1;  // for a model; the result does not depend on it
+};
+
+// A model, or a height map as triangles with a function for the height between their corners, which is exact along
+// edges that are parallel to X or Y.
+struct ReliefBody {
+  std::vector<SurfaceTriangle> faces = {};
+  std::function<double(double x, double y)> height = {};
 };
 
 // Returns the minimum height of the grid's nodes.
@@ -39,8 +50,9 @@ float floor_of(const HeightGrid& grid);
 HeightGrid relief_of(const LevelPicture& picture, const ReliefShape& shape, const std::string& name,
                      Diagnostics& diagnostics);
 
-// Samples the heights of the model at the nodes; between nodes the bilinear patches are carved. Positions outside the
-// model get the height of its lowest point.
-HeightGrid relief_of(const Surface& body, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics);
+// Returns a surface of bilinear patches that lies nowhere below the model. It is higher than the model by the curvature
+// within a cell; walls and details within a cell are less than two cells wider. Positions outside the model get the
+// height of its lowest point.
+HeightGrid relief_of(ReliefBody body, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -189,7 +189,10 @@ struct CamReliefArguments {
   std::string picture;  // .png; empty: none
   std::string width;    // empty: derived from `length`, otherwise 100 mm or the size of the model
   std::string length;
-  std::string depth;  // empty: 3 mm, or the height of the model
+  std::string depth;               // a negative Z; empty: 3 mm below the top, or the height of the model
+  std::string up = "z";            // axis of the model that points up: z, -z, x, -x, y or -y
+  std::string input_units = "mm";  // unit of the model: mm, cm, m or inch
+  std::string area = "all";        // or model: only where the model stands
   double gamma = 1;
   bool invert = false;
   bool mirror = false;

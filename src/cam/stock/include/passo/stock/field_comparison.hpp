@@ -1,12 +1,14 @@
 // compare_fields: computes the material left above a target, and the gouges into it.
 //
-// A wall is in one cell or in the next one: a height field cannot resolve it any better. Therefore a cell is compared
-// with the highest and the lowest height of the target in the cell and its eight neighbours: remaining material counts
-// above the highest, a gouge below the lowest. On a slope this tolerates an error of one cell width.
+// Material is left if the stock at the centre of a cell is higher than the highest point of the target in the cell and
+// its eight neighbours. A gouge is a height below the lowest of these nine, or a cell that was surely cut below the
+// highest point of the target in it (CutTarget::at_most). At a wall, a difference counts sideways: its size is the
+// distance to where the height is right, if that is less.
 #pragma once
 
 #include <cstddef>
 
+#include "passo/stock/cut_target.hpp"
 #include "passo/stock/height_field.hpp"
 
 namespace passo {
@@ -20,12 +22,15 @@ struct FieldDifference {
   };
   Side left;
   Side gouge;
+  // The largest gouge that the cells do not show, mm: down into a face, and sideways into a wall.
+  double unseen_depth = 0;
+  double unseen_sideways = 0;
 };
 
-// Returns the material left (positive) or the depth of a gouge (negative), mm. Both fields must have the same cells.
-double cell_difference(const HeightField& field, const HeightField& target, std::size_t column, std::size_t row);
+// Returns the material left (positive) or the depth of a gouge (negative), mm. All fields must have the same cells.
+double cell_difference(const HeightField& field, const CutTarget& target, std::size_t column, std::size_t row);
 
 // Differences up to the tolerance are ignored.
-FieldDifference compare_fields(const HeightField& field, const HeightField& target, Mm tolerance);
+FieldDifference compare_fields(const HeightField& field, const CutTarget& target, Mm tolerance);
 
 }  // namespace passo

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,17 @@ Surface read_surface(const std::string& path, Diagnostics& diagnostics);
 
 // Does the same for a file in memory.
 Surface read_surface(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+// The faces of a surface. If `height` is set, it gives the height between the corners.
+struct SurfaceFaces {
+  std::vector<SurfaceTriangle> triangles = {};
+  std::function<double(double x, double y)> height = {};
+};
+// Does the same without building a Surface: a program that looks at each face once needs a third of the memory.
+SurfaceFaces read_faces(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+// Returns the number of edges that do not belong to two triangles (or four, six…). 0: the model is closed.
+std::size_t open_edges(const std::vector<SurfaceTriangle>& triangles);
 
 // Reads the triangles of a model (STL). Reports errors in `diagnostics`, also for other file formats.
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics);

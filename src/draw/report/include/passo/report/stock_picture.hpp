@@ -5,13 +5,14 @@
 #pragma once
 
 #include "passo/report/picture.hpp"
+#include "passo/stock/cut_target.hpp"
 #include "passo/stock/height_field.hpp"
 
 namespace passo {
 
 struct StockDrawing {
   const HeightField& field;
-  const HeightField* target = nullptr;  // with the same cells; null: no target
+  const CutTarget* target = nullptr;  // with the same cells; null: no target
   Mm tolerance{0.02};
 };
 
