@@ -32,6 +32,7 @@ Region face_of(const Drawing& drawing) {
 
 std::vector<NetPlace> net_places_of(const GerberLayer& layer) {
   std::vector<NetPlace> places;
+  if (layer.is_negative) return places;
   for (const std::vector<GerberPad>* const some : {&layer.pads, &layer.named}) {
     for (const GerberPad& pad : *some) {
       const bool is_known = pad.aperture < layer.apertures.size();

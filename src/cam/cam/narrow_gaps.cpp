@@ -50,8 +50,10 @@ Region guarded(const Region& island, const TraceGuard& guard, Nanometres loss) {
 
 std::vector<Region> kept_of(const std::vector<Region>& islands, const TraceGuard& guard, Nanometres loss) {
   std::vector<Region> kept;
-  for (const Region& island : islands)
+  for (const Region& island : islands) {
     kept.push_back(united(grown(island, {-loss.count}, fine_gap_chords), guarded(island, guard, loss)));
+    if (kept.back().empty()) kept.back() = island;  // a dot
+  }
   return kept;
 }
 

@@ -343,10 +343,10 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   const std::optional<PlacedCopper> board = placed(*sources, job, options.clear, findings);
   if (!board) return exit_bad_program;
   options.board = board->board;
-  if (board->outside > 0)
-    note(fmt::format(
-        "{}: {} outside the board ignored", name,
-        board->outside == 1 ? "1 island of copper is" : counted(board->outside, "island") + " of copper are"));
+  if (board->outside > 0) {
+    note(fmt::format("{}: {} of copper {} outside the board and ignored", name, counted(board->outside, "island"),
+                     board->outside == 1 ? "is" : "are"));
+  }
 
   progress.update(0.05);
   IsolationResult result;

@@ -29,7 +29,8 @@ struct BoardLayer {
   std::vector<NetPlace> nets = {};  // empty: unknown
 };
 
-// Returns the pads of a layer, and the places that have a name.
+// Returns the pads of a layer, and the places that have a name. None of a negative layer, which draws what is not
+// copper.
 std::vector<NetPlace> net_places_of(const GerberLayer& layer);
 
 // Reports the errors of the readers, and "kicad.which-layer" and "kicad.no-layer" for a KiCad board.
