@@ -298,7 +298,8 @@ std::vector<CutterWay> IsolationPlanner::ways_in_gaps(const IsolationCutter& fin
   for (std::size_t i = 0; i < narrow.size(); ++i) plan_.kept[narrow[i]] = std::move(found->kept[i]);
   std::vector<CutterWay> ways;
   gap_ways_ = std::move(found->ways);
-  for (const DrawnRing& way : gap_ways_) ways.push_back({.points = way, .is_closed = false, .may_be_turned = true});
+  for (const DrawnRing& way : gap_ways_)
+    ways.push_back({.points = way, .is_closed = false, .may_be_turned = true, .is_exact = true});
   return ways;
 }
 
@@ -367,7 +368,8 @@ void IsolationPlanner::find_narrow_ground(const IsolationCutter& finest) {
   plan_.unmilled = narrow;
   Region left = std::move(joined_);
   if (!gap_ways_.empty()) left = subtracted(left, swept(gap_ways_, {radius.count}));
-  plan_.gaps = find_gaps(islands_, parts_with(islands_, parts_of(left)), {2 * around.count});
+  const std::vector<Region>& places = plan_.kept.empty() ? islands_ : plan_.kept;  // they have points that stay
+  plan_.gaps = find_gaps(islands_, parts_with(places, parts_of(left)), {2 * around.count});
   if (plan_.gaps.empty()) return;
   const Region closed = grown(left, {radius.count - around.count}, options_.tolerance);
   const Nanometres open{options_.tolerance.count};

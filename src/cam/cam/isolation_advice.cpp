@@ -57,7 +57,7 @@ std::optional<IsolationAdvice> advise_isolation(const Region& copper, const std:
     if (none.any_error()) return best;
     const IsolationProof proof = prove_isolation(copper, plan.mill, options.board, {}, plan.kept);
     if (proof.damage_mm2 > 0 || !proof.broken.empty()) continue;
-    const JoinedNets left = find_joined_nets(copper, known, proof, finer[trial.cutter].width);
+    const JoinedNets left = find_joined_nets(copper, known, plan.mill, proof, finer[trial.cutter].width);
     if (left.joined < (best ? best->joined : joined.joined))
       best = IsolationAdvice{trial.cutter, trial.loss, left.joined, proof.lost_mm2, proof.deepest};
     if (left.joined == 0) break;

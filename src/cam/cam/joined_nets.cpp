@@ -1,5 +1,6 @@
 #include "passo/cam/joined_nets.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -61,10 +62,43 @@ class NetFinder {
   std::vector<std::string> names_;
 };
 
+// Two islands may be joined elsewhere than where they are nearest, over a third one.
+std::vector<CopperGap> without_milled(std::vector<CopperGap> gaps, const MillPlan& plan) {
+  constexpr Nanometres chords{1'000};
+  if (gaps.empty()) return gaps;
+  std::vector<CopperGap> left;
+  std::vector<DrawnPoint> places;
+  for (const CopperGap& gap : gaps) places.push_back(gap.at);
+  DrawnBox box = box_of(places);
+  std::vector<bool> is_milled(gaps.size());
+  for (const MillTool& tool : plan.tools) {
+    std::vector<DrawnRing> ways;
+    for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, chords));
+    for (const DrawnRing& way : ways) {
+      const DrawnBox of_way = box_of(way);
+      box = {{std::min(box.least.x, of_way.least.x), std::min(box.least.y, of_way.least.y)},
+             {std::max(box.most.x, of_way.most.x), std::max(box.most.y, of_way.most.y)}};
+    }
+    EdgeGrid grid(box, {200'000});
+    // A way is a ring that goes there and back.
+    for (DrawnRing& way : ways) {
+      for (std::size_t i = way.size() - 1; i-- > 1;) way.push_back(way[i]);
+      grid.add(way, 0);
+    }
+    grid.finish();
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      is_milled[i] = is_milled[i] || grid.nearest(gaps[i].at, static_cast<double>(tool.width.count) / 2).has_value();
+  }
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (!is_milled[i]) left.push_back(gaps[i]);
+  }
+  return left.empty() ? gaps : left;
+}
+
 }  // namespace
 
-JoinedNets find_joined_nets(const Region& copper, const std::vector<NetPlace>& known, const IsolationProof& proof,
-                            Nanometres finest) {
+JoinedNets find_joined_nets(const Region& copper, const std::vector<NetPlace>& known, const MillPlan& plan,
+                            const IsolationProof& proof, Nanometres finest) {
   const std::vector<Region> islands = parts_of(copper);
   NetFinder finder(islands);
   finder.add(known);
@@ -100,7 +134,7 @@ JoinedNets find_joined_nets(const Region& copper, const std::vector<NetPlace>& k
   }
   found.joined = joined.size();
   constexpr Nanometres margin{50'000};  // of the cutter's distance from the copper
-  if (found.joined > 0) found.gaps = find_gaps(islands, group, finest + margin);
+  if (found.joined > 0) found.gaps = without_milled(find_gaps(islands, group, finest + margin), plan);
   found.names = finder.take_names();
   return found;
 }

@@ -21,13 +21,9 @@ struct TraceGuard {
 };
 
 // Discs along the middle lines of traces, which cover the copper that must stay.
-Region guarded(const Region& island, const TraceGuard& guard, Nanometres loss) {
-  constexpr double trace_like =
-      2.0;                       // radians between the two edges, seen from the middle: the corners of pads have less
+Region guarded(const Region& island, const std::optional<MedialAxis>& axis, const TraceGuard& guard, Nanometres loss) {
   constexpr double bin = 5'000;  // nm, of the radii
   constexpr double rounding = 2'000;
-  const std::optional<MedialAxis> axis =
-      medial_axis(island, {.least_turn = trace_like, .tolerance_nm = 1'000, .owners = {}});
   if (!axis) return island;
   const double widest = std::max(guard.solid_nm, guard.core_nm + static_cast<double>(loss.count));
   std::map<std::int64_t, std::vector<DrawnRing>> ways;  // by the radius
@@ -48,11 +44,22 @@ Region guarded(const Region& island, const TraceGuard& guard, Nanometres loss) {
   return covers.empty() ? Region{} : common(island, united(covers));
 }
 
-std::vector<Region> kept_of(const std::vector<Region>& islands, const TraceGuard& guard, Nanometres loss) {
+// The middle lines of traces. The corners of pads have none.
+std::vector<std::optional<MedialAxis>> middles_of(const std::vector<Region>& islands) {
+  constexpr double trace_like = 2.0;  // radians between the two edges, seen from the middle
+  std::vector<std::optional<MedialAxis>> middles;
+  for (const Region& island : islands)
+    middles.push_back(medial_axis(island, {.least_turn = trace_like, .tolerance_nm = 1'000, .owners = {}}));
+  return middles;
+}
+
+std::vector<Region> kept_of(const std::vector<Region>& islands, const std::vector<std::optional<MedialAxis>>& middles,
+                            const TraceGuard& guard, Nanometres loss) {
   std::vector<Region> kept;
-  for (const Region& island : islands) {
-    kept.push_back(united(grown(island, {-loss.count}, fine_gap_chords), guarded(island, guard, loss)));
-    if (kept.back().empty()) kept.back() = island;  // a dot
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    kept.push_back(
+        united(grown(islands[i], {-loss.count}, fine_gap_chords), guarded(islands[i], middles[i], guard, loss)));
+    if (kept.back().empty()) kept.back() = islands[i];  // a dot
   }
   return kept;
 }
@@ -73,11 +80,12 @@ std::optional<NarrowGapWays> part_narrow_gaps(const std::vector<Region>& islands
   const Region copper = gathered(islands);
   Region zone = grown(copper, rules.reach + past_the_mouth, fine_gap_chords);
   if (!within.empty()) zone = common(zone, within);
+  const std::vector<std::optional<MedialAxis>> middles = middles_of(islands);
   NarrowGapWays found;
   // Each guard takes from copper that the one before it spared.
   for (const TraceGuard& guard :
        {TraceGuard{std::max(widest_trace, least) / 2, least / 2}, TraceGuard{least / 2, least / 2}}) {
-    found.kept = kept_of(islands, guard, rules.loss);
+    found.kept = kept_of(islands, middles, guard, rules.loss);
     const Region kept = gathered(found.kept);
     const std::optional<std::vector<DrawnRing>> lines = voronoi_lines(found.kept, *bounds(copper));
     if (!lines) return std::nullopt;

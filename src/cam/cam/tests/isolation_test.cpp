@@ -217,7 +217,7 @@ TEST(JoinedNets, are_islands_with_pads_holes_or_names) {
   const Region copper = united({pad(0, 0, 2), pad(2.15, 0, 2), pad(4.3, 0, 2), pad(6.45, 0, 2), pad(20, 0, 2)});
   const auto [plan, proof] = isolated(copper, with({0.2}));
   EXPECT_EQ(proof.joined, 4U);
-  JoinedNets all = find_joined_nets(copper, {}, proof, wide(0.2));
+  JoinedNets all = find_joined_nets(copper, {}, plan.mill, proof, wide(0.2));
   EXPECT_EQ(all.nets, 5U);
   EXPECT_EQ(all.joined, 4U);
   EXPECT_EQ(all.groups, 1U);
@@ -225,20 +225,20 @@ TEST(JoinedNets, are_islands_with_pads_holes_or_names) {
   EXPECT_EQ(all.gaps[0].width, wide(0.15));
   // The second is text: it joins the first one with the others all the same.
   std::vector<NetPlace> known = {{spot(0, 0), "A", {}}, {spot(4.3, 0), "B", {}}, {spot(20, 0), "A", {}}};
-  JoinedNets named = find_joined_nets(copper, known, proof, wide(0.2));
+  JoinedNets named = find_joined_nets(copper, known, plan.mill, proof, wide(0.2));
   EXPECT_EQ(named.nets, 2U);
   EXPECT_EQ(named.joined, 2U);
   EXPECT_EQ(named.others, 2U);
   known[1].net = "A";
-  EXPECT_EQ(find_joined_nets(copper, known, proof, wide(0.2)).joined, 0U) << "one net, drawn in two islands";
+  EXPECT_EQ(find_joined_nets(copper, known, plan.mill, proof, wide(0.2)).joined, 0U) << "one net, drawn in two islands";
 }
 
 TEST(IsolationAdvice, is_tried) {
   const Region copper = united(two_pads(0.08), pad(10, 0, 2));
   IsolationOptions options = with({0.3});
   options.allowed_loss = wide(0.03);
-  const IsolationProof proof = isolated(copper, options).proof;
-  const JoinedNets joined = find_joined_nets(copper, {}, proof, wide(0.3));
+  const auto [plan, proof] = isolated(copper, options);
+  const JoinedNets joined = find_joined_nets(copper, {}, plan.mill, proof, wide(0.3));
   EXPECT_EQ(joined.joined, 2U);
   const std::vector<IsolationCutter> finer = {{wide(0.3), ""}, {wide(0.2), ""}, {wide(0.12), ""}, {wide(0.1), ""}};
   const auto advice = advise_isolation(copper, {}, options, joined, finer, wide(0.05));
@@ -487,7 +487,7 @@ TEST(Isolation, every_net_of_the_example_board_comes_apart) {
   const auto [plan, proof] = isolated(layer.face, options);
   EXPECT_EQ(proof.damage_mm2, 0);
   EXPECT_EQ(proof.joined, 0U);
-  EXPECT_EQ(find_joined_nets(layer.face, layer.nets, proof, wide(0.1)).joined, 0U);
+  EXPECT_EQ(find_joined_nets(layer.face, layer.nets, plan.mill, proof, wide(0.1)).joined, 0U);
   test::MilledPicture picture = picture_of(layer.face, plan.mill, 0.02);
   EXPECT_EQ(joined_in(picture, plan.kept), 0U);
   EXPECT_LE(picture.deepest_loss(0.2), 0.045 + 0.02);

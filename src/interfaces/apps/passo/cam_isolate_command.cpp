@@ -294,7 +294,8 @@ std::optional<PlacedCopper> placed(const CamSources& sources, const MillJob& job
   if (const std::optional<DrawnBox> box = bounds(placed.copper); is_cleared && placed.board.empty() && box) {
     placed.board = grown(filled({rectangle(*box)}), {2'000'000});
   }
-  Region places{{{}}};
+  Region places;
+  places.rings.emplace_back();
   for (NetPlace& place : placed.nets) places.rings.front().push_back(mirrored(place.at, job.mirror));
   const Region whole = placed.board.empty() ? placed.copper : placed.board;
   move_to_zero(job.zero, whole, {&placed.copper, &placed.board, &places});
@@ -359,7 +360,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
       prove_isolation(board->copper, result.plan.mill, options.board, progress.part(0.6, 0.9), result.plan.kept);
   if (!is_sound(result.proof)) return exit_failed;
   const Nanometres finest = std::ranges::min_element(options.cutters, {}, &IsolationCutter::width)->width;
-  result.nets = find_joined_nets(board->copper, board->nets, result.proof, finest);
+  result.nets = find_joined_nets(board->copper, board->nets, result.plan.mill, result.proof, finest);
   for (const std::string& words : result.plan.mill.notes) note(words);
   note_gaps(result, name);
   if (const int code = write_text(arguments.output, write_mill_program(result.plan.mill, job.program));

@@ -25,7 +25,7 @@ struct JoinedNets {
 };
 
 // `known`: places on the copper. `finest`: the width of the finest cutter.
-JoinedNets find_joined_nets(const Region& copper, const std::vector<NetPlace>& known, const IsolationProof& proof,
-                            Nanometres finest);
+JoinedNets find_joined_nets(const Region& copper, const std::vector<NetPlace>& known, const MillPlan& plan,
+                            const IsolationProof& proof, Nanometres finest);
 
 }  // namespace passo
