@@ -242,7 +242,6 @@ TEST(Outline, a_slug_is_held_by_tabs_or_milled_away) {
 }
 
 TEST(Outline, as_many_tabs_as_fit_and_never_none) {
-  // A disc of 12.6 mm, inside which a cutter of 6.35 mm goes around 19.6 mm.
   OutlineOptions options{.cutter = lengthy(6.35), .tabs = 4, .tab_width = lengthy(5), .openings_only = true};
   const Outlined some = tabbed(25, options);
   EXPECT_EQ(some.plan.tabs.size(), 4U);
@@ -258,7 +257,7 @@ TEST(Outline, as_many_tabs_as_fit_and_never_none) {
 TEST(Outline, tabs_lie_on_straight_pieces_and_apart) {
   // A slot with round ends: two straight pieces of 30 mm.
   Drawing drawing{.file = "edge.dxf", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
-  DrawnPath path = open_line({{xy(0, 0)}, {xy(30, 0), 1}, {xy(30, 40)}, {xy(0, 40), 1}});
+  DrawnPath path = open_line({{xy(0, 0)}, {xy(30, 0), 1}, {xy(30, 10)}, {xy(0, 10), 1}});
   path.is_closed = true;
   drawing.paths.push_back(path);
   const Outlined result = outlined(drawing, {.cutter = lengthy(2), .tabs = 6});
