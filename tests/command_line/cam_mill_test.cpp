@@ -41,7 +41,7 @@ TEST_F(CamMill, an_isolated_layer_loses_no_copper_and_its_program_is_good) {
   const Outcome made = cam("isolate " + copper() + " --tool 0.12 -o " + path("f.ngc") + " -p " + path("f.png"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr(", 0 of "));
-  EXPECT_THAT(made.out, HasSubstr("3 islands, all apart"));
+  EXPECT_THAT(made.out, HasSubstr("3 nets, all apart"));
   const std::string program = read(path("f.ngc"));
   EXPECT_THAT(program, HasSubstr("\nG2 "));
   EXPECT_THAT(program, testing::EndsWith("M2\n"));
@@ -63,7 +63,7 @@ TEST_F(CamMill, a_negative_layer_covers_the_board_but_what_it_draws) {
   const Outcome made = cam(isolate + " --edge " + edge());
   EXPECT_EQ(made.code, 0) << made.err;
   // 20 x 15 mm with two round corners, less a ring of 2 and 1 mm of radius.
-  EXPECT_THAT(made.out, HasSubstr("0 of 288.9 mm\u00B2 of copper lost; 2 islands, all apart"));
+  EXPECT_THAT(made.out, HasSubstr("0 of 288.9 mm\u00B2 of copper lost; 2 nets, all apart"));
 }
 
 TEST_F(CamMill, ways_midway_between_islands_end_at_the_edge) {
@@ -71,18 +71,40 @@ TEST_F(CamMill, ways_midway_between_islands_end_at_the_edge) {
   const Outcome made = cam(options + " -o " + path("v.ngc") + " -p " + path("v.svg"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr(", 0 of "));
-  EXPECT_THAT(made.out, HasSubstr("3 islands, all apart"));
+  EXPECT_THAT(made.out, HasSubstr("3 nets, all apart"));
   EXPECT_EQ(check(path("v.ngc")).code, 0);
   EXPECT_THAT(cam(options + " --clear").err, HasSubstr("--clear and --voronoi cannot be combined"));
 }
 
-TEST_F(CamMill, a_gap_too_narrow_is_told) {
-  const Outcome made = cam("isolate " + copper() + " --v 30,0.15 --depth -0.1 --json -o " + path("f.ngc"));
-  EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.err, HasSubstr("at X6.0750 Y"));
-  EXPECT_THAT(made.err, HasSubstr("which are 0.15 mm apart"));
+TEST_F(CamMill, nets_that_stay_joined_are_told_and_fail) {
+  const std::string isolate = "isolate " + copper() + " --v 30,0.15 --depth -0.1 --allow-loss 0 -o " + path("f.ngc");
+  const Outcome made = cam(isolate + " --json");
+  EXPECT_EQ(made.code, 1);
+  EXPECT_THAT(made.err, HasSubstr("two islands are still joined at X6.0750 Y"));
+  EXPECT_THAT(made.err, HasSubstr("where they are 0.15 mm apart"));
+  EXPECT_THAT(made.err, HasSubstr("2 nets are still joined"));
   EXPECT_THAT(made.out, HasSubstr("\"joined\": 2"));
   EXPECT_THAT(made.out, HasSubstr("\"lost_mm2\": 0.0"));
+  EXPECT_EQ(check(path("f.ngc")).code, 0) << "it is written all the same";
+  EXPECT_EQ(cam(isolate + " --accept-joined").code, 0);
+  // What is advised was tried.
+  EXPECT_THAT(made.err, HasSubstr("--allow-loss 0.03mm was tried: all nets are apart"));
+  const Outcome parted = cam("isolate " + copper() + " --v 30,0.15 --depth -0.1 -o " + path("f.ngc"));
+  EXPECT_EQ(parted.code, 0) << parted.err;
+  EXPECT_THAT(parted.out, HasSubstr("3 nets, all apart"));
+}
+
+TEST_F(CamMill, copper_outside_the_board_does_not_count) {
+  const std::string beside =
+      write("beside.gbr", std::string(begin) +
+                              "%ADD10R,2.0X2.0*%\nD10*\nX5000000Y5000000D03*\nX5000000Y9000000D03*\n"
+                              "X5000000Y-20000000D03*\nX7050000Y-20000000D03*\nM02*\n");
+  const std::string isolate = "isolate " + beside + " --tool 0.2 -o " + path("b.ngc");
+  EXPECT_EQ(cam(isolate).code, 1);
+  const Outcome made = cam(isolate + " --edge " + edge());
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("2 islands of copper are outside the board and ignored"));
+  EXPECT_THAT(made.out, HasSubstr("2 nets, all apart"));
 }
 
 TEST_F(CamMill, a_cleared_back_is_turned_over_about_two_holes) {
@@ -105,6 +127,9 @@ TEST_F(CamMill, an_outline_keeps_its_arcs_and_has_tabs) {
   EXPECT_THAT(made.out, HasSubstr("4 tabs; 0 mm² of it lost"));
   EXPECT_THAT(read(path("o.ngc")), HasSubstr("\nG2 "));
   EXPECT_EQ(check(path("o.ngc")).code, 0);
+  EXPECT_THAT(cam("outline " + edge() + " -o " + path("o.ngc")).out, HasSubstr(", 4 tabs;"));
+  EXPECT_THAT(cam("outline " + edge() + " --no-tabs -o " + path("o.ngc")).out, HasSubstr(", 0 tabs;"));
+  EXPECT_EQ(cam("outline " + edge() + " --no-tabs --tab 1,1 -o " + path("o.ngc")).code, 2);
 }
 
 TEST_F(CamMill, wrong_options_are_told) {

@@ -32,7 +32,7 @@ TEST_F(CamPart, a_bracket_is_cut_out_of_a_sheet) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   EXPECT_THAT(made.out, HasSubstr("drawn: X 10 to 110, Y 5 to 75 mm\n"));
-  EXPECT_THAT(made.out, HasSubstr("1 outside and 6 insides, 4 tabs; 0 mm² of the part lost\n"));
+  EXPECT_THAT(made.out, HasSubstr("1 outside and 6 insides, 8 tabs; 0 mm² of the part lost\n"));
   EXPECT_THAT(read(path("b.ngc")), HasSubstr("\nM3 S12000\n"));
   EXPECT_GT(std::filesystem::file_size(path("b.png")), 10'000U);
   expect_cuts_well(path("b.ngc"), "X5:115,Y0:80,Z-6:0");
@@ -101,6 +101,23 @@ TEST_F(CamPart, an_inlay_has_a_pocket_and_a_mirrored_plug) {
   EXPECT_THAT(plug.out, HasSubstr("at most 4.5 mm deep"));
   EXPECT_THAT(passo("check " + path("plug.ngc") + on_router).out, HasSubstr("no errors"));
   EXPECT_THAT(passo("cam engrave " + svg + " --tool 4 --inlay plug").err, HasSubstr("--tool: expected 5.2 mm or more"));
+  const Outcome floor = passo("cam engrave " + svg + " --tool 8 --inlay pocket -o " + path("floor.ngc"));
+  EXPECT_EQ(floor.code, 2);
+  EXPECT_THAT(floor.err, HasSubstr("so the halves would not fit into each other: expected --clear D"));
+}
+
+// The flat cutter does not fit between the walls: the V-bit mills the floor.
+TEST_F(CamPart, the_floor_of_an_inlay_is_flat_where_the_flat_cutter_is_too_wide) {
+  const std::string svg =
+      write("bar.svg",
+            "<svg width='40mm' height='10mm' viewBox='0 0 40 10'><rect x='5' y='3' width='30' height='4.5'/></svg>");
+  const Outcome made = passo("cam engrave " + svg +
+                             " --angle 60 --tool 6 --inlay pocket --inlay-depth 2 --clear 3 -o " + path("bar.ngc"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, Not(HasSubstr("not reached")));
+  const Outcome cut =
+      passo("simulate " + path("bar.ngc") + " --tool vee:60:6 --cell 0.05 --stock X0:40,Y0:10,Z-4:0 --json");
+  EXPECT_EQ(cut.code, 0) << cut.out << cut.err;
 }
 
 TEST_F(CamPart, foam_is_cut_by_two_ends_of_a_wire) {
@@ -132,7 +149,7 @@ TEST_F(CamPart, what_is_wrong_is_told) {
   refused("pocket " + write("c.svg", "<svg width='9' height='9'/>"), "[pocket.no-area]");
   refused("profile " + bracket + " --layer cut --sheet 30,200", "[profile.off-sheet]");
   refused("profile " + bracket + " --sheet 30,-200", "--sheet: expected W,H above 0");
-  refused("profile " + bracket + " --side on --tabs 3", "--side on");
+  refused("profile " + bracket + " --side on --tab 1,1", "--side on");
   refused("pocket " + bracket + " --tool 0", "--tool: expected a length above 0");
   refused("pocket " + bracket + " --depth -3 --step 0.0001", "--step: expected 0.001 mm or more");
   refused("pocket " + bracket + " --engagement 10", "--engagement: expected 0, or 30 to 150 degrees, found 10");

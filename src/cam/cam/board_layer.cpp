@@ -4,7 +4,6 @@
 #include <iterator>
 #include <map>
 
-#include "passo/cam/gerber.hpp"
 #include "passo/cam/kicad_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
@@ -31,6 +30,19 @@ Region face_of(const Drawing& drawing) {
   return regions.size() == 1 ? std::move(regions.front()) : united(regions);
 }
 
+std::vector<NetPlace> net_places_of(const GerberLayer& layer) {
+  std::vector<NetPlace> places;
+  if (layer.is_negative) return places;
+  for (const std::vector<GerberPad>* const some : {&layer.pads, &layer.named}) {
+    for (const GerberPad& pad : *some) {
+      const bool is_known = pad.aperture < layer.apertures.size();
+      const Nanometres across = is_known ? layer.apertures[pad.aperture].across : Nanometres{};
+      places.push_back({pad.at, pad.net < layer.nets.size() ? layer.nets[pad.net] : "", {across.count / 2}});
+    }
+  }
+  return places;
+}
+
 namespace {
 
 // The layers of the board that are chosen; none is chosen: the edge, or the only one with copper.
@@ -40,6 +52,7 @@ BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFile
   layer.lines.file = path;
   std::vector<Region> faces;
   const auto take = [&](GerberLayer& from) {
+    std::ranges::move(net_places_of(from), std::back_inserter(layer.nets));
     faces.push_back(std::move(from.dark));
     std::ranges::move(from.strokes.paths, std::back_inserter(layer.lines.paths));
     std::ranges::move(from.strokes.notes, std::back_inserter(layer.lines.notes));
@@ -93,6 +106,7 @@ BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& o
   } else {
     layer.face = std::move(gerber.dark);
   }
+  layer.nets = net_places_of(gerber);
   layer.lines = std::move(gerber.strokes);
   layer.lines.file = path;
   return layer;
@@ -112,7 +126,7 @@ Region covered_by(const BoardLayer& layer, const Region& board, Diagnostics& dia
 BoardEdge board_edge(const BoardLayer& layer, Nanometres join, Diagnostics& diagnostics) {
   Diagnostics found;
   BoardEdge edge;
-  edge.loops = edge_loops(layer.lines, join, found);
+  edge.loops = edge_loops(layer.lines, join, found, OpenRows::slots);
   edge.board = board_within(edge.loops);
   for (const Diagnostic& one : found.all()) diagnostics.add(one);
   if (edge.board.empty() && !found.any_error()) edge.board = layer.face;

@@ -26,9 +26,8 @@ EdgeGrid grid_of(const std::vector<Region>& islands, Nanometres cell) {
 
 }  // namespace
 
-std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::vector<Region>& groups,
+std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::vector<std::size_t>& group,
                                  Nanometres narrowest) {
-  const std::vector<std::size_t> group = parts_with(islands, groups);
   const EdgeGrid grid = grid_of(islands, narrowest);
   const auto reach = static_cast<double>(narrowest.count);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<double, DrawnPoint>> best;
@@ -51,7 +50,7 @@ std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::
     }
   }
   std::vector<CopperGap> gaps;
-  for (const auto& [islands_of_gap, gap] : best) gaps.push_back({gap.second, {std::llround(gap.first)}});
+  for (const auto& [pair, gap] : best) gaps.push_back({gap.second, {std::llround(gap.first)}, pair.first, pair.second});
   std::ranges::sort(gaps, {}, [](const CopperGap& gap) { return std::pair(gap.width, gap.at); });
   return gaps;
 }

@@ -7,9 +7,9 @@
 
 namespace passo {
 
-// Returns one gap for each pair of islands that are closer than `narrowest` and lie in the same region of `groups`; the
-// narrowest gap first.
-std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::vector<Region>& groups,
+// Returns one gap for each pair of islands that are closer than `narrowest` and belong to the same group; the narrowest
+// gap first. `group`: a number for each island.
+std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::vector<std::size_t>& group,
                                  Nanometres narrowest);
 
 // Returns the pieces of `ground` that touch two or more islands. `reach`: the maximum distance at which a piece counts

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "edge_grid.hpp"
 #include "place_tree.hpp"
 #include <fmt/format.h>
 
@@ -38,11 +39,13 @@ class EdgeJoiner {
 
   EdgeLoops loops() {
     collect();
+    drop_overlaps();
     join_ends();
     std::vector<bool> is_used(open_.size());
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (!is_used[i]) follow(i, is_used);
     }
+    if (open_rows_ == OpenRows::slots) refuse_others();
     return std::move(found_);
   }
 
@@ -52,20 +55,27 @@ class EdgeJoiner {
     return end % 2 == 0 ? points.front().at : points.back().at;
   }
   void collect();
+  bool is_new(const PathPoint& from, const PathPoint& to);
   void collect_open(const DrawnPath& path);
+  void drop_overlaps();
+  void trim(std::uint32_t index, const EdgeGrid& grid);
   void join_ends();
   void follow(std::size_t path, std::vector<bool>& is_used);
-  void refuse(std::size_t end);
+  void refuse_others();
+  std::optional<Nanometres> join_that_helps() const;
+  void refuse(std::size_t end, std::optional<Nanometres> join);
   void append(std::vector<PathPoint>& loop, std::size_t first_end);
 
   const Drawing& drawing_;
   Nanometres join_;
   OpenRows open_rows_;
   Diagnostics& diagnostics_;
+  bool is_trial_ = false;
   EdgeLoops found_;
   std::vector<DrawnPath> open_;
   std::set<std::tuple<DrawnPoint, DrawnPoint, DrawnPoint>> known_;  // ends and middles of their pieces
   std::vector<std::optional<std::size_t>> partners_;                // of each end
+  std::vector<std::pair<std::size_t, std::size_t>> open_ends_;      // of each row that is not closed
 };
 
 void EdgeJoiner::collect() {
@@ -76,20 +86,29 @@ void EdgeJoiner::collect() {
         {{{{hole.at.x.count + radius}, hole.at.y}, 1}, {{{hole.at.x.count - radius}, hole.at.y}, 1}});
   }
   std::set<std::tuple<DrawnPoint, DrawnPoint, DrawnPoint, std::size_t>> known;
+  std::vector<DrawnPath> open;
   for (const DrawnPath& path : drawing_.paths) {
     if (path.points.size() < 2) continue;
     const DrawnPoint first = path.points.front().at;
     DrawnPath whole = path;
     if (path.is_closed && path.points.back().at != first) whole.points.push_back({first, 0});
     if (whole.points.back().at != first || goes_back(whole.points)) {
-      collect_open(whole);
+      open.push_back(std::move(whole));
       continue;
     }
     const DrawnPoint middle = point_along(first, path.points[1].at, path.points[0].bulge, 0.5);
     if (!known.emplace(first, first, middle, path.points.size()).second) continue;
+    for (std::size_t i = 0; i + 1 < whole.points.size(); ++i) is_new(whole.points[i], whole.points[i + 1]);
     whole.points.pop_back();
     found_.loops.push_back(std::move(whole.points));
   }
+  for (const DrawnPath& path : open) collect_open(path);
+}
+
+bool EdgeJoiner::is_new(const PathPoint& from, const PathPoint& to) {
+  const DrawnPoint middle =
+      from.at < to.at ? point_along(from.at, to.at, from.bulge, 0.5) : point_along(to.at, from.at, -from.bulge, 0.5);
+  return known_.emplace(std::min(from.at, to.at), std::max(from.at, to.at), middle).second;
 }
 
 // Layout programs draw an edge twice, part of it twice, or forth and back: each piece of an open path counts once.
@@ -99,10 +118,8 @@ void EdgeJoiner::collect_open(const DrawnPath& path) {
   for (std::size_t i = 1; i < path.points.size(); ++i) {
     const PathPoint& from = path.points[i - 1];
     const PathPoint& to = path.points[i];
-    const DrawnPoint middle =
-        from.at < to.at ? point_along(from.at, to.at, from.bulge, 0.5) : point_along(to.at, from.at, -from.bulge, 0.5);
-    const bool is_new = from.at != to.at || from.bulge != 0;
-    if (is_new && known_.emplace(std::min(from.at, to.at), std::max(from.at, to.at), middle).second) {
+    const bool is_piece = from.at != to.at || from.bulge != 0;
+    if (is_piece && is_new(from, to)) {
       parts.back().points.push_back(to);
     } else if (from.at != to.at) {
       parts.push_back(path);
@@ -118,6 +135,62 @@ void EdgeJoiner::collect_open(const DrawnPath& path) {
       open_.push_back(std::move(part));
     }
   }
+}
+
+// Of two straight pieces on one line the shorter one loses what lies on the other.
+void EdgeJoiner::drop_overlaps() {
+  std::vector<DrawnPoint> corners;
+  const auto add_corners = [&](const std::vector<PathPoint>& points) {
+    for (const PathPoint& point : points) corners.push_back(point.at);
+  };
+  for (const std::vector<PathPoint>& loop : found_.loops) add_corners(loop);
+  for (const DrawnPath& path : open_) add_corners(path.points);
+  if (open_.empty()) return;
+  EdgeGrid grid(box_of(corners), {1'000'000});
+  constexpr std::uint32_t of_loop = 0xffffffff;
+  const auto add_piece = [&](const PathPoint& from, const PathPoint& to, std::uint32_t owner) {
+    if (from.bulge == 0 && from.at != to.at) grid.add({from.at, to.at}, owner);
+  };
+  for (const std::vector<PathPoint>& loop : found_.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) add_piece(loop[i], loop[(i + 1) % loop.size()], of_loop);
+  }
+  for (std::uint32_t i = 0; i < open_.size(); ++i) {
+    if (open_[i].points.size() == 2) add_piece(open_[i].points[0], open_[i].points[1], i);
+  }
+  grid.finish();
+  for (std::uint32_t i = 0; i < open_.size(); ++i) {
+    if (open_[i].points.size() == 2 && open_[i].points[0].bulge == 0) trim(i, grid);
+  }
+  std::erase_if(open_, [](const DrawnPath& path) { return path.points.size() < 2; });
+}
+
+// `grid`: the pieces as they were. The owner of a piece is its index among the open paths.
+void EdgeJoiner::trim(std::uint32_t index, const EdgeGrid& grid) {
+  constexpr double beside = 1'000;  // nm
+  std::vector<PathPoint>& points = open_[index].points;
+  grid.for_near(points[0].at, points[1].at, beside, [&](std::uint32_t other) {
+    const EdgeGrid::Edge& edge = grid.edge(other);
+    if (edge.owner == index || points.size() < 2) return;
+    const double length = distance_nm(points[0].at, points[1].at);
+    const double of_other = distance_nm(edge.from, edge.to);
+    const bool gives = length < of_other || (length == of_other && index > edge.owner) || edge.owner >= open_.size();
+    const bool is_there = edge.owner >= open_.size() || open_[edge.owner].points.size() == 2;
+    if (!gives || !is_there) return;
+    const bool first_is_on = EdgeGrid::to_edge(points[0].at, edge).distance_nm <= beside;
+    const bool second_is_on = EdgeGrid::to_edge(points[1].at, edge).distance_nm <= beside;
+    if (first_is_on && second_is_on) {
+      points.clear();
+      return;
+    }
+    if (first_is_on == second_is_on) return;
+    PathPoint& on = points[first_is_on ? 0 : 1];
+    const DrawnPoint off = points[first_is_on ? 1 : 0].at;
+    // Only an end of the other piece that lies on this one is where the two overlap.
+    for (const DrawnPoint& end : {edge.from, edge.to}) {
+      const bool is_on = EdgeGrid::to_edge(end, {on.at, off, 0}).distance_nm <= beside;
+      if (is_on && distance_nm(end, on.at) > beside) on.at = end;
+    }
+  });
 }
 
 void EdgeJoiner::join_ends() {
@@ -176,12 +249,14 @@ void EdgeJoiner::follow(std::size_t path, std::vector<bool>& is_used) {
     append(loop, end);
     const std::size_t far_end = end ^ 1U;
     if (!partners_[far_end]) {
-      if (open_rows_ == OpenRows::kept) {
+      if (open_rows_ == OpenRows::refused) {
+        const std::optional<Nanometres> join = join_that_helps();
+        refuse(first, join);
+        refuse(far_end, join);
+      } else {
         found_.open.push_back(std::move(loop));
-        return;
+        open_ends_.emplace_back(first, far_end);
       }
-      refuse(first);
-      refuse(far_end);
       return;
     }
     end = *partners_[far_end];
@@ -191,19 +266,78 @@ void EdgeJoiner::follow(std::size_t path, std::vector<bool>& is_used) {
   if (loop.size() > 1) found_.loops.push_back(std::move(loop));
 }
 
-void EdgeJoiner::refuse(std::size_t end) {
+// A line within the board whose ends are far from each other, and from other ends, is a slot. Anything else that is
+// open is refused.
+void EdgeJoiner::refuse_others() {
+  constexpr double far = 1e6;  // nm
+  const Region board = board_within(found_);
+  std::vector<std::vector<PathPoint>> slots;
+  std::vector<std::pair<std::size_t, std::size_t>> refused;
+  for (std::size_t i = 0; i < open_ends_.size(); ++i) {
+    const auto& [first, last] = open_ends_[i];
+    const auto is_apart = [&](std::size_t end) {
+      for (const auto& [a, b] : open_ends_) {
+        for (const std::size_t other : {a, b}) {
+          if (other != end && distance_nm(place(end), place(other)) < far) return false;
+        }
+      }
+      return true;
+    };
+    const bool is_slot = !board.empty() && contains(board, place(first)) && contains(board, place(last)) &&
+                         is_apart(first) && is_apart(last);
+    if (is_slot) {
+      slots.push_back(std::move(found_.open[i]));
+    } else {
+      refused.push_back(open_ends_[i]);
+    }
+  }
+  found_.open = std::move(slots);
+  if (refused.empty()) return;
+  const std::optional<Nanometres> join = join_that_helps();
+  for (const auto& [first, last] : refused) {
+    refuse(first, join);
+    refuse(last, join);
+  }
+}
+
+// The --join that closes all rows, if there is one: it was tried. No loop may be without an inside.
+std::optional<Nanometres> EdgeJoiner::join_that_helps() const {
+  constexpr std::int64_t step = 10'000;
+  constexpr std::size_t most_ends = 200;
+  if (is_trial_) return std::nullopt;
+  std::vector<std::size_t> ends;
+  for (std::size_t end = 0; end < partners_.size(); ++end) {
+    if (!partners_[end]) ends.push_back(end);
+  }
+  if (ends.size() > most_ends) return std::nullopt;
+  double widest = 0;
+  for (const std::size_t end : ends) {
+    double nearest = 1e300;
+    for (const std::size_t other : ends) {
+      if (other != end) nearest = std::min(nearest, distance_nm(place(end), place(other)));
+    }
+    widest = std::max(widest, nearest);
+  }
+  if (widest > 1e9) return std::nullopt;
+  const Nanometres join{(std::llround(widest) + step - 1) / step * step};
+  Diagnostics none;
+  EdgeJoiner trial(drawing_, join, OpenRows::kept, none);
+  trial.is_trial_ = true;
+  const EdgeLoops loops = trial.loops();
+  if (!loops.open.empty() || loops.loops.size() <= found_.loops.size()) return std::nullopt;
+  constexpr double least_mm2 = 0.01;
+  for (const std::vector<PathPoint>& loop : loops.loops) {
+    if (area_mm2(filled({chords_of_path(loop, true, chords_of_board)})) < least_mm2) return std::nullopt;
+  }
+  return area_mm2(board_within(loops)) > 0.9 * area_mm2(board_within(found_)) ? std::optional(join) : std::nullopt;
+}
+
+void EdgeJoiner::refuse(std::size_t end, std::optional<Nanometres> join) {
   if (diagnostics_.full()) return;
   const DrawnPoint at = place(end);
-  double nearest = 1e300;
-  for (std::size_t other = 0; other < partners_.size(); ++other) {
-    if (other != end && !partners_[other]) nearest = std::min(nearest, distance_nm(at, place(other)));
-  }
   const std::uint32_t line = open_[end / 2].line;
   std::string expected = "a closed line";
-  if (nearest < 1e300) {
-    expected += fmt::format("; the next open end is {:.4g} mm away, so --join {:.4g}mm joins them",
-                            nearest / nanometres_per_mm, std::ceil(nearest / 1e4) / 100);
-  }
+  if (join) expected += fmt::format("; --join {:.4g}mm closes it", to_mm(*join).value());
   diagnostics_.add({.code = "outline.open",
                     .file = drawing_.file,
                     .place = {line, line == 0 ? 0U : 1U, 1},

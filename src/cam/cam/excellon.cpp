@@ -25,6 +25,7 @@ constexpr std::array ignored_words = {
 struct FileTool {
   std::optional<Nanometres> diameter;
   std::uint32_t layer = 0;
+  bool is_used = false;  // selected outside the header
 };
 
 // The words of one line: a letter, and the text of its number.
@@ -38,7 +39,11 @@ class ExcellonReader {
  public:
   ExcellonReader(const std::string& name, std::string_view text, const ExcellonOptions& options,
                  Diagnostics& diagnostics)
-      : lines_(text), builder_(name, diagnostics), diagnostics_(diagnostics), numbers_(text, options, notes_) {
+      : lines_(text),
+        builder_(name, diagnostics),
+        diagnostics_(diagnostics),
+        numbers_(text, options, notes_),
+        has_plunges_(text.find("M15") != std::string_view::npos || text.find("M14") != std::string_view::npos) {
     for (std::string& words : notes_) builder_.note(std::move(words));
   }
 
@@ -48,17 +53,22 @@ class ExcellonReader {
     }
     finish_route();
     if (!ended_ && !diagnostics_.any_error()) builder_.note("the file does not end with M30, so it may be truncated");
-    return builder_.take();
+    Drawing drawing = builder_.take();
+    add_late_sizes(drawing);
+    return drawing;
   }
 
  private:
   void read_line(std::string_view text);
+  void read_comment(std::string_view text);
+  void add_late_sizes(Drawing& drawing) const;
   bool read_words(std::string_view text);
   void obey();
   bool obey_code(const DrillWord& word);
   bool obey_g(const DrillWord& word, std::int64_t code);
   bool obey_m(const DrillWord& word, std::int64_t code);
   bool choose_tool();
+  void end_header();
   void move();
   void add_slot(DrawnPoint from);
   void add_repeats(const DrillWord& count);
@@ -99,6 +109,7 @@ class ExcellonReader {
   std::vector<DrillWord> words_;
   std::map<std::int64_t, FileTool> tools_;
   const FileTool* tool_ = nullptr;
+  const FileTool* header_tool_ = nullptr;  // selected in the header, which may have no end
   DrawnPoint now_;
   DrawnPoint zero_;           // G93: where the file's zero is
   bool incremental_ = false;  // G91, ICI
@@ -106,13 +117,42 @@ class ExcellonReader {
   bool is_down_ = false;      // M15
   int route_code_ = 0;        // 0 to 3
   bool in_header_ = false;
+  bool has_plunges_ = false;  // M14 or M15; otherwise a route is cut from its first G01
   bool format_1_ = false;
   bool ended_ = false;
   DrawnPath route_;
 };
 
+void ExcellonReader::read_comment(std::string_view text) {
+  const std::optional<CommentedTool> found = numbers_.commented_tool(text);
+  if (!found || found->number > highest_tool) return;
+  const bool is_new = !tools_.contains(found->number);
+  FileTool& tool = tools_[found->number];
+  if (is_new) tool.layer = builder_.layer(fmt::format("T{}", found->number));
+  if (!tool.diameter) tool.diameter = builder_.length(found->diameter, whole_line(), line_);
+}
+
+// Some files state the sizes of their tools behind the holes.
+void ExcellonReader::add_late_sizes(Drawing& drawing) const {
+  std::map<std::uint32_t, Nanometres> sizes;
+  for (const auto& [number, tool] : tools_) {
+    if (tool.diameter) {
+      sizes[tool.layer] = *tool.diameter;
+    } else if (tool.is_used) {
+      drawing.notes.push_back(fmt::format("the file does not give the diameter of T{}", number));
+    }
+  }
+  const auto add = [&](std::uint32_t layer, Nanometres& size) {
+    const auto found = sizes.find(layer);
+    if (size.count == 0 && found != sizes.end()) size = found->second;
+  };
+  for (DrawnHole& hole : drawing.holes) add(hole.layer, hole.diameter);
+  for (DrawnPath& path : drawing.paths) add(path.layer, path.width);
+}
+
 void ExcellonReader::read_line(std::string_view text) {
-  if (text.empty() || text.front() == ';') return;
+  if (text.empty()) return;
+  if (text.front() == ';') return read_comment(text);
   if (line_.size() > longest_drill_line) {
     refuse({lines_.number(), 1, 1}, "excellon.long-line", fmt::format("the line has {} bytes", line_.size()),
            fmt::format("at most {}", longest_drill_line));
@@ -176,6 +216,15 @@ std::optional<std::int64_t> ExcellonReader::count_of(const DrillWord& word) {
   return std::nullopt;
 }
 
+// A header without a "%" ends at the first place.
+void ExcellonReader::end_header() {
+  if (!in_header_) return;
+  in_header_ = false;
+  if (tool_ != nullptr || header_tool_ == nullptr) return;
+  tool_ = header_tool_;
+  for (auto& [number, tool] : tools_) tool.is_used = tool.is_used || &tool == tool_;
+}
+
 // What a line says: first its modes and its tool, then where it goes.
 void ExcellonReader::obey() {
   const bool is_place = word_of('X') != nullptr || word_of('Y') != nullptr;
@@ -190,12 +239,13 @@ void ExcellonReader::obey() {
   }
   if (ended_) return;
   if (is_slot) {
+    end_header();
     add_slot(from);
   } else if (words_.front().letter == 'R') {
     add_repeats(words_.front());
   } else if (is_place) {
     if (words_.front().letter == 'G' && words_.front().number == "93") return;  // obeyed as a code
-    if (in_header_) return;
+    end_header();
     move();
   }
 }
@@ -217,6 +267,7 @@ bool ExcellonReader::obey_g(const DrillWord& word, std::int64_t code) {
       route_code_ = static_cast<int>(code);
       return true;
     case 5:
+    case 80:
     case 81:
       finish_route();
       routing_ = false;
@@ -306,10 +357,13 @@ bool ExcellonReader::choose_tool() {
                     "a number, e.g. T1C0.8");
     }
     tool.diameter = builder_.length(*value, place_of(*diameter), line_);
-  } else if (is_new && !in_header_) {
-    builder_.note(fmt::format("line {}: the file does not give the diameter of T{}", lines_.number(), *number));
   }
-  if (!in_header_) tool_ = &tool;
+  if (in_header_) {
+    if (diameter == nullptr) header_tool_ = &tool;
+  } else {
+    tool.is_used = true;
+    tool_ = &tool;
+  }
   return true;
 }
 
@@ -352,6 +406,11 @@ void ExcellonReader::move() {
   if (!routing_) {
     drill(to);
     return;
+  }
+  if (!is_down_ && !has_plunges_ && route_code_ != 0) {
+    now_ = from;
+    begin_route();
+    now_ = to;
   }
   if (!is_down_ || route_code_ == 0) return;
   if (route_code_ == 1) {

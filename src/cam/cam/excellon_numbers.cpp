@@ -44,6 +44,27 @@ std::optional<double> plain_number(std::string_view text) {
   return negative ? -value : value;
 }
 
+// How many millimetres the unit has that a comment names as a word. 0: it names none, or two.
+double unit_in_words(std::string_view comment) {
+  double found = 0;
+  while (!comment.empty()) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto begin = std::ranges::find_if(comment, is_letter);
+    const auto end = std::find_if_not(begin, comment.end(), is_letter);
+    std::string word(begin, end);
+    for (char& c : word) c = static_cast<char>(c >= 'a' ? c - 'a' + 'A' : c);
+    comment.remove_prefix(static_cast<std::size_t>(end - comment.begin()));
+    double unit = 0;
+    if (word == "MIL" || word == "MILS") unit = 0.0254;
+    if (word == "INCH" || word == "INCHES") unit = 25.4;
+    if (word == "MM" || word == "MILLIMETERS" || word == "MILLIMETRES" || word == "METRIC") unit = 1;
+    if (unit == 0) continue;
+    if (found != 0 && found != unit) return 0;
+    found = unit;
+  }
+  return found;
+}
+
 }  // namespace
 
 ExcellonNumbers::ExcellonNumbers(std::string_view text, const ExcellonOptions& options, std::vector<std::string>& notes)
@@ -54,8 +75,9 @@ ExcellonNumbers::ExcellonNumbers(std::string_view text, const ExcellonOptions& o
 bool ExcellonNumbers::read_units(std::string_view line) {
   const std::size_t comma = std::min(line.find(','), line.size());
   const std::string_view unit = trimmed(line.substr(0, comma));
-  if (unit != "METRIC" && unit != "INCH") return false;
-  use_inches(unit == "INCH");
+  const bool is_inch = unit == "INCH" || unit == "M72";
+  if (!is_inch && unit != "METRIC" && unit != "M71") return false;
+  use_inches(is_inch);
   while (comma < line.size()) {
     line.remove_prefix(std::min(line.find(','), line.size() - 1) + 1);
     const std::string_view part = trimmed(line.substr(0, line.find(',')));
@@ -91,7 +113,29 @@ void ExcellonNumbers::scan_coordinates(std::string_view line, Evidence& evidence
   }
 }
 
+std::optional<CommentedTool> ExcellonNumbers::commented_tool(std::string_view comment) const {
+  const std::size_t word = comment.find("Holesize");
+  const std::size_t sign = word == std::string_view::npos ? word : comment.find('=', word);
+  if (sign == std::string_view::npos) return std::nullopt;
+  // The number of the tool stands before the word as T01, in older files only behind it.
+  std::string_view number = comment.substr(word + 8, sign - word - 8);
+  if (const std::size_t t = comment.find('T'); t < word) number = comment.substr(t + 1, word - t - 1);
+  number = trimmed(number);
+  CommentedTool tool;
+  if (std::from_chars(number.data(), number.data() + number.size(), tool.number).ec != std::errc()) return std::nullopt;
+  std::string_view size = trimmed(comment.substr(sign + 1));
+  size = size.substr(0, size.find(' '));
+  const std::optional<double> value = plain_number(size);
+  const double unit = unit_in_words(comment.substr(sign));
+  if (!value || *value <= 0 || tool.number < 0) return std::nullopt;
+  tool.diameter = Mm(*value * (unit != 0 ? unit : inch_ ? 25.4 : 1));
+  return tool;
+}
+
 void ExcellonNumbers::read_comment(std::string_view comment, Evidence& evidence) {
+  const double unit = unit_in_words(comment);
+  evidence.comments_say_inch = evidence.comments_say_inch || unit > 1 || (unit > 0 && unit < 1);
+  evidence.comments_say_mm = evidence.comments_say_mm || unit == 1;
   std::size_t at = comment.find("FORMAT=");
   if (at == std::string_view::npos) return;
   std::string_view format = comment.substr(at + 7);
@@ -121,9 +165,11 @@ ExcellonNumbers::Evidence ExcellonNumbers::scan_evidence(std::string_view text) 
       evidence.says_unit = true;
       evidence.says_zeros = evidence.says_zeros || line.find("LZ") != line.npos || line.find("TZ") != line.npos;
       if (!read_units(line)) continue;
-    } else if (line == "M71" || line == "M72") {
-      if (!evidence.says_unit) inch_ = line == "M72";
+    } else if (line.starts_with("M71") || line.starts_with("M72")) {
+      if (!evidence.says_unit) inch_ = line.starts_with("M72");
       evidence.says_unit = true;
+      evidence.says_zeros = evidence.says_zeros || line.find("LZ") != line.npos || line.find("TZ") != line.npos;
+      read_units(line);
     } else if (line.starts_with('T') && line.find('C') != std::string_view::npos) {
       const std::size_t c = line.find('C') + 1;
       std::size_t end = c;
@@ -139,6 +185,8 @@ ExcellonNumbers::Evidence ExcellonNumbers::scan_evidence(std::string_view text) 
 void ExcellonNumbers::guess(const Evidence& evidence, std::vector<std::string>& notes) {
   if (known_.inch) {
     inch_ = *known_.inch;
+  } else if (!evidence.says_unit && evidence.comments_say_inch != evidence.comments_say_mm) {
+    inch_ = evidence.comments_say_inch;
   } else if (!evidence.says_unit) {
     // No drill file has only drills below 0.3 mm, and none has drills of 0.3 inch alone.
     inch_ = evidence.largest_tool > 0 && evidence.largest_tool < 0.3;

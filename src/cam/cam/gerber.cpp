@@ -122,6 +122,7 @@ void GerberReader::finish() {
     image = std::move(turned_image);
   }
   layer_.pads = std::move(image.pads);
+  layer_.named = std::move(image.named);
   layer_.strokes.paths = std::move(image.strokes);
   for (const GerberAperture& aperture : layer_.apertures)
     layer_.strokes.layers.push_back(fmt::format("D{}", aperture.code));

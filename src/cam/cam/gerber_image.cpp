@@ -206,6 +206,10 @@ void GerberImage::add(const GerberImage& image, const GerberPlacement& placement
       pad.at = placement.placed(pad.at);
       pads.push_back(pad);
     }
+    for (GerberPad place : image.named) {
+      place.at = placement.placed(place.at);
+      named.push_back(place);
+    }
     for (DrawnPath path : image.strokes) {
       for (PathPoint& point : path.points) {
         point.at = placement.placed(point.at);
@@ -215,7 +219,7 @@ void GerberImage::add(const GerberImage& image, const GerberPlacement& placement
       strokes.push_back(std::move(path));
     }
   }
-  points += 2 * image.pads.size() + points_of_object;
+  points += 2 * (image.pads.size() + image.named.size()) + points_of_object;
   for (const DrawnPath& path : image.strokes) points += path.points.size();
 }
 

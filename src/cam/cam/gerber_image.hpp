@@ -35,6 +35,7 @@ struct GerberImage {
   };
   std::vector<Run> runs;
   std::vector<GerberPad> pads;
+  std::vector<GerberPad> named;  // a place on each stroke and contour with a net
   std::vector<DrawnPath> strokes;
   std::size_t points = 0;  // total number of points, plus an allowance for each object's own memory
 

@@ -197,6 +197,7 @@ void GerberPlotter::draw_to(DrawnPoint place, const ArcWords& words) {
   if (!has_room_for(chords * points_of_end + 4)) return;
   if (way_.empty()) {
     way_ = {at_};
+    net_of_way_ = net;
     path_ = {.points = {{at_}}, .is_closed = false, .width = {}, .layer = 0, .line = findings_.command.line};
   }
   if (is_arc) {
@@ -219,9 +220,14 @@ void GerberPlotter::draw_way(std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) image().add({{convex_swept(with.hull, way_[i], way_[i + 1])}}, is_dark_);
 }
 
+void GerberPlotter::keep_name(DrawnPoint place) {
+  if (net_of_way_ != 0 && is_dark_) image().named.push_back({place, 0, net_of_way_, findings_.command.line});
+}
+
 void GerberPlotter::finish_stroke() {
   if (in_region_ || way_.empty()) return;
   const bool is_drawn = !tool().is_round || tool().diameter >= 1;
+  if (is_drawn) keep_name(way_.front());
   for (std::size_t first = 0; is_drawn && first + 1 < way_.size();) {
     const std::size_t last = std::min(first + longest_swept, way_.size() - 1);
     draw_way(first, last);
@@ -274,6 +280,7 @@ void GerberPlotter::begin_region() {
 
 void GerberPlotter::finish_contour() {
   if (way_.size() >= 3) {
+    keep_name(way_.front());
     if (way_.front() != way_.back()) findings_.note("a contour of a region is open; it is closed with a line");
     if (can_unite({way_})) image().add(filled({std::move(way_)}), is_dark_);
   }

@@ -97,6 +97,7 @@ class GerberPlotter {
   void finish_stroke();
   void finish_contour();
   void draw_way(std::size_t first, std::size_t last);
+  void keep_name(DrawnPoint place);
   void add_to_path(const GerberArc* arc, DrawnPoint to);
   bool find_arc(DrawnPoint to, const ArcWords& words, GerberArc& arc);
   Frame* push_frame();  // null, and reported, if there are too many
@@ -113,6 +114,7 @@ class GerberPlotter {
   bool in_region_ = false;
   std::vector<DrawnPoint> way_;  // the current stroke or contour as chords
   DrawnPath path_;               // the same stroke, including its arcs
+  std::uint32_t net_of_way_ = 0;
   Tool tool_;
   bool tool_is_new_ = true;
   std::size_t points_ = 0;

@@ -9,6 +9,7 @@
 #include "copper_gaps.hpp"
 #include "edge_grid.hpp"
 #include "mill_order.hpp"
+#include "narrow_gaps.hpp"
 #include "voronoi_lines.hpp"
 #include <fmt/format.h>
 
@@ -81,6 +82,7 @@ class IsolationPlanner {
   std::vector<CutterWay> ways_between(const IsolationCutter& cutter, Region& outermost);
   std::vector<CutterWay> ways_in_openings(const IsolationCutter& cutter);
   void mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed, const WorkProgress& progress);
+  std::vector<CutterWay> ways_in_gaps(const IsolationCutter& finest);
   Region left_ground() const;
   void find_narrow_ground(const IsolationCutter& finest);
 
@@ -91,8 +93,10 @@ class IsolationPlanner {
   std::vector<DrawnRing> lines_;  // midway between the islands
   Region area_;                   // of voronoi: the board, or what the frame is around
   Nanometres widest_;
-  Nanometres last_off_;  // of the cutter before; 0: there is none
-  Region milled_;        // by the cutters so far; empty after the last
+  Nanometres last_off_;              // of the cutter before; 0: there is none
+  Region milled_;                    // by the cutters so far; empty after the last
+  Region joined_;                    // the copper with the ground that the finest cutter leaves between the islands
+  std::vector<DrawnRing> gap_ways_;  // of the finest cutter, through gaps that are narrower
   IsolationPlan plan_;
 };
 
@@ -267,27 +271,67 @@ std::vector<CutterWay> IsolationPlanner::ways_in_openings(const IsolationCutter&
   return ways;
 }
 
+// Through the gaps into which the finest cutter does not fit.
+std::vector<CutterWay> IsolationPlanner::ways_in_gaps(const IsolationCutter& finest) {
+  const Nanometres around = off(finest);
+  const Nanometres radius{(finest.width.count + 1) / 2};
+  // What hangs together when the cutter has gone around all. Two round islands may be apart though no cutter fits
+  // between them: it reaches into the gap from both sides.
+  joined_ = grown(grown(copper_, around, options_.tolerance), {-radius.count}, options_.tolerance);
+  if (options_.allowed_loss.count <= 0) return {};
+  std::vector<std::size_t> narrow;  // islands beside a gap
+  for (const CopperGap& gap : find_gaps(islands_, parts_with(islands_, parts_of(joined_)), {2 * around.count})) {
+    narrow.push_back(gap.one);
+    narrow.push_back(gap.other);
+  }
+  if (narrow.empty()) return {};
+  std::ranges::sort(narrow);
+  narrow.erase(std::unique(narrow.begin(), narrow.end()), narrow.end());
+  std::vector<Region> beside;
+  for (const std::size_t island : narrow) beside.push_back(islands_[island]);
+  Region within = options_.board;
+  if (!within.empty()) within = grown(within, radius, options_.tolerance);
+  std::optional<NarrowGapWays> found =
+      part_narrow_gaps(beside, within, {radius + chord_room, around, options_.allowed_loss, options_.least_trace});
+  if (!found || found->ways.empty()) return {};
+  plan_.kept = islands_;
+  for (std::size_t i = 0; i < narrow.size(); ++i) plan_.kept[narrow[i]] = std::move(found->kept[i]);
+  std::vector<CutterWay> ways;
+  gap_ways_ = std::move(found->ways);
+  for (const DrawnRing& way : gap_ways_)
+    ways.push_back({.points = way, .is_closed = false, .may_be_turned = true, .is_exact = true});
+  return ways;
+}
+
 void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, bool is_followed,
                                  const WorkProgress& progress) {
   const Nanometres radius{cutter.width.count / 2};
   const bool is_bounded = !options_.board.empty();
   Region within;
+  bool fits = true;
   if (is_first) {
     if (is_bounded) within = grown(options_.board, options_.clear ? Nanometres{} : radius, options_.tolerance);
   } else if (!options_.voronoi) {
     const Nanometres reach{std::max(radius.count / 2, radius.count - 2 * notable_ground.count)};
     within = grown(left_ground(), reach, options_.tolerance);
-    if (within.empty()) return;
+    fits = !within.empty();
     if (is_bounded) within = common(within, grown(options_.board, radius, options_.tolerance));
   }
   Region outermost;
-  const std::vector<CutterWay> ways =
-      options_.voronoi ? ways_between(cutter, outermost)
-                       : loops(cutter, is_first && !is_bounded ? nullptr : &within, outermost, progress.part(0, 0.5));
+  std::vector<CutterWay> ways;
+  if (options_.voronoi) {
+    ways = ways_between(cutter, outermost);
+  } else if (fits) {
+    ways = loops(cutter, is_first && !is_bounded ? nullptr : &within, outermost, progress.part(0, 0.5));
+  }
+  if (!is_followed) std::ranges::move(ways_in_gaps(cutter), std::back_inserter(ways));
   last_off_ = off(cutter);
   if (ways.empty()) return;
 
   const EdgeGrid copper_rim = grid_over(grown(copper_, {off(cutter).count - chord_room.count / 2}, options_.tolerance));
+  Region kept;  // where a way is within the rim
+  for (const Region& one : plan_.kept) kept.rings.insert(kept.rings.end(), one.rings.begin(), one.rings.end());
+  const EdgeGrid kept_rim = grid_over(grown(kept, radius + Nanometres{chord_room.count / 2}));
   const EdgeGrid outer_rim = grid_over(outermost);
   const auto may_link = [&](DrawnPoint from, DrawnPoint to) {
     constexpr double longest = 3e6;  // nm; a longer way takes more time than lifting
@@ -295,7 +339,7 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
     const bool is_in_the_open = length > static_cast<double>(cutter.width.count) && !options_.clear;
     if (length > std::max(longest, static_cast<double>(cutter.width.count))) return false;
     if (is_in_the_open && (loops_of(cutter) == 1 || !is_first || outer_rim.is_crossed(from, to))) return false;
-    return !copper_rim.is_crossed(from, to);
+    return from == to || !(copper_rim.is_crossed(from, to) || kept_rim.is_crossed(from, to));
   };
   const ArcFit arcs{.even_chord_nm = static_cast<double>(options_.tolerance.count),
                     .rounded_turn = options_.climb ? -1 : 1};
@@ -312,6 +356,7 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
 
 void IsolationPlanner::find_narrow_ground(const IsolationCutter& finest) {
   const Nanometres around = off(finest);
+  const Nanometres radius{(finest.width.count + 1) / 2};
   Region narrow;
   for (const Region& opening : openings_) {
     if (grown(opening, {-notable_ground.count}).empty()) continue;
@@ -321,12 +366,12 @@ void IsolationPlanner::find_narrow_ground(const IsolationCutter& finest) {
     narrow.rings.push_back(opening.rings.front());
   }
   plan_.unmilled = narrow;
-  // What hangs together when the cutter has gone around all. Two round islands may be apart though no cutter fits
-  // between them: it reaches into the gap from both sides.
-  const Region kept = grown(grown(copper_, around, options_.tolerance), {-finest.width.count / 2}, options_.tolerance);
-  plan_.gaps = find_gaps(islands_, parts_of(kept), {2 * around.count});
+  Region left = std::move(joined_);
+  if (!gap_ways_.empty()) left = subtracted(left, swept(gap_ways_, {radius.count}));
+  const std::vector<Region>& places = plan_.kept.empty() ? islands_ : plan_.kept;  // they have points that stay
+  plan_.gaps = find_gaps(islands_, parts_with(places, parts_of(left)), {2 * around.count});
   if (plan_.gaps.empty()) return;
-  const Region closed = grown(kept, {finest.width.count / 2 - around.count}, options_.tolerance);
+  const Region closed = grown(left, {radius.count - around.count}, options_.tolerance);
   const Nanometres open{options_.tolerance.count};
   const Region ground = grown(grown(subtracted(closed, copper_), {-open.count}), open);
   plan_.unmilled = united(narrow, between_islands(ground, islands_, {3 * open.count}));

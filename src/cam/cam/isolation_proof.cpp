@@ -1,6 +1,7 @@
 #include "passo/cam/isolation_proof.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -133,8 +134,20 @@ class ProvedLayer {
     };
     return lie_in(islands_, parts) || lie_in(parts, islands_);
   }
-  double common_mm2(const Region& milled, const Strip& strip) const {
-    return area_mm2(common(common(copper_, Region{{rectangle(strip.box)}}), milled));
+  Region common_with(const Region& milled, const Strip& strip) const {
+    return common(common(copper_, Region{{rectangle(strip.box)}}), milled);
+  }
+  // How far from the rim of the copper the corners of what is lost lie, at most.
+  Nanometres deepest(const Region& lost) const {
+    constexpr double reach = 1e6;  // nm
+    double deepest = 0;
+    for (const DrawnRing& ring : lost.rings) {
+      for (const DrawnPoint& point : ring) {
+        const auto near = rims_.nearest(point, reach);
+        deepest = std::max(deepest, near ? near->distance_nm : reach);
+      }
+    }
+    return {std::llround(deepest)};
   }
 
  private:
@@ -181,8 +194,34 @@ void join_at_seam(const Strip& a, std::size_t first, const Strip& b, std::size_t
   }
 }
 
-// Of each island the piece of copper in which it is left.
-std::vector<std::size_t> pieces_of(const std::vector<Region>& islands, const std::vector<Strip>& strips) {
+// The pieces of copper in which islands are left.
+struct LeftPieces {
+  std::vector<std::size_t> of_island = {};
+  std::vector<std::size_t> broken = {};
+};
+
+// An island, or what must stay of it.
+struct ProvedIsland {
+  const Region* stays;
+  bool is_told_by_first;  // by the piece in which its first point lies
+};
+
+// Corners of an island, in all of its parts but the tiniest.
+std::vector<DrawnPoint> places_on(const ProvedIsland& island) {
+  constexpr double tiniest = 0.002;  // mm2
+  constexpr std::size_t most_of_ring = 8;
+  if (island.stays->empty()) return {};
+  std::vector<DrawnPoint> places = {island.stays->rings.front().front()};
+  if (island.is_told_by_first) return places;
+  for (const DrawnRing& ring : island.stays->rings) {
+    if (area_mm2(ring) < tiniest) continue;
+    const std::size_t step = (ring.size() + most_of_ring - 1) / most_of_ring;
+    for (std::size_t i = 0; i < ring.size(); i += step) places.push_back(ring[i]);
+  }
+  return places;
+}
+
+LeftPieces pieces_of(const std::vector<ProvedIsland>& islands, const std::vector<Strip>& strips) {
   std::vector<std::size_t> firsts;
   std::size_t count = 0;
   for (const Strip& strip : strips) {
@@ -192,17 +231,32 @@ std::vector<std::size_t> pieces_of(const std::vector<Region>& islands, const std
   IndexGroups groups(count);
   for (std::size_t i = 0; i + 1 < strips.size(); ++i)
     join_at_seam(strips[i], firsts[i], strips[i + 1], firsts[i + 1], groups);
-  std::vector<std::size_t> pieces;
+  std::vector<std::vector<std::size_t>> found(islands.size());
+  std::vector<std::vector<DrawnPoint>> places;
+  for (const ProvedIsland& island : islands) places.push_back(places_on(island));
   for (std::size_t i = 0; i < strips.size(); ++i) {
     std::vector<Region> here;
-    for (const Region& island : islands) {
-      const DrawnPoint point = island.rings.front().front();
-      if (point.x >= strips[i].box.least.x && (point.x < strips[i].box.most.x || i + 1 == strips.size()))
+    std::vector<std::size_t> owners;
+    for (std::size_t island = 0; island < islands.size(); ++island) {
+      for (const DrawnPoint& point : places[island]) {
+        if (point.x < strips[i].box.least.x || (point.x >= strips[i].box.most.x && i + 1 < strips.size())) continue;
         here.push_back({{{point}}});
+        owners.push_back(island);
+      }
     }
-    for (const std::size_t part : parts_with(here, strips[i].left)) {
-      if (part < strips[i].left.size()) pieces.push_back(groups.of(firsts[i] + part));
+    const std::vector<std::size_t> parts = parts_with(here, strips[i].left);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (parts[k] < strips[i].left.size()) found[owners[k]].push_back(groups.of(firsts[i] + parts[k]));
     }
+  }
+  LeftPieces pieces;
+  for (std::size_t island = 0; island < islands.size(); ++island) {
+    std::vector<std::size_t>& of_one = found[island];
+    // An island that the edge of the board parts is not milled apart.
+    const bool is_within = of_one.size() == places[island].size();
+    std::ranges::sort(of_one);
+    pieces.of_island.push_back(of_one.empty() ? count + island : of_one.front());
+    if (is_within && !of_one.empty() && of_one.front() != of_one.back()) pieces.broken.push_back(island);
   }
   return pieces;
 }
@@ -210,10 +264,13 @@ std::vector<std::size_t> pieces_of(const std::vector<Region>& islands, const std
 }  // namespace
 
 IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const Region& board,
-                               const WorkProgress& progress) {
+                               const WorkProgress& progress, const std::vector<Region>& kept) {
   constexpr Nanometres beyond{10'000'000};  // around all, where copper goes on without end
   const std::vector<SweptWay> ways = swept_ways(plan);
   const ProvedLayer layer(copper);
+  Region all_kept;
+  for (const Region& one : kept) all_kept.rings.insert(all_kept.rings.end(), one.rings.begin(), one.rings.end());
+  const ProvedLayer kept_layer(all_kept);
   std::optional<DrawnBox> around = bounds(copper);
   for (const SweptWay& one : ways)
     around = around ? DrawnBox{{std::min(around->least.x, one.box.least.x), std::min(around->least.y, one.box.least.y)},
@@ -233,11 +290,28 @@ IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const
     const Region milled = milled_in(strip, ways);
     const Region left = strips.size() == 1 ? left_around(face, milled) : subtracted(face, milled);
     proof.milled_mm2 += area_mm2(face) - area_mm2(left);
-    if (layer.has_common(milled)) proof.lost_mm2 += layer.common_mm2(milled, strip);
+    if (layer.has_common(milled)) {
+      const Region lost = layer.common_with(milled, strip);
+      proof.lost_mm2 += area_mm2(lost);
+      proof.deepest = std::max(proof.deepest, layer.deepest(lost));
+      if (!kept.empty() && kept_layer.has_common(milled))
+        proof.damage_mm2 += area_mm2(kept_layer.common_with(milled, strip));
+    }
     strip.left = parts_of(board.empty() ? left : common(board, left));
     progress.stage(proved++, strips.size()).update(1);
   }
-  std::vector<std::size_t> pieces = pieces_of(layer.islands(), strips);
+  if (kept.empty()) proof.damage_mm2 = proof.lost_mm2;
+  std::vector<ProvedIsland> islands;
+  for (std::size_t i = 0; i < layer.islands().size(); ++i) {
+    const Region& island = layer.islands()[i];
+    const Region& stays = kept.empty() ? island : kept[i];
+    const bool is_within = board.empty() || contains(board, island.rings.front().front());
+    islands.push_back({&stays, is_within && stays.rings == island.rings});
+  }
+  LeftPieces found = pieces_of(islands, strips);
+  std::vector<std::size_t> pieces = found.of_island;
+  proof.pieces = std::move(found.of_island);
+  proof.broken = std::move(found.broken);
   std::ranges::sort(pieces);
   for (auto at = pieces.begin(); at != pieces.end();) {
     const auto end = std::upper_bound(at, pieces.end(), *at);

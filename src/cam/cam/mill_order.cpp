@@ -133,7 +133,9 @@ MillRun WayOrderer::run_of(const Chain& chain) const {
     } else if (entered.entry > 0) {
       std::ranges::reverse(points);
     }
-    for (const PathPoint& point : with_arcs(points, order_.arcs)) run.push_back({point.at, point.bulge, order_.z});
+    ArcFit arcs = order_.arcs;
+    if (one.is_exact) arcs.even_chord_nm = 0;
+    for (const PathPoint& point : with_arcs(points, arcs)) run.push_back({point.at, point.bulge, order_.z});
   }
   return run;
 }

@@ -20,6 +20,7 @@ struct CutterWay {
   DrawnRing points = {};
   bool is_closed = true;
   bool may_be_turned = false;
+  bool is_exact = false;  // its chords are no rounded corners of an offset
 };
 
 struct WayOrder {

@@ -10,9 +10,9 @@
 #include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
 #include "flat_vector.hpp"
+#include "outline_tabs.hpp"
 #include <fmt/format.h>
 
-#include "passo/base/counted.hpp"
 #include "passo/cam/bulge.hpp"
 #include "passo/cam/mill_program.hpp"
 #include "passo/cam/route.hpp"
@@ -26,7 +26,9 @@ constexpr Nanometres board_room{2'000};  // the cutter stays so much farther fro
 struct OutlineCut {
   DrawnRing ring;
   bool is_outside;
-  std::size_t around = 0;  // how many cuts lie around it
+  std::size_t around = 0;   // how many cuts lie around it
+  bool is_of_slug = false;  // mills a slug away
+  bool has_tabs = true;
 };
 
 class OutlinePlanner {
@@ -41,11 +43,14 @@ class OutlinePlanner {
   OutlinePlan plan() {
     refuse_narrow_openings();
     find_cuts();
+    if (options_.tabs > 0) find_slugs();
     order();
     std::vector<ClosedToolpath> tracks;
-    for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring)));
+    for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring), !cut.is_of_slug));
     put_tabs(tracks);
     MillTool tool{options_.cutter, options_.words, {}};
+    for (const DrawnRing& slot : options_.slots) tool.runs.push_back(slot_of(slot));
+    plan_.slots = options_.slots.size();
     for (const ClosedToolpath& track : tracks) tool.runs.push_back(run_of(track));
     measure_loss();
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
@@ -57,12 +62,14 @@ class OutlinePlanner {
   static EdgeGrid grid_of(const Region& region);
   void refuse_narrow_openings();
   void find_cuts();
+  void find_slugs();
+  bool mill_slug(std::size_t opening, const Region& inside);
   void order();
-  ClosedToolpath track_of(DrawnRing ring) const;
+  ClosedToolpath track_of(DrawnRing ring, bool may_have_dog_bones) const;
   void add_dog_bones(DrawnRing& ring) const;
   void put_tabs(std::vector<ClosedToolpath>& tracks);
-  std::vector<double> spread_tabs(const ClosedToolpath& track, double wide) const;
   MillRun run_of(const ClosedToolpath& track);
+  MillRun slot_of(const DrawnRing& line) const;
   bool is_clear(DrawnPoint from, DrawnPoint to, double bulge) const;
   std::vector<DrawnPoint> lead_of(const ClosedToolpath& track) const;
   void keep_way(const ClosedToolpath& track, const std::vector<DrawnPoint>& lead, double quarter);
@@ -133,6 +140,46 @@ void OutlinePlanner::find_cuts() {
   }
 }
 
+// What a cut leaves in an opening is held by tabs, or milled away.
+void OutlinePlanner::find_slugs() {
+  std::vector<Region> outsides;
+  for (const DrawnRing& ring : ways_.rings) {
+    if (area_mm2(ring) > 0) outsides.push_back({{{ring.front()}}});
+  }
+  const std::size_t openings = cuts_.size();
+  for (std::size_t i = 0; i < openings; ++i) {
+    if (cuts_[i].is_outside) continue;
+    const Region inside = filled({cuts_[i].ring});
+    const std::vector<std::size_t> parts = parts_with(outsides, {inside});
+    const bool has_parts = std::ranges::any_of(parts, [](std::size_t part) { return part == 0; });
+    if (!has_parts) cuts_[i].has_tabs = !mill_slug(i, inside);
+  }
+}
+
+// Adds loops within an opening, the innermost of which comes first. Whether no slug is left.
+bool OutlinePlanner::mill_slug(std::size_t opening, const Region& inside) {
+  const Region slug = grown(inside, {-radius().count}, fine_chords);
+  if (!grown(slug, {-least_slug.count / 2}).empty()) return false;
+  const std::int64_t apart = 9 * options_.cutter.count / 10;  // of two loops
+  std::size_t around = cuts_[opening].around;
+  Region left = slug;
+  Region loop = inside;
+  while (!left.empty()) {
+    const Region next = grown(loop, {-apart}, fine_chords);
+    // Where the next loop does not fit, the middle of what is left is within the reach of a cutter on the last one.
+    loop = next.empty() ? grown(loop, {-apart / 2}, fine_chords) : next;
+    if (loop.empty()) break;
+    left = grown(loop, {-radius().count}, fine_chords);
+    ++around;
+    for (DrawnRing ring : loop.rings) {
+      std::ranges::reverse(ring);  // the board lies around it
+      cuts_.push_back(
+          {.ring = std::move(ring), .is_outside = false, .around = around, .is_of_slug = true, .has_tabs = false});
+    }
+  }
+  return true;
+}
+
 // The innermost first; of those as deep inside, by the shortest way.
 void OutlinePlanner::order() {
   std::ranges::stable_sort(cuts_, [](const OutlineCut& a, const OutlineCut& b) { return a.around > b.around; });
@@ -182,8 +229,8 @@ void OutlinePlanner::add_dog_bones(DrawnRing& ring) const {
 }
 
 // Begins in the middle of the longest edge, away from corners.
-ClosedToolpath OutlinePlanner::track_of(DrawnRing ring) const {
-  if (options_.dog_bones) add_dog_bones(ring);
+ClosedToolpath OutlinePlanner::track_of(DrawnRing ring, bool may_have_dog_bones) const {
+  if (options_.dog_bones && may_have_dog_bones) add_dog_bones(ring);
   std::size_t longest = 0;
   const auto edge_length = [&](std::size_t i) { return distance_nm(ring[i], ring[(i + 1) % ring.size()]); };
   for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -202,54 +249,29 @@ ClosedToolpath OutlinePlanner::track_of(DrawnRing ring) const {
   return ClosedToolpath(points);
 }
 
-std::vector<double> OutlinePlanner::spread_tabs(const ClosedToolpath& track, double wide) const {
-  std::vector<double> middles;
-  const double apart = track.length() / options_.tabs;
-  for (std::uint32_t k = 0; k < options_.tabs; ++k) {
-    const double wish = (k + 0.5) * apart;
-    double best = wish;
-    double least = 0.45 * apart;
-    for (const auto& [start, end] : track.straights()) {
-      if (end - start < wide) continue;
-      const double place = std::clamp(wish, start + wide / 2, end - wide / 2);
-      if (std::abs(place - wish) >= least) continue;
-      least = std::abs(place - wish);
-      best = place;
-    }
-    middles.push_back(best);
-  }
-  return middles;
-}
-
 void OutlinePlanner::put_tabs(std::vector<ClosedToolpath>& tracks) {
-  const auto wide = static_cast<double>(options_.tab_width.count + options_.cutter.count);
-  std::vector<std::vector<double>> middles(tracks.size());
+  const TabSize size{options_.tab_width, options_.tab_height, options_.cutter};
+  std::vector<SpreadTabs> tabs(tracks.size());
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if ((!cuts_[i].is_outside && !options_.openings_only) || options_.tabs == 0) continue;
-    if (options_.tabs * wide > tracks[i].length() / 2) {
-      plan_.mill.notes.push_back(fmt::format("{} {} too many for an edge of {:.4g} mm, so it gets none",
-                                             counted(options_.tabs, "tab"), options_.tabs == 1 ? "is" : "are",
-                                             tracks[i].length() / nanometres_per_mm));
-      continue;
-    }
-    middles[i] = spread_tabs(tracks[i], wide);
+    if (!cuts_[i].has_tabs || options_.tabs == 0) continue;
+    tabs[i] = spread_tabs(tracks[i], options_.tabs, size);
+    if (std::string words = fewer_tabs_words(tracks[i], options_.tabs, tabs[i]); !words.empty())
+      plan_.mill.notes.push_back(std::move(words));
   }
   for (const DrawnPoint& place : options_.tab_places) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < tracks.size(); ++i) {
       if (tracks[i].nearest(place).second < tracks[best].nearest(place).second) best = i;
     }
-    if (!tracks.empty()) middles[best].push_back(tracks[best].nearest(place).first);
+    if (tracks.empty()) continue;
+    if (tabs[best].wide_nm <= 0) tabs[best].wide_nm = static_cast<double>((size.width + size.cutter).count);
+    tabs[best].middles.push_back(tracks[best].nearest(place).first);
   }
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    std::vector<std::pair<double, double>> stretches;
-    for (const double middle : middles[i]) {
-      stretches.emplace_back(middle - wide / 2, middle + wide / 2);
-      plan_.tabs.push_back(tracks[i].at(middle));
-    }
-    const Nanometres top{std::min<std::int64_t>(0, options_.depth.count + options_.tab_height.count)};
-    tracks[i].keep_above(top, std::move(stretches));
+    for (const DrawnPoint& place : put_tabs_on(tracks[i], tabs[i], size, options_.depth)) plan_.tabs.push_back(place);
   }
+  if (std::string words = thin_tabs_words(size, options_.depth); !plan_.tabs.empty() && !words.empty())
+    plan_.mill.notes.push_back(std::move(words));
 }
 
 // Whether the cutter takes nothing of the board on the way.
@@ -317,6 +339,20 @@ MillRun OutlinePlanner::run_of(const ClosedToolpath& track) {
       if (level < levels) run.push_back({lead[0], 0, next});
     }
     z = next;
+  }
+  return run;
+}
+
+// There and back, one step deeper at each end.
+MillRun OutlinePlanner::slot_of(const DrawnRing& line) const {
+  const auto levels =
+      std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
+  MillRun run;
+  for (std::int64_t level = 1; level <= levels; ++level) {
+    const Nanometres z{options_.depth.count * level / levels};
+    std::vector<DrawnPoint> points = line;
+    if (level % 2 == 0) std::ranges::reverse(points);
+    for (const PathPoint& point : with_arcs(points, {})) run.push_back({point.at, point.bulge, z});
   }
   return run;
 }

@@ -8,6 +8,7 @@
 #include "arc_fit.hpp"
 #include "closed_toolpath.hpp"
 #include "nested_loops.hpp"
+#include "outline_tabs.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
@@ -183,6 +184,14 @@ void ProfilePlanner::cut_on(const std::vector<PathPoint>& points, bool is_closed
   ClosedToolpath track(closed);
   const OutlineOptions& cut = options_.cut;
   if (track.length() <= 0) return;
+  const TabSize size{cut.tab_width, cut.tab_height, cut.cutter};
+  if (is_closed) {
+    const SpreadTabs tabs = spread_tabs(track, cut.tabs, size);
+    OutlinePlan& outline = plan_.outline;
+    std::ranges::move(put_tabs_on(track, tabs, size, cut.depth), std::back_inserter(outline.tabs));
+    if (std::string words = fewer_tabs_words(track, cut.tabs, tabs); !words.empty())
+      outline.mill.notes.push_back(std::move(words));
+  }
   const double there = is_closed ? track.length() : track.length() / 2;
   const auto levels = std::max<std::int64_t>(1, (-cut.depth.count + cut.step.count - 1) / cut.step.count);
   MillRun run;

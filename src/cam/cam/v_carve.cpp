@@ -221,6 +221,42 @@ std::vector<MillRun> VCarvePlanner::in_layers(std::vector<MillRun> runs) {
 
 }  // namespace
 
+std::vector<MillRun> clean_floor(const Region& left, Nanometres z, Nanometres apart, Nanometres step) {
+  constexpr std::size_t most_loops = 20'000;
+  std::vector<MillRun> layer;
+  DrawnRing last;
+  std::size_t loops = 0;
+  for (const Region& part : parts_of(left)) {
+    Region inside = part;
+    for (std::int64_t k = 0; !inside.empty(); inside = grown(part, {-++k * apart.count})) {
+      loops += inside.rings.size();
+      if (loops > most_loops) return {};
+      for (DrawnRing ring : inside.rings) {
+        // Begins where the last loop ended, if that is near.
+        const DrawnPoint from = last.empty() ? ring.front() : last.back();
+        const auto nearest =
+            std::ranges::min_element(ring, {}, [&](const DrawnPoint& at) { return distance_nm(at, from); });
+        std::ranges::rotate(ring, nearest);
+        ring.push_back(ring.front());
+        const bool is_near =
+            k > 0 && !last.empty() && distance_nm(from, ring.front()) < 3 * static_cast<double>(apart.count);
+        if (!is_near) layer.emplace_back();
+        for (const DrawnPoint& point : ring) layer.back().push_back({point, 0, z});
+        last = std::move(ring);
+      }
+    }
+  }
+  const std::int64_t layers = step.count > 0 ? std::max<std::int64_t>(1, (-z.count + step.count - 1) / step.count) : 1;
+  std::vector<MillRun> runs;
+  for (std::int64_t i = 1; i <= layers; ++i) {
+    for (MillRun run : layer) {
+      for (MillPoint& point : run) point.z = {z.count * i / layers};
+      runs.push_back(std::move(run));
+    }
+  }
+  return runs;
+}
+
 VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics,
                         const WorkProgress& progress) {
   return VCarvePlanner(area, options, diagnostics).plan(progress);

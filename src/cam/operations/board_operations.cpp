@@ -76,6 +76,15 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
           {"voronoi", &a.voronoi, flag, "mill midway between islands, so that each keeps the copper around it",
            experts_only},
           {"tolerance", &a.tolerance, length, "extra distance that the cutter keeps from the copper", experts_only},
+          {"allow-loss", &a.allow_loss, length,
+           "copper that may be lost on each side of a gap narrower than the cutter; 0: none"},
+          {"least-trace", &a.least_trace, length, "width that traces keep there; narrower traces lose nothing",
+           experts_only},
+          {"accept-joined",
+           &a.accept_joined,
+           flag,
+           "accept nets that stay joined (default: the command fails)",
+           {.matters_to = experts, .is_of_job = true}},
       },
       mill_rows(a),
   });
@@ -128,6 +137,11 @@ std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
        "FILE=LAYER: corrects the layer of a file: top copper, bottom copper, outline,\ndrill or nothing; can be "
        "repeated",
        {.matters_to = CamFor::programs}},
+      {"accept-joined",
+       &a.accept_joined,
+       flag,
+       "accept nets that stay joined (default: the command fails)",
+       {.matters_to = experts}},
       {"json", &a.json, flag, "print the layers and the steps as JSON", {.matters_to = cli}},
   };
 }

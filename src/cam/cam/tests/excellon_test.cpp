@@ -73,6 +73,49 @@ TEST(Excellon, formats_stated_in_comments_are_used) {
   EXPECT_EQ(altium.drawing.holes.at(0).at, nm(10'000'000, 20'125'000));
 }
 
+TEST(Excellon, sizes_and_the_unit_in_comments_of_allegro_are_used) {
+  const ReadDrill read = read_drill(
+      ";T01 Holesize 1. = 12.000000 Tolerance = +0.0/-0.0 PLATED MILS Quantity = 2\n"
+      ";   Holesize 2. = 35.000000 Tolerance = +0.0/-0.0 PLATED MILS Quantity = 1\n"
+      "%\nT01\nX004450Y000200\nX009874Y002026\nT02\nX006159Y004159\nM30\n");
+  EXPECT_FALSE(read.found.any_error());
+  ASSERT_EQ(read.drawing.holes.size(), 3U);
+  EXPECT_EQ(read.drawing.holes[0].at, nm(11'303'000, 508'000));
+  EXPECT_EQ(read.drawing.holes[0].diameter, Nanometres{304'800});
+  EXPECT_EQ(read.drawing.holes[2].diameter, Nanometres{889'000});
+  for (const std::string& words : read.drawing.notes) EXPECT_THAT(words, testing::Not(testing::HasSubstr("unit")));
+  const ReadDrill metric = read_drill(";drill sizes in millimeters\n%\nT1C0.2\nT1\nX1.5Y1.0\nM30\n");
+  EXPECT_EQ(metric.drawing.holes.at(0).at, nm(1'500'000, 1'000'000)) << "not guessed from the drill";
+}
+
+TEST(Excellon, m71_and_m72_may_have_the_words_of_metric_and_inch) {
+  const std::string body = "T1C0.8\n%\nT1\nX10000Y2000\nM30\n";
+  EXPECT_EQ(read_drill("M48\nM71,TZ\n" + body).drawing.holes.at(0).at, nm(10'000'000, 2'000'000));
+  EXPECT_EQ(read_drill("M48\nM71,LZ\n" + body).drawing.holes.at(0).at, nm(100'000'000, 200'000'000));
+  EXPECT_EQ(read_drill("M48\nM72,TZ\n" + body).drawing.holes.at(0).at, nm(25'400'000, 5'080'000));
+}
+
+TEST(Excellon, a_header_may_have_no_end_and_sizes_may_come_last) {
+  const ReadDrill open = read_drill("M48\nMETRIC\nT1C0.8\nT2C1.0\nT1\nX1.0Y1.0\nT2\nX2.0Y1.0\nM30\n");
+  ASSERT_EQ(open.drawing.holes.size(), 2U);
+  EXPECT_EQ(open.drawing.holes[0].diameter, Nanometres{800'000});
+  EXPECT_EQ(open.drawing.holes[1].diameter, Nanometres{1'000'000});
+  const ReadDrill late = read_drill("M48\nMETRIC\n%\nT1\nX1.0Y1.0\nG80\nT2\nX2.0Y1.0\nT1C0.8\nM30\n");
+  EXPECT_FALSE(late.found.any_error());
+  ASSERT_EQ(late.drawing.holes.size(), 2U);
+  EXPECT_EQ(late.drawing.holes[0].diameter, Nanometres{800'000});
+  EXPECT_THAT(late.drawing.notes, testing::ElementsAre(testing::HasSubstr("diameter of T2")));
+}
+
+TEST(Excellon, a_route_without_m15_is_cut_from_its_first_g01) {
+  const ReadDrill read = read_drill("M48\nMETRIC\nT1C1.0\n%\nT1\nG00X10.0Y10.0\nG01X15.0Y10.0\nG05\nX20.0Y10.0\nM30\n");
+  ASSERT_EQ(read.drawing.paths.size(), 1U);
+  EXPECT_EQ(read.drawing.paths[0].points.front().at, nm(10'000'000, 10'000'000));
+  EXPECT_EQ(read.drawing.paths[0].points.back().at, nm(15'000'000, 10'000'000));
+  ASSERT_EQ(read.drawing.holes.size(), 1U);
+  EXPECT_EQ(read.drawing.holes[0].at, nm(20'000'000, 10'000'000));
+}
+
 TEST(Excellon, slots_and_routes_become_paths_as_wide_as_their_tool) {
   const ReadDrill read = read_drill(
       "M48\nMETRIC\nT1C1.0\n%\nT1\nX1.0Y2.0G85X3.0\nG00X5.0Y5.0\nM15\nG01X7.0\nG03X7.0Y7.0A1.0\nM16\nG05\nX9.0Y9."

@@ -103,6 +103,51 @@ TEST(EdgeLoops, parts_drawn_twice_or_forth_and_back_count_once) {
   EXPECT_NEAR(area_mm2(result.board), 1200 - 2 * (16 - 4 * M_PI), 0.01);
 }
 
+TEST(EdgeLoops, a_line_of_a_closed_outline_may_be_drawn_again) {
+  Drawing drawing{.file = "edge.gbr", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
+  DrawnPath whole = open_line({{xy(0, 0)}, {xy(40, 0)}, {xy(40, 30)}, {xy(0, 30)}});
+  whole.is_closed = true;
+  drawing.paths = {whole, open_line({{xy(40, 0)}, {xy(0, 0)}})};
+  const Outlined again = outlined(drawing, {.cutter = lengthy(2)});
+  EXPECT_FALSE(again.findings.any_error());
+  EXPECT_EQ(again.loops.loops.size(), 1U);
+  drawing.paths[1] = open_line({{xy(10, 30)}, {xy(20, 30)}});  // a part of a side
+  EXPECT_FALSE(outlined(drawing, {.cutter = lengthy(2)}).findings.any_error());
+}
+
+TEST(EdgeLoops, lines_may_overlap) {
+  Drawing drawing{.file = "edge.gbr", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
+  for (const auto& [from, to] :
+       {std::pair(xy(0, 0), xy(30, 0)), std::pair(xy(40, 0), xy(20, 0)), std::pair(xy(40, 0), xy(40, 30)),
+        std::pair(xy(40, 30), xy(0, 30)), std::pair(xy(0, 30), xy(0, 0)), std::pair(xy(0, 25), xy(0, 5))}) {
+    drawing.paths.push_back(open_line({{from}, {to}}));
+  }
+  const Outlined result = outlined(drawing, {.cutter = lengthy(2)});
+  EXPECT_FALSE(result.findings.any_error()) << render(result.findings, false);
+  EXPECT_EQ(area_mm2(result.board), 1200);
+}
+
+TEST(EdgeLoops, a_line_within_the_board_is_a_slot_and_no_join_is_advised_that_loses_it) {
+  Drawing drawing = board_drawing();
+  drawing.paths.push_back(open_line({{xy(5, 5)}, {xy(30, 5)}}));
+  Diagnostics findings;
+  const EdgeLoops loops = edge_loops(drawing, lengthy(0.1), findings, OpenRows::slots);
+  EXPECT_FALSE(findings.any_error());
+  ASSERT_EQ(loops.open.size(), 1U);
+  const OutlinePlan plan = plan_outline(
+      board_within(loops),
+      {.cutter = lengthy(2), .depth = lengthy(-1), .step = lengthy(0.5), .slots = {{xy(5, 5), xy(30, 5)}}}, findings);
+  EXPECT_EQ(plan.slots, 1U);
+  const MillRun& run = plan.mill.tools.at(0).runs.at(0);
+  ASSERT_EQ(run.size(), 4U);
+  EXPECT_EQ(run[3].at, xy(5, 5));
+  EXPECT_EQ(run[3].z, lengthy(-1));
+  Diagnostics refused;
+  edge_loops(drawing, lengthy(0.1), refused);
+  ASSERT_EQ(refused.errors(), 2U);
+  EXPECT_EQ(refused.all()[0].expected, "a closed line");
+}
+
 TEST(EdgeLoops, a_loop_in_an_opening_is_board_again) {
   Drawing drawing = board_drawing();
   drawing.holes.push_back({xy(20, 15), lengthy(2), 0, 10});
@@ -160,7 +205,7 @@ TEST(Outline, tabs_stay_at_their_height) {
   const Outlined result = outlined(board_drawing(), options);
   EXPECT_EQ(result.plan.tabs.size(), 4U);
   double above = 0;
-  const MillRun& run = run_of(result, 1);
+  const MillRun& run = result.plan.mill.tools.at(0).runs.back();
   for (std::size_t i = 0; i + 1 < run.size(); ++i) {
     if (run[i].z == lengthy(-0.9) && run[i + 1].z == lengthy(-0.9)) {
       above += way_nm(run[i].at, run[i + 1].at, run[i].bulge);
@@ -169,6 +214,69 @@ TEST(Outline, tabs_stay_at_their_height) {
   }
   // Four tabs of 2 mm and the cutter's width, in the turns at -1 and -1.5 mm.
   EXPECT_NEAR(above / 1e6, 2 * 4 * 4, 0.001);
+}
+
+// Around a board of 40 x 30 mm with an opening of this diameter.
+Outlined tabbed(double opening, const OutlineOptions& options) {
+  Drawing drawing = board_drawing();
+  drawing.holes = {{xy(20, 15), lengthy(opening), 0, 0}};
+  return outlined(drawing, options);
+}
+
+TEST(Outline, a_slug_is_held_by_tabs_or_milled_away) {
+  const OutlineOptions options{.cutter = lengthy(2), .tabs = 4};
+  const Outlined held = tabbed(12, options);  // a slug of 8 mm
+  EXPECT_EQ(held.plan.tabs.size(), 8U);
+  EXPECT_EQ(held.plan.mill.tools.at(0).runs.size(), 2U);
+  const Outlined milled = tabbed(6.5, options);  // one of 2.5 mm
+  EXPECT_EQ(milled.plan.tabs.size(), 4U);
+  EXPECT_EQ(milled.plan.lost_mm2, 0);
+  // Nothing is left of it, and what is inside is milled first.
+  std::vector<DrawnRing> ways = milled.plan.ways;
+  const Region left = subtracted(swept({{xy(20, 15)}}, lengthy(3.2)), swept(ways, lengthy(1)));
+  EXPECT_TRUE(left.empty());
+  const auto& runs = milled.plan.mill.tools.at(0).runs;
+  ASSERT_GE(runs.size(), 3U);
+  EXPECT_LT(distance_nm(runs[0].front().at, xy(20, 15)), distance_nm(runs[1].front().at, xy(20, 15)));
+  EXPECT_EQ(tabbed(6.5, {.cutter = lengthy(2)}).plan.mill.tools.at(0).runs.size(), 2U) << "without tabs";
+}
+
+TEST(Outline, as_many_tabs_as_fit_and_never_none) {
+  OutlineOptions options{.cutter = lengthy(6.35), .tabs = 4, .tab_width = lengthy(5), .openings_only = true};
+  const Outlined some = tabbed(25, options);
+  EXPECT_EQ(some.plan.tabs.size(), 4U);
+  EXPECT_TRUE(some.plan.mill.notes.empty());
+  const Outlined fewer = tabbed(17, options);
+  EXPECT_EQ(fewer.plan.tabs.size(), 2U);
+  ASSERT_EQ(fewer.plan.mill.notes.size(), 1U);
+  EXPECT_THAT(fewer.plan.mill.notes[0], testing::HasSubstr("4 tabs do not fit on a contour of 33.4"));
+  options.tab_width = lengthy(40);
+  EXPECT_EQ(tabbed(17, options).plan.tabs.size(), 1U);
+}
+
+TEST(Outline, tabs_lie_on_straight_pieces_and_apart) {
+  // A slot with round ends: two straight pieces of 30 mm.
+  Drawing drawing{.file = "edge.dxf", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
+  DrawnPath path = open_line({{xy(0, 0)}, {xy(30, 0), 1}, {xy(30, 10)}, {xy(0, 10), 1}});
+  path.is_closed = true;
+  drawing.paths.push_back(path);
+  const Outlined result = outlined(drawing, {.cutter = lengthy(2), .tabs = 6});
+  ASSERT_EQ(result.plan.tabs.size(), 6U);
+  for (const DrawnPoint& tab : result.plan.tabs) {
+    EXPECT_GT(tab.x, lengthy(1.9));
+    EXPECT_LT(tab.x, lengthy(28.1));
+    for (const DrawnPoint& other : result.plan.tabs) {
+      if (&other == &tab) continue;
+      EXPECT_GT(distance_nm(tab, other), 4.1e6);
+    }
+  }
+}
+
+TEST(Outline, thin_tabs_are_told) {
+  OutlineOptions options{.cutter = lengthy(2), .tabs = 2, .tab_width = lengthy(0.5)};
+  const Outlined result = tabbed(5, options);
+  ASSERT_EQ(result.plan.mill.notes.size(), 1U);
+  EXPECT_THAT(result.plan.mill.notes[0], testing::HasSubstr("tabs of 0.5 x 0.6 mm break easily"));
 }
 
 TEST(Outline, tabs_by_place_lie_where_they_are_asked_for) {

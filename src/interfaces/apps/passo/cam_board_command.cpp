@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include "background_process.hpp"
 #include "cam_board_page.hpp"
@@ -42,6 +43,7 @@ void add_copper(const BoardFile& file, std::optional<BoardLayer>& side, bool is_
   }
   if (!side) side = BoardLayer{};
   side->lines.file = file.name;
+  std::ranges::move(net_places_of(layer), std::back_inserter(side->nets));
   if (layer.is_negative) {
     side->bare = united(side->bare.value_or(Region{}), layer.dark);
   } else {
@@ -111,8 +113,10 @@ class BoardMaker {
   int make(CamDrillArguments drill, CamIsolateArguments isolate, CamOutlineArguments outline,
            const WorkProgress& progress);
   const std::filesystem::path& folder() const { return folder_; }
+  bool accepts_joined() const { return arguments_.accept_joined; }
   void tell_files() const;
   BoardPage page;
+  std::size_t joined_nets = 0;
 
  private:
   bool is_x() const { return arguments_.turn == "x"; }
@@ -170,6 +174,7 @@ int BoardMaker::add(Arguments arguments,
   const int code = command(arguments, progress.part(0, is_timed ? 0.6 : 1), &sources, &made);
   if (code != exit_done) return code;
   step.program = std::filesystem::path(arguments.output).filename().string();
+  joined_nets += made.joined_nets;
   step.tools = made.tools;
   step.figures = made.summary;
   step.picture = content_of(arguments.picture);
@@ -379,6 +384,7 @@ int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, Ca
              CamOutlineArguments outline, const WorkProgress& progress) {
   const std::filesystem::path& folder = maker.folder();
   if (isolate.tools.empty() && isolate.v.empty()) isolate.tools = usual_isolation_tool;
+  isolate.accept_joined = isolate.accept_joined || maker.accepts_joined();
   maker.tell_files();
   int code = maker.make(std::move(drill), std::move(isolate), std::move(outline), progress);
   if (code != exit_done) return code;
@@ -436,7 +442,9 @@ int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, 
   // What was read helps to mend what was refused.
   if (code != exit_done) maker.page.steps.clear();
   if (arguments.json) fmt::print("{}", to_json(maker.page));
-  return code;
+  if (code != exit_done || maker.joined_nets == 0) return code;
+  return fail(exit_failed, fmt::format("{} still joined; the programs were written (--accept-joined accepts this)",
+                                       counted(maker.joined_nets, "net") + " are"));
 }
 
 }  // namespace passo

@@ -27,6 +27,7 @@ struct CamSources {
 struct CamMade {
   std::vector<std::string> tools = {};  // tool names for the operator, in order of use
   std::string summary = {};
+  std::size_t joined_nets = 0;  // nets that the program leaves joined
 };
 
 struct CamShowArguments {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "cam_part.hpp"
@@ -23,8 +24,10 @@ struct EngraveJob {
   PocketOptions clearing;  // of floors
   bool clears = false;
   bool is_on_line = false;  // letters of single lines, or --on-line
-  bool is_plug = false;     // what is drawn stays, and its surroundings are carved
-  Nanometres margin = {};   // around the plug
+  bool is_inlay = false;
+  Nanometres crest = {};   // of an inlay: height of the crests that the V-bit may leave on the floor
+  bool is_plug = false;    // what is drawn stays, and its surroundings are carved
+  Nanometres margin = {};  // around the plug
   Lettering lettering;
 };
 
@@ -72,6 +75,10 @@ void choose_inlay(const CamEngraveArguments& arguments, EngraveJob& engrave, Len
   const Nanometres glue = lengths.any("--glue-gap", arguments.glue_gap);
   const Nanometres saw = lengths.above_0("--saw-gap", arguments.saw_gap);
   if (glue.count < 0 || glue >= depth) lengths.refuse("--glue-gap: expected 0 or more, and less than --inlay-depth");
+  engrave.is_inlay = true;
+  constexpr Nanometres highest_crest{100'000};
+  constexpr Nanometres lowest_crest{20'000};
+  engrave.crest = std::clamp(Nanometres{glue.count / 2}, lowest_crest, highest_crest);
   engrave.is_plug = arguments.inlay == "plug";
   engrave.margin = lengths.above_0("--margin", arguments.margin);
   carving.deepest = {engrave.is_plug ? -saw.count : -depth.count};
@@ -174,6 +181,40 @@ Region carved_of(const PartDrawing& part, const EngraveJob& engrave) {
   return subtracted(filled({rectangle(around)}), drawn);
 }
 
+// Mills the floors with the flat cutter, which goes first. Of an inlay, the V-bit mills away what the flat cutter is
+// too wide for. Returns what is not reached.
+Region cleared(VCarvePlan& plan, const EngraveJob& engrave, Diagnostics& findings, const WorkProgress& progress) {
+  PocketOptions options = engrave.clearing;
+  options.depth = plan.floor_z;
+  PocketPlan floor = plan_pocket(plan.floor, options, findings, progress);
+  Region left = std::move(floor.unreached);
+  if (engrave.is_inlay && !plan.mill.tools.empty()) {
+    // The crests between two ways of the tip stay below the plug.
+    const VCarveOptions& carving = engrave.carving;
+    const auto apart = std::llround(static_cast<double>(carving.tip.count) +
+                                    2 * std::tan(carving.angle_degrees / 360 * std::numbers::pi) *
+                                        static_cast<double>(engrave.crest.count));
+    std::vector<MillRun> runs = clean_floor(left, plan.floor_z, {apart}, carving.step);
+    if (!runs.empty()) left = {};
+    std::ranges::move(runs, std::back_inserter(plan.mill.tools.front().runs));
+  }
+  std::ranges::move(plan.mill.tools, std::back_inserter(floor.mill.tools));
+  plan.mill.tools = std::move(floor.mill.tools);
+  return united(plan.unreached, left);
+}
+
+// The plug would stand on what stays.
+int refuse_ridge(const EngraveJob& engrave, const Region& stays) {
+  const DrawnPoint at = stays.rings.front().front();
+  return fail(
+      exit_bad_program,
+      fmt::format("{:.4g} mm² of the floor cannot be milled, e.g. at X{:.4g} Y{:.4g} mm, so the halves would not "
+                  "fit into each other: expected {}",
+                  area_mm2(stays), to_mm(at.x).value(), to_mm(at.y).value(),
+                  engrave.clears ? "a smaller --tip, a finer --clear or wider strokes"
+                                 : "--clear D, a flat cutter that mills the floor"));
+}
+
 }  // namespace
 
 int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progress) {
@@ -204,16 +245,12 @@ int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progre
   VCarvePlan plan = plan_v_carve(area, engrave.carving, findings, progress.part(0.1, engrave.clears ? 0.8 : 0.9));
   Region warned = united(plan.unreached, plan.floor);
   if (!findings.any_error() && engrave.clears && !plan.floor.empty()) {
-    engrave.clearing.depth = plan.floor_z;
-    PocketPlan floor = plan_pocket(plan.floor, engrave.clearing, findings, progress.part(0.8, 0.9));
-    warned = united(plan.unreached, floor.unreached);
-    // The flat cutter goes first.
-    std::ranges::move(plan.mill.tools, std::back_inserter(floor.mill.tools));
-    plan.mill.tools = std::move(floor.mill.tools);
+    warned = cleared(plan, engrave, findings, progress.part(0.8, 0.9));
   }
   show(findings, arguments.files.empty() ? "--text" : listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const double stays = area_mm2(warned);
+  if (!arguments.inlay.empty() && stays > 0) return refuse_ridge(engrave, warned);
   std::string words =
       size_words(*part) + fmt::format("{} mm² carved, at most {:.4g} mm deep\n",
                                       sensible_number(area_mm2(area) - stays, 4), -to_mm(plan.deepest).value());

@@ -9,7 +9,9 @@
 
 #include "passo/base/sensible_number.hpp"
 #include "passo/cam/isolation.hpp"
+#include "passo/cam/isolation_advice.hpp"
 #include "passo/cam/isolation_proof.hpp"
+#include "passo/cam/joined_nets.hpp"
 
 namespace passo {
 namespace {
@@ -59,13 +61,36 @@ IsolationOptions options_of(const CamIsolateArguments& arguments, const MillJob&
   if (options.clear && options.voronoi) lengths.refuse("--clear and --voronoi cannot be combined");
   options.climb = !arguments.conventional;
   options.tolerance = lengths.above_0("--tolerance", arguments.tolerance);
+  options.allowed_loss = lengths.any("--allow-loss", arguments.allow_loss);
+  constexpr std::int64_t most_loss = 1'000'000;  // nm
+  if (options.allowed_loss.count < 0 || options.allowed_loss.count > most_loss)
+    lengths.refuse("--allow-loss: expected 0 to 1 mm");
+  options.least_trace = lengths.above_0("--least-trace", arguments.least_trace);
   options.park = job.program.park;
   return options;
 }
 
-nlohmann::ordered_json as_json(const IsolationPlan& plan, const IsolationProof& proof, DrawnPoint park) {
+// The copper of a board, and what is known about its nets, where the program mills it.
+struct PlacedCopper {
+  Region copper;
+  Region board;  // empty: unknown
+  std::vector<NetPlace> nets;
+  std::size_t outside = 0;  // islands beside the board, which are left out
+};
+
+struct IsolationResult {
+  IsolationPlan plan;
+  IsolationProof proof;
+  JoinedNets nets;
+};
+
+nlohmann::ordered_json place_json(DrawnPoint at) {
+  return {{"x_mm", to_mm(at.x).value()}, {"y_mm", to_mm(at.y).value()}};
+}
+
+nlohmann::ordered_json as_json(const IsolationResult& result, DrawnPoint park) {
   nlohmann::ordered_json tools = nlohmann::ordered_json::array();
-  for (const MillTool& tool : plan.mill.tools) {
+  for (const MillTool& tool : result.plan.mill.tools) {
     const MillLengths lengths = lengths_of(tool, park);
     tools.push_back({{"words", tool.words},
                      {"width_mm", to_mm(tool.width).value()},
@@ -74,47 +99,69 @@ nlohmann::ordered_json as_json(const IsolationPlan& plan, const IsolationProof& 
                      {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}});
   }
   nlohmann::ordered_json gaps = nlohmann::ordered_json::array();
-  for (const CopperGap& gap : plan.gaps) {
-    gaps.push_back(
-        {{"x_mm", to_mm(gap.at.x).value()}, {"y_mm", to_mm(gap.at.y).value()}, {"width_mm", to_mm(gap.width).value()}});
+  for (const CopperGap& gap : result.nets.gaps) {
+    nlohmann::ordered_json one = place_json(gap.at);
+    one["width_mm"] = to_mm(gap.width).value();
+    one["nets"] = {result.nets.names[gap.one], result.nets.names[gap.other]};
+    gaps.push_back(std::move(one));
   }
   nlohmann::ordered_json openings = nlohmann::ordered_json::array();
-  for (const DrawnPoint& at : plan.narrow_openings) {
-    openings.push_back({{"x_mm", to_mm(at.x).value()}, {"y_mm", to_mm(at.y).value()}});
-  }
+  for (const DrawnPoint& at : result.plan.narrow_openings) openings.push_back(place_json(at));
+  const IsolationProof& proof = result.proof;
   return {{"tools", tools},
           {"islands", proof.islands},
+          {"nets", result.nets.nets},
           {"gaps", gaps},
           {"narrow_openings", openings},
           {"proof",
            {{"copper_mm2", proof.copper_mm2},
             {"lost_mm2", proof.lost_mm2},
+            {"deepest_mm", to_mm(proof.deepest).value()},
             {"milled_mm2", proof.milled_mm2},
-            {"joined", proof.joined},
-            {"groups", proof.groups}}}};
+            {"joined", result.nets.joined},
+            {"groups", result.nets.groups},
+            {"others_joined", result.nets.others}}}};
 }
 
-std::string proof_words(const IsolationProof& proof) {
+std::string loss_words(double lost_mm2, Nanometres deepest) {
+  return fmt::format("{} mm² of copper lost, at most {:.3f} mm deep", sensible_number(lost_mm2, 2),
+                     to_mm(deepest).value());
+}
+
+std::string proof_words(const IsolationResult& result) {
+  const IsolationProof& proof = result.proof;
+  const JoinedNets& nets = result.nets;
   std::string text =
-      fmt::format("proof: {} mm² milled, {:g} of {} mm² of copper lost; {}", sensible_number(proof.milled_mm2, 4),
-                  proof.lost_mm2, sensible_number(proof.copper_mm2, 4), counted(proof.islands, "island"));
-  return text + (proof.joined == 0
-                     ? ", all apart\n"
-                     : fmt::format(", {} of them still joined in {}\n", proof.joined, counted(proof.groups, "piece")));
+      fmt::format("proof: {} mm² milled, {} of {} mm² of copper lost", sensible_number(proof.milled_mm2, 4),
+                  proof.lost_mm2 > 0 ? sensible_number(proof.lost_mm2, 2) : "0", sensible_number(proof.copper_mm2, 4));
+  if (proof.lost_mm2 > 0) text += fmt::format(", at most {:.3f} mm deep", to_mm(proof.deepest).value());
+  text += "; " + counted(nets.nets, "net");
+  if (proof.islands != nets.nets) text += " in " + counted(proof.islands, "island");
+  text += nets.joined == 0 ? ", all apart"
+                           : fmt::format(", {} of them still joined in {}", nets.joined, counted(nets.groups, "piece"));
+  if (nets.others > 0) text += fmt::format("; {} without a pad still joined to others", counted(nets.others, "island"));
+  return text + "\n";
+}
+
+std::string joined_words(const CopperGap& gap, const JoinedNets& nets) {
+  const std::string& one = nets.names[gap.one];
+  const std::string& other = nets.names[gap.other];
+  return fmt::format("{} are still joined at X{:.4f} Y{:.4f} mm, where they are {} apart",
+                     one.empty() || other.empty() ? "two islands" : fmt::format("{} and {}", one, other),
+                     to_mm(gap.at.x).value(), to_mm(gap.at.y).value(), mm_words(gap.width));
 }
 
 // `of`: the copper.
-void note_gaps(const IsolationPlan& plan, const std::string& of) {
+void note_gaps(const IsolationResult& result, const std::string& of) {
   constexpr std::size_t most_told = 5;
-  for (std::size_t i = 0; i < std::min(most_told, plan.gaps.size()); ++i) {
-    const CopperGap& gap = plan.gaps[i];
-    note(fmt::format("{}: the cutter does not fit between two islands at X{:.4f} Y{:.4f} mm, which are {} apart", of,
-                     to_mm(gap.at.x).value(), to_mm(gap.at.y).value(), mm_words(gap.width)));
-  }
-  if (plan.gaps.size() > most_told) {
+  const std::vector<CopperGap>& gaps = result.nets.gaps;
+  for (std::size_t i = 0; i < std::min(most_told, gaps.size()); ++i)
+    note(of + ": " + joined_words(gaps[i], result.nets));
+  if (gaps.size() > most_told) {
     note(fmt::format("{}: and {} more; --json lists them, --picture marks them", of,
-                     counted(plan.gaps.size() - most_told, "gap")));
+                     counted(gaps.size() - most_told, "gap")));
   }
+  const IsolationPlan& plan = result.plan;
   if (!plan.narrow_openings.empty()) {
     const DrawnPoint& at = plan.narrow_openings.front();
     note(fmt::format(
@@ -124,6 +171,69 @@ void note_gaps(const IsolationPlan& plan, const std::string& of) {
         plan.narrow_openings.size() == 1 ? "1 opening is" : counted(plan.narrow_openings.size(), "opening") + " are",
         to_mm(at.x).value(), to_mm(at.y).value()));
   }
+}
+
+// A cutter that could be used instead of the finest one, and the option that says so.
+struct FinerCutters {
+  std::vector<IsolationCutter> cutters;
+  std::vector<std::string> options;
+};
+
+// Shallower cuts of a V-bit.
+void add_shallower(const CamIsolateArguments& arguments, const IsolationOptions& options, FinerCutters& finer) {
+  constexpr std::int64_t step = 10'000;        // nm
+  constexpr std::int64_t shallowest = 40'000;  // copper is 0.035 mm thick
+  const std::size_t comma = arguments.v.find(',');
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  const Nanometres tip = lengths.any("--v", arguments.v.substr(comma + 1));
+  const double angle = std::strtod(arguments.v.c_str(), nullptr);
+  for (std::int64_t depth = (-options.depth.count - 1) / step * step; depth >= shallowest; depth -= step) {
+    const Nanometres width = v_cutter_width(tip, angle, {depth});
+    finer.cutters.push_back({width, "V"});
+    finer.options.push_back(fmt::format("--depth -{:g}mm", to_mm(Nanometres{depth}).value()));
+  }
+}
+
+// The finest cutter itself, and those that are finer.
+FinerCutters finer_cutters(const CamIsolateArguments& arguments, const IsolationOptions& options) {
+  const auto finest = std::ranges::min_element(options.cutters, {}, &IsolationCutter::width);
+  const bool is_v = !arguments.v.empty() && &*finest == &options.cutters.back();
+  FinerCutters finer{{*finest}, {""}};
+  if (is_v) {
+    add_shallower(arguments, options, finer);
+    return finer;
+  }
+  std::string others;
+  for (const IsolationCutter& cutter : options.cutters) {
+    const bool is_of_v = !arguments.v.empty() && &cutter == &options.cutters.back();
+    if (&cutter != &*finest && !is_of_v) others += fmt::format("{:g}mm,", to_mm(cutter.width).value());
+  }
+  for (const std::int64_t width : {400'000, 300'000, 250'000, 200'000, 150'000, 120'000, 100'000}) {
+    if (width >= finest->width.count) continue;
+    const std::string words = fmt::format("{:g}mm", to_mm(Nanometres{width}).value());
+    finer.cutters.push_back({{width}, "cutter " + words});
+    finer.options.push_back("--tool " + others + words);
+  }
+  return finer;
+}
+
+// What would part the nets; it was tried.
+std::string advice_words(const CamIsolateArguments& arguments, const PlacedCopper& placed,
+                         const IsolationOptions& options, const JoinedNets& joined) {
+  constexpr Nanometres most_loss{50'000};
+  const FinerCutters finer = finer_cutters(arguments, options);
+  const std::optional<IsolationAdvice> advice =
+      advise_isolation(placed.copper, placed.nets, options, joined, finer.cutters, most_loss);
+  if (!advice) return {};
+  std::string said = finer.options[advice->cutter];
+  if (advice->allowed_loss != options.allowed_loss) {
+    said += fmt::format("{}--allow-loss {:g}mm", said.empty() ? "" : " ", to_mm(advice->allowed_loss).value());
+  }
+  return fmt::format("{} was tried: {} ({})", said,
+                     advice->joined == 0 ? "all nets are apart"
+                                         : fmt::format("{} still joined", counted(advice->joined, "net") +
+                                                                              (advice->joined == 1 ? " is" : " are")),
+                     loss_words(advice->lost_mm2, advice->deepest));
 }
 
 // The board inside the edge drawing; its findings are shown.
@@ -151,6 +261,71 @@ std::optional<CamSources> read(const CamIsolateArguments& arguments, Nanometres 
   return sources;
 }
 
+// Without the islands beside the board.
+Region on_board(const Region& copper, const Region& board, std::size_t& outside) {
+  if (board.empty()) return copper;
+  Region kept;
+  for (Region& part : parts_of(copper)) {
+    if (common(part, board).empty()) {
+      ++outside;
+    } else {
+      std::ranges::move(part.rings, std::back_inserter(kept.rings));
+    }
+  }
+  return outside == 0 ? copper : kept;
+}
+
+std::optional<PlacedCopper> placed(const CamSources& sources, const MillJob& job, bool is_cleared,
+                                   Diagnostics& findings) {
+  PlacedCopper placed;
+  Region copper = mirrored(covered_by(sources.layer, sources.board, findings), job.mirror);
+  if (findings.any_error()) {
+    show(findings);
+    return std::nullopt;
+  }
+  placed.board = mirrored(sources.board, job.mirror);
+  placed.nets = sources.layer.nets;
+  if (!placed.nets.empty()) {
+    for (const Drawing& drill : sources.drills) {
+      for (const DrawnHole& hole : drill.holes) placed.nets.push_back({hole.at, "", {hole.diameter.count / 2}});
+    }
+  }
+  placed.copper = on_board(copper, placed.board, placed.outside);
+  if (const std::optional<DrawnBox> box = bounds(placed.copper); is_cleared && placed.board.empty() && box) {
+    placed.board = grown(filled({rectangle(*box)}), {2'000'000});
+  }
+  Region places;
+  places.rings.emplace_back();
+  for (NetPlace& place : placed.nets) places.rings.front().push_back(mirrored(place.at, job.mirror));
+  const Region whole = placed.board.empty() ? placed.copper : placed.board;
+  move_to_zero(job.zero, whole, {&placed.copper, &placed.board, &places});
+  for (std::size_t i = 0; i < placed.nets.size(); ++i) placed.nets[i].at = places.rings.front()[i];
+  return placed;
+}
+
+// Whether the program does what it should. Otherwise the reason is shown.
+bool is_sound(const IsolationProof& proof) {
+  if (proof.damage_mm2 > 0) {
+    fail(exit_failed, fmt::format("the program would remove {:g} mm² of the circuit's copper, so it was not written",
+                                  proof.damage_mm2));
+  } else if (!proof.broken.empty()) {
+    fail(exit_failed, fmt::format("the program would mill {} apart, so it was not written; try a smaller --allow-loss",
+                                  counted(proof.broken.size(), "island")));
+  }
+  return proof.damage_mm2 <= 0 && proof.broken.empty();
+}
+
+int draw(const CamIsolateArguments& arguments, const MillJob& job, const Region& copper,
+         const IsolationResult& result) {
+  MillScene scene{result.plan.mill, copper,         "Copper", result.plan.unmilled, {}, "Gap too narrow",
+                  job.program.park, "Still joined", {}};
+  for (const CopperGap& gap : result.nets.gaps) scene.marks.push_back(gap.at);
+  std::ranges::copy(result.plan.narrow_openings, std::back_inserter(scene.marks));
+  return write_picture(arguments.picture, job.program.name, [&](const PictureOptions& picture, OutputFile& file) {
+    return draw_mill_plan(scene, picture, file);
+  });
+}
+
 }  // namespace
 
 int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progress, const CamSources* given,
@@ -164,53 +339,55 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
 
   const std::optional<CamSources> sources = given != nullptr ? *given : read(arguments, join, job);
   if (!sources) return exit_bad_program;
+  const std::string name = std::filesystem::path(sources->layer.lines.file).filename().string();
   Diagnostics findings;
-  Region copper = mirrored(covered_by(sources->layer, sources->board, findings), job.mirror);
-  if (findings.any_error()) {
-    show(findings);
-    return exit_bad_program;
+  const std::optional<PlacedCopper> board = placed(*sources, job, options.clear, findings);
+  if (!board) return exit_bad_program;
+  options.board = board->board;
+  if (board->outside > 0) {
+    note(fmt::format("{}: {} of copper {} outside the board and ignored", name, counted(board->outside, "island"),
+                     board->outside == 1 ? "is" : "are"));
   }
-  options.board = mirrored(sources->board, job.mirror);
-  if (const std::optional<DrawnBox> box = bounds(copper); options.clear && options.board.empty() && box) {
-    options.board = grown(filled({rectangle(*box)}), {2'000'000});
-  }
-  move_to_zero(job.zero, options.board.empty() ? copper : options.board, {&copper, &options.board});
 
   progress.update(0.05);
-  const IsolationPlan plan = plan_isolation(copper, options, findings, progress.part(0.05, 0.6));
+  IsolationResult result;
+  result.plan = plan_isolation(board->copper, options, findings, progress.part(0.05, 0.6));
   if (findings.any_error()) {
     show(findings, sources->layer.lines.file);
     return exit_bad_program;
   }
-  const IsolationProof proof =
-      prove_isolation(copper, plan.mill, options.voronoi ? options.board : Region{}, progress.part(0.6, 0.9));
-  if (proof.lost_mm2 > 0) {
-    return fail(exit_failed,
-                fmt::format("the program would remove {:g} mm² of the circuit's copper, so it was not written",
-                            proof.lost_mm2));
-  }
-  for (const std::string& words : plan.mill.notes) note(words);
-  note_gaps(plan, std::filesystem::path(sources->layer.lines.file).filename().string());
-  if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
+  result.proof =
+      prove_isolation(board->copper, result.plan.mill, options.board, progress.part(0.6, 0.9), result.plan.kept);
+  if (!is_sound(result.proof)) return exit_failed;
+  const Nanometres finest = std::ranges::min_element(options.cutters, {}, &IsolationCutter::width)->width;
+  result.nets = find_joined_nets(board->copper, board->nets, result.plan.mill, result.proof, finest);
+  for (const std::string& words : result.plan.mill.notes) note(words);
+  note_gaps(result, name);
+  if (const int code = write_text(arguments.output, write_mill_program(result.plan.mill, job.program));
+      code != exit_done) {
     return code;
   }
   progress.update(0.95);
   if (!arguments.picture.empty()) {
-    MillScene scene{plan.mill, copper, "Copper", plan.unmilled, {}, "Gap too narrow", options.park};
-    for (const CopperGap& gap : plan.gaps) scene.marks.push_back(gap.at);
-    std::ranges::copy(plan.narrow_openings, std::back_inserter(scene.marks));
-    const int code = write_picture(
-        arguments.picture, job.program.name,
-        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
-    if (code != exit_done) return code;
+    if (const int code = draw(arguments, job, board->copper, result); code != exit_done) return code;
   }
+  std::string advice;
+  if (result.nets.joined > 0) advice = advice_words(arguments, *board, options, result.nets);
   progress.update(1);
+  if (!advice.empty()) note(name + ": " + advice);
   if (arguments.json) {
-    fmt::print("{}\n", as_json(plan, proof, options.park).dump(2));
+    fmt::print("{}\n", as_json(result, options.park).dump(2));
+  } else {
+    const std::string words = summary_of(result.plan.mill, options.park, arguments.units) + proof_words(result);
+    if (const int code = tell(arguments.output, result.plan.mill, words, made); code != exit_done) return code;
+  }
+  if (result.nets.joined == 0 || arguments.accept_joined) return exit_done;
+  if (made != nullptr) {
+    made->joined_nets += result.nets.joined;
     return exit_done;
   }
-  return tell(arguments.output, plan.mill, summary_of(plan.mill, options.park, arguments.units) + proof_words(proof),
-              made);
+  return fail(exit_failed, fmt::format("{} still joined; the program was written (--accept-joined accepts this)",
+                                       counted(result.nets.joined, "net") + " are"));
 }
 
 }  // namespace passo

@@ -26,7 +26,8 @@ OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const Mi
   if (arguments.ramp > 0 && arguments.ramp < flattest) {
     lengths.refuse(fmt::format("--ramp: expected 0, or {} degrees or more, found {:g}", flattest, arguments.ramp));
   }
-  options.tabs = arguments.tabs;
+  options.tabs = arguments.no_tabs ? 0 : arguments.tabs;
+  if (arguments.no_tabs && !arguments.tab_places.empty()) lengths.refuse("--no-tabs and --tab cannot be combined");
   for (const std::string& place : arguments.tab_places) options.tab_places.push_back(lengths.place("--tab", place));
   options.tab_width = lengths.above_0("--tab-width", arguments.tab_width);
   options.tab_height = lengths.above_0("--tab-height", arguments.tab_height);
@@ -44,6 +45,8 @@ std::string board_words(const Region& board, const OutlinePlan& plan, const Edge
   std::string text = fmt::format("{} and {} around {} mm² of board, {}; {:g} mm² of it lost\n",
                                  counted(plan.outsides, "outline"), counted(plan.openings, "opening"),
                                  sensible_number(area_mm2(board), 4), counted(plan.tabs.size(), "tab"), plan.lost_mm2);
+  if (plan.slots > 0)
+    text += fmt::format("{} as wide as the cutter, along single lines of the drawing\n", counted(plan.slots, "slot"));
   if (loops.joined > 0) {
     text += fmt::format("joined: ends with gaps at {}, at most {:.4g} mm wide\n", counted(loops.joined, "place"),
                         to_mm(loops.widest_joined).value());
@@ -60,6 +63,7 @@ nlohmann::ordered_json as_json(const OutlinePlan& plan, const EdgeLoops& loops, 
   }
   return {{"outsides", plan.outsides},
           {"openings", plan.openings},
+          {"slots", plan.slots},
           {"joined", loops.joined},
           {"board_mm2", area_mm2(board)},
           {"lost_mm2", plan.lost_mm2},
@@ -77,7 +81,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
   job.reading.is_edge = true;
-  const OutlineOptions options = outline_options_of(arguments, job, lengths);
+  OutlineOptions options = outline_options_of(arguments, job, lengths);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
@@ -87,7 +91,12 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   Diagnostics findings;
   const BoardEdge edge = board_edge(*layer, join, findings);
   Region board = mirrored(edge.board, job.mirror);
-  move_to_zero(job.zero, board, {&board});
+  constexpr Nanometres chords{500};
+  Region slots;
+  for (const std::vector<PathPoint>& line : edge.loops.open) slots.rings.push_back(chords_of_path(line, false, chords));
+  slots = mirrored(slots, job.mirror);
+  move_to_zero(job.zero, board, {&board, &slots});
+  options.slots = slots.rings;
   OutlinePlan plan;
   progress.update(0.2);
   if (!findings.any_error()) plan = plan_outline(board, options, findings);

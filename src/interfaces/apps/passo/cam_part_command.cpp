@@ -172,9 +172,8 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
   const Nanometres join = join_of(arguments.join, lengths);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   const bool is_on = options.side == ProfileSide::on;
-  if (is_on && (options.cut.tabs > 0 || !options.cut.tab_places.empty() || options.cut.lead.count > 0 ||
-                options.cut.dog_bones)) {
-    return fail(exit_bad_program, "--side on cannot be combined with tabs, --lead or --dog-bones");
+  if (is_on && (!options.cut.tab_places.empty() || options.cut.lead.count > 0 || options.cut.dog_bones)) {
+    return fail(exit_bad_program, "--side on cannot be combined with --tab, --lead or --dog-bones");
   }
 
   const std::optional<PartDrawing> part = read_part(arguments, job, join, is_on ? OpenRows::kept : OpenRows::refused);
@@ -187,9 +186,11 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
   std::string words = size_words(*part);
   nlohmann::ordered_json json = lengths_json(cut.mill, options.cut.park);
   if (is_on) {
-    words += fmt::format("{} and {}\n", counted(cut.outsides, "closed line"), counted(plan.lines, "open line"));
+    words += fmt::format("{} and {}, {}\n", counted(cut.outsides, "closed line"), counted(plan.lines, "open line"),
+                         counted(cut.tabs.size(), "tab"));
     json["closed"] = cut.outsides;
     json["open"] = plan.lines;
+    json["tabs"] = cut.tabs.size();
   } else {
     words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
                          counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), cut.lost_mm2);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "commands.hpp"
 #include <sys/wait.h>
 
 #include "passo/operations/cam_operation.hpp"
@@ -103,7 +104,10 @@ const CamResult& ServedMaker::result() {
   if (process_.runs()) result_.progress = process_.percent() / 100.0;
   if (!end) return result_;
   result_.words = content_of(folder_.path(BackgroundProcess::said_file)).substr(0, BackgroundProcess::longest_words);
-  bool good = WIFEXITED(*end) && WEXITSTATUS(*end) == 0;
+  // A program that leaves nets joined is written, and the words tell it, but the command fails.
+  const bool may_join = result_.job == board_job || result_.job == "isolate";
+  const int code = WIFEXITED(*end) ? WEXITSTATUS(*end) : -1;
+  bool good = code == exit_done || (code == exit_failed && may_join);
   if (result_.job == board_job) poll_board();
   std::error_code none;
   good = good && !made_.empty() && fs::exists(folder_.path(made_.front()), none);

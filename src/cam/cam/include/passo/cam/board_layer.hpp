@@ -6,18 +6,32 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "passo/cam/drawing_file.hpp"
 #include "passo/cam/edge_loops.hpp"
+#include "passo/cam/gerber.hpp"
 #include "passo/cam/region.hpp"
 
 namespace passo {
+
+// A place on copper that belongs to a net: a pad, a hole, or a line with a name.
+struct NetPlace {
+  DrawnPoint at = {};
+  std::string net = {};  // empty: it has no name
+  Nanometres reach{};    // the copper may begin so far away, around a hole
+};
 
 struct BoardLayer {
   Region face = {};                 // the area that the layer covers
   Drawing lines = {};               // centre lines of its strokes, with the notes of the file
   std::optional<Region> bare = {};  // for a negative layer: what the file draws; the layer covers the rest of the board
+  std::vector<NetPlace> nets = {};  // empty: unknown
 };
+
+// Returns the pads of a layer, and the places that have a name. None of a negative layer, which draws what is not
+// copper.
+std::vector<NetPlace> net_places_of(const GerberLayer& layer);
 
 // Reports the errors of the readers, and "kicad.which-layer" and "kicad.no-layer" for a KiCad board.
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
@@ -30,8 +44,8 @@ Region covered_by(const BoardLayer& layer, const Region& board, Diagnostics& dia
 Region face_of(const Drawing& drawing);
 
 struct BoardEdge {
-  EdgeLoops loops = {};
-  Region board = {};  // the board inside the loops
+  EdgeLoops loops = {};  // its open lines are slots
+  Region board = {};     // the board inside the loops
 };
 
 // Returns the board inside an edge layer: the inside of its stroke centre lines, or the area that it fills. Reports the

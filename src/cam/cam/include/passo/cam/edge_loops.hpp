@@ -20,8 +20,9 @@ struct EdgeLoops {
   Nanometres widest_joined = {};
 };
 
-// The treatment of open contours: an error "outline.open" at each end, or keeping them.
-enum class OpenRows : std::uint8_t { refused, kept };
+// The treatment of open contours: an error "outline.open" at each end, or keeping them. `slots`: a line within the
+// board whose ends are more than 1 mm from other ends is kept, other open contours are refused.
+enum class OpenRows : std::uint8_t { refused, kept, slots };
 
 EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics,
                      OpenRows open_rows = OpenRows::refused);

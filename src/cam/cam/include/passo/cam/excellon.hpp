@@ -2,9 +2,10 @@
 // paths.
 //
 // Supports the Excellon formats 1 and 2: METRIC and INCH; suppressed leading or trailing zeros, or decimal points;
-// tools defined in the header or where they are used; slots by G85, routed slots (G00, M15, G01 to G03, M16); repeats
-// (R); G90, G91 and G93; the comments in which KiCad, Altium and EasyEDA state their format. What the header does not
-// state is guessed from the numbers and noted in Drawing::notes. Routes in another plane, patterns and mirrored axes
+// tools defined in the header, where they are used, behind the holes, or in Allegro's comments; slots by G85, routed
+// slots (G00, M15, G01 to G03, M16; M15 may be missing); repeats (R); G90, G91 and G93; headers without an end; the
+// comments in which KiCad, Altium, EasyEDA and Allegro state their format or unit. What the file does not state is
+// guessed from the numbers and noted in Drawing::notes. Routes in another plane, patterns and mirrored axes
 // are refused.
 //
 // Time and memory are proportional to the text and to the number of holes, at most `most_drawn`. Invalid input produces

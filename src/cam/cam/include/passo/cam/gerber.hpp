@@ -51,6 +51,7 @@ struct GerberLayer {
                          // layer per aperture
   std::vector<GerberAperture> apertures = {};
   std::vector<GerberPad> pads = {};      // the dark flashes
+  std::vector<GerberPad> named = {};     // a place on each dark stroke and contour that has a net
   std::vector<std::string> nets = {""};  // .N; the first entry is for objects without a net
   std::string function = {};             // .FileFunction: "Copper,L1,Top"
   std::string software = {};             // .GenerationSoftware

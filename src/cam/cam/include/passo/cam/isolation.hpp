@@ -2,8 +2,9 @@
 //
 // The cutter centre follows each island of copper at half the cutter width plus a small margin, in concentric passes
 // until the isolation width is reached; with `clear`, until all unwanted copper of the board is removed. The cutter
-// therefore never removes copper of the layer. If two islands are closer than the cutter is wide, no pass fits between
-// them: this is reported as a gap, and the islands stay connected.
+// therefore never removes copper of the layer. If two islands are closer than the cutter is wide, the finest cutter
+// runs midway between them and takes up to `allowed_loss` from each side. Where that does not suffice, this is reported
+// as a gap, and the islands stay connected.
 //
 // With several cutters the widest goes first. Each finer cutter then mills only the areas that the wider ones left and
 // that still connect two islands (with `clear`: all areas that they left).
@@ -46,7 +47,9 @@ struct IsolationOptions {
   bool climb = true;                          // climb milling, for a clockwise spindle; otherwise conventional
   Region board = {};                          // the board's outline; empty: the surroundings of the copper
   Nanometres depth{-50'000};
-  Nanometres tolerance{4'000};  // margin added to half the cutter width
+  Nanometres tolerance{4'000};      // margin added to half the cutter width
+  Nanometres allowed_loss{};        // copper that may be lost on each side of a gap that is too narrow
+  Nanometres least_trace{100'000};  // traces keep at least this width there; narrower ones lose nothing
   DrawnPoint park = {};
   std::uint64_t route_steps = 20'000'000;  // maximum number of steps of shorten_route() per tool
 };
@@ -55,12 +58,15 @@ struct IsolationOptions {
 struct CopperGap {
   DrawnPoint at = {};     // the narrowest point
   Nanometres width = {};  // width at that point
+  std::size_t one = 0;    // index of each island, in the order of parts_of(copper)
+  std::size_t other = 0;
 };
 
 struct IsolationPlan {
   MillPlan mill = {};
   std::size_t islands = 0;           // number of copper islands
-  std::vector<CopperGap> gaps = {};  // one per pair of islands, the narrowest first
+  std::vector<CopperGap> gaps = {};  // one per pair of islands that stay joined, the narrowest first
+  std::vector<Region> kept = {};     // what must stay of each island; empty: all of the copper
   Region unmilled = {};              // the unmilled areas in gaps and narrow openings, for the picture
   // Openings within an island, such as those of a thermal relief, of which cutters reach less than half: a point in
   // each.

@@ -4,9 +4,10 @@
 // cut before the contours around them. The depth is divided into equal passes. Corners and arcs of the edge become arcs
 // of the toolpath.
 //
-// Tabs hold the board: at a tab the cutter stays above the full depth. Tabs given by number are spread evenly along the
-// outside of each board, on straight edges if possible; tabs given by position are placed at the nearest point of any
-// cut.
+// Tabs hold the board: at a tab the cutter stays above the full depth. Tabs given by number are spread evenly along
+// each contour, on straight edges if possible; where so many do not fit, there are as many as fit. In an opening they
+// hold the slug; a slug narrower than `least_slug` is milled away instead. Tabs given by position are placed at the
+// nearest point of any cut.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +21,24 @@
 
 namespace passo {
 
+inline constexpr Nanometres least_slug{3'000'000};
+
 struct OutlineOptions {
   Nanometres cutter{2'000'000};  // cutter diameter
   std::string words = {};        // tool name for the operator
   Nanometres depth{-1'800'000};  // final depth below the board's surface, negative
   Nanometres step{500'000};      // maximum depth per pass
-  std::uint32_t tabs = 0;        // number of tabs around each board
+  std::uint32_t tabs = 0;        // number of tabs on each contour
   std::vector<DrawnPoint> tab_places = {};
-  Nanometres tab_width{2'000'000};  // width of the material that remains
-  Nanometres tab_height{600'000};   // height of the tabs above the full depth
-  double ramp_degrees = 0;          // ramp angle of the descent along the toolpath; 0: straight down
-  Nanometres lead{};                // radius of the lead-in arc; 0: none
-  bool dog_bones = false;           // overcuts inner corners so that a sharp corner fits in
-  bool climb = true;                // climb milling, for a clockwise spindle; otherwise conventional
-  bool openings_only = false;       // cuts no outer contours; tabs hold the scrap in the openings
-  bool skips_narrow = false;        // an opening narrower than the cutter is skipped with a warning; otherwise an error
+  Nanometres tab_width{2'000'000};    // width of the material that remains
+  Nanometres tab_height{600'000};     // height of the tabs above the full depth
+  double ramp_degrees = 0;            // ramp angle of the descent along the toolpath; 0: straight down
+  Nanometres lead{};                  // radius of the lead-in arc; 0: none
+  bool dog_bones = false;             // overcuts inner corners so that a sharp corner fits in
+  bool climb = true;                  // climb milling, for a clockwise spindle; otherwise conventional
+  bool openings_only = false;         // cuts no outer contours
+  std::vector<DrawnRing> slots = {};  // lines on which the middle of the cutter makes slots as wide as it is
+  bool skips_narrow = false;  // an opening narrower than the cutter is skipped with a warning; otherwise an error
   DrawnPoint park = {};
 };
 
@@ -42,13 +46,14 @@ struct OutlinePlan {
   MillPlan mill = {};
   std::size_t outsides = 0;
   std::size_t openings = 0;
+  std::size_t slots = 0;
   std::vector<DrawnPoint> tabs = {};  // tab centres on the path of the cutter centre
   std::vector<DrawnRing> ways = {};   // paths of the cutter centre as chords, each once
   double lost_mm2 = 0;                // board area lost according to a sweep of the cutter; dog-bones cause a small
                                       // loss
 };
 
-// Reports errors "outline.…" in `diagnostics`.
+// Reports errors "outline.…" in `diagnostics`. Slots are cut first.
 OutlinePlan plan_outline(const Region& board, const OutlineOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

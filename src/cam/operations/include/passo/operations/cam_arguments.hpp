@@ -84,6 +84,9 @@ struct CamIsolateArguments : CamMillArguments {
   bool clear = false;
   bool voronoi = false;  // mills midway between the islands
   std::string tolerance = "0.004mm";
+  std::string allow_loss = "0.03mm";
+  std::string least_trace = "0.1mm";
+  bool accept_joined = false;  // nets that stay joined are no failure
 };
 std::vector<CamOption> cam_options_of(CamIsolateArguments& arguments);
 
@@ -92,7 +95,8 @@ struct CamOutlineArguments : CamMillArguments {
   std::string depth = "-1.8mm";
   std::string step = "0.5mm";
   std::string join = "0.1mm";
-  std::uint32_t tabs = 0;
+  std::uint32_t tabs = 4;
+  bool no_tabs = false;
   std::vector<std::string> tab_places;  // positions of tabs, X,Y each
   std::string tab_width = "2mm";
   std::string tab_height = "0.6mm";
@@ -177,6 +181,7 @@ struct CamBoardArguments {
   std::string heights;               // COLUMNSxROWS probe points of a height map of each side; empty: none
   std::string join;                  // maximum gap between ends of the edge; empty: as in the outline's options
   std::vector<std::string> told;     // FILE=LAYER: corrections of the detected layers
+  bool accept_joined = false;        // nets that stay joined are no failure
   bool json = false;                 // prints a summary as JSON on standard output
   bool remember = false;             // saves the options of the profile for the machine
 };
