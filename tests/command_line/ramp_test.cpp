@@ -21,19 +21,19 @@ class RampCommand : public passo::test::CommandLine {
 
 const std::string motor = "--clock 250000 --steps-per-rev 400 --accel 50 ";
 
-struct Row {
+struct RampRow {
   double c = 0;
   double end = 0;
 };
-std::vector<Row> rows_of(const std::string& csv) {
+std::vector<RampRow> rows_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line, "n,c,t_end");
-  std::vector<Row> rows;
+  std::vector<RampRow> rows;
   while (std::getline(lines, line)) {
     std::size_t n = 0;
-    Row row;
+    RampRow row;
     EXPECT_EQ(std::sscanf(line.c_str(), "%zu,%lf,%lf", &n, &row.c, &row.end), 3) << line;
     EXPECT_EQ(n, rows.size());
     rows.push_back(row);
@@ -49,8 +49,8 @@ TEST_F(RampCommand, prints_the_published_sequences) {
     of_motor.precision(15);
     of_motor << "--clock " << sequence.clock << " --steps-per-rev " << sequence.steps_per_turn << " --accel "
              << sequence.acceleration << " --steps " << sequence.exact.size();
-    const std::vector<Row> exact = rows_of(ramp("--method exact " + of_motor.str()).out);
-    const std::vector<Row> recursive = rows_of(ramp("--method recursive " + of_motor.str()).out);
+    const std::vector<RampRow> exact = rows_of(ramp("--method exact " + of_motor.str()).out);
+    const std::vector<RampRow> recursive = rows_of(ramp("--method recursive " + of_motor.str()).out);
     ASSERT_EQ(exact.size(), sequence.exact.size());
     ASSERT_EQ(recursive.size(), sequence.exact.size());
     for (std::size_t n = 0; n < exact.size(); ++n) {
@@ -61,7 +61,7 @@ TEST_F(RampCommand, prints_the_published_sequences) {
     const Outcome table = ramp("--method table " + of_motor.str());
     ASSERT_EQ(table.code, sequence.table.empty() ? 2 : 0);
     if (sequence.table.empty()) continue;
-    const std::vector<Row> rows = rows_of(table.out);
+    const std::vector<RampRow> rows = rows_of(table.out);
     ASSERT_EQ(rows.size(), sequence.table.size());
     for (std::size_t n = 0; n < rows.size(); ++n) ASSERT_EQ(rows[n].c, sequence.table[n]);
   }
@@ -86,7 +86,7 @@ TEST_F(RampCommand, a_move_has_exactly_the_steps_asked_for_and_is_its_own_mirror
   for (const char* method : {"exact", "table", "recursive", "exact --jerk 2000", "exact --start-rate 300"}) {
     const Outcome outcome = ramp(std::string("--method ") + method + " " + motor + "--max-rate 900 --move 777");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const std::vector<Row> rows = rows_of(outcome.out);
+    const std::vector<RampRow> rows = rows_of(outcome.out);
     ASSERT_EQ(rows.size(), 777U);
     for (std::size_t n = 0; n < rows.size(); ++n) {
       ASSERT_NEAR(rows[n].c / rows[776 - n].c, 1, 1e-6) << method << " " << n;
@@ -97,7 +97,7 @@ TEST_F(RampCommand, a_move_has_exactly_the_steps_asked_for_and_is_its_own_mirror
 
 TEST_F(RampCommand, a_stop_ends_in_fewer_steps_at_rest) {
   const Outcome outcome = ramp("--method table " + motor + "--move 1000 --stop-after 4");
-  const std::vector<Row> rows = rows_of(outcome.out);
+  const std::vector<RampRow> rows = rows_of(outcome.out);
   ASSERT_EQ(rows.size(), 9U);
   EXPECT_EQ(rows.back().c, 6266);
 }
@@ -173,7 +173,7 @@ TEST_F(RampCommand, a_reversal_is_in_the_csv_with_its_places) {
 }
 
 TEST_F(RampCommand, the_midpoint_recursion_prints_the_exact_sequence) {
-  const std::vector<Row> rows = rows_of(ramp("--method midpoint " + motor + "--steps 3").out);
+  const std::vector<RampRow> rows = rows_of(ramp("--method midpoint " + motor + "--steps 3").out);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_NEAR(rows[1].c, 2595.70, 0.005);
   EXPECT_NEAR(rows[2].c, 1991.75, 0.005);
