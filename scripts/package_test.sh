@@ -50,6 +50,8 @@ if (($# > 0)); then
   make_packages=(scripts/package_elsewhere.sh "$release" "$arch")
 fi
 rm -rf "$packages"/*.deb "$packages/before" "$packages/next"
+# Hardly compressed: what is tested does not depend on it, and half of the time does.
+export PASSO_DEB_OPTIONS=-z1
 "${make_packages[@]}" >/dev/null
 ends "packages made"
 (($# > 0)) || scripts/library_test.sh --packages "$packages"
