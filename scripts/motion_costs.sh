@@ -150,7 +150,7 @@ cost = {}
 for line in open(sys.argv[1]):
     curve, step, mode, time, cpu, arcs = line.split()
     times[curve, float(step), mode] = float(time)
-    if int(arcs): cost[float(step)] = max(cost.get(float(step), 0), 1e3 * float(cpu) / int(arcs))
+    if int(arcs) >= 200: cost[float(step)] = max(cost.get(float(step), 0), 1e3 * float(cpu) / int(arcs))  # else it is the start
 curves = sorted({key[0] for key in times})
 steps = sorted({key[1] for key in times})
 for step in steps:
@@ -158,7 +158,7 @@ for step in steps:
     for mode in "one", "biarc":
         ratios = [times[c, step, mode] / min(times[c, s, "lines"] for s in steps if s <= step) for c in curves]
         row += [f"{statistics.median(ratios):.4f}", f"{max(ratios):.4f}"]
-    print("| " + " | ".join(row + [f"{cost.get(step, 0):.2f}"]) + " |")
+    print("| " + " | ".join(row + [f"{cost[step]:.2f}" if step in cost else "few arcs"]) + " |")
 END
   done
 }

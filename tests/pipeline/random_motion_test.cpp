@@ -286,7 +286,7 @@ TEST(RandomMotion, keeps_the_path_on_nearly_straight_lines) {
       for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(25'000);
     }
     const double tolerance = std::exp(random.between(-6, -2));
-    std::string program = fmt::format("G21 G90 G64 P{:.5f} F6000\n", tolerance);
+    std::string program = fmt::format("G21 G90 G64 P{:.5f} Q{:.5f} F6000\n", tolerance, 0.8 * tolerance);
     double x = 0;
     for (int i = 0; i < 60; ++i) {
       x += std::exp(random.between(-3, 1));

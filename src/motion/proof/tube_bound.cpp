@@ -106,10 +106,14 @@ double TubeBound::time_until(std::size_t station, std::size_t direction, bool re
   double until = unused;
   for (std::size_t k = station > stations_seen ? station - stations_seen : 0; k < station; ++k) {
     if (!is_seen(station - k)) continue;
+    const bool turns = turns_[k][direction] != unused;
+    if (!rests && !turns && from_[k][direction] + speeds_.axis_time_at_most(path, k, station, direction) <= until) {
+      continue;
+    }
     const double time = speeds_.axis_time(path, k, station, direction, {.first = false, .last = rests});
     if (!(time > 0)) continue;
     until = std::max(until, from_[k][direction] + time);
-    if (turns_[k][direction] == unused) continue;
+    if (!turns) continue;
     const double from_rest = speeds_.axis_time(path, k, station, direction, {.first = true, .last = rests});
     until = std::max(until, turns_[k][direction] + from_rest);
   }

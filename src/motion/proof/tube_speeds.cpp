@@ -114,6 +114,16 @@ TubeSpeeds::Speed TubeSpeeds::speed_at(const Walk& walk, std::size_t i, std::siz
   return {.most = most, .pace = 1 / tops_[axis]};
 }
 
+// At the speed of the slower end.
+double TubeSpeeds::axis_time_at_most(const std::vector<Station>& path, std::size_t from, std::size_t to,
+                                     std::size_t direction) const {
+  const std::size_t axis = direction / 2;
+  const double way =
+      sign_of(direction) * (path[to].place[axis] - path[from].place[axis]) - path[from].slack - path[to].slack;
+  if (!(way > 0)) return 0;
+  return way / std::min({leaving_[from][direction].most, arriving_[to][direction].most, tops_[axis]});
+}
+
 double TubeSpeeds::axis_time(const std::vector<Station>& path, std::size_t from, std::size_t to, std::size_t direction,
                              Rests rests) const {
   const std::size_t axis = direction / 2;

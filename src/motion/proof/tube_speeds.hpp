@@ -49,6 +49,9 @@ class TubeSpeeds {
   // move. `rests`: where this axis is known to be stopped.
   double axis_time(const std::vector<Station>& path, std::size_t from, std::size_t to, std::size_t direction,
                    Rests rests) const;
+  // Returns an upper bound of that time, which costs less. Infinite: the axis may be stopped at an end.
+  double axis_time_at_most(const std::vector<Station>& path, std::size_t from, std::size_t to,
+                           std::size_t direction) const;
 
  private:
   using Speeds = std::array<Speed, most_directions>;
