@@ -11,6 +11,7 @@
 #include "machine_file_sentences.hpp"
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
+#include "surface_radius_reader.hpp"
 #include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
@@ -21,8 +22,6 @@ namespace {
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 
 constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
-constexpr NumberKey radius_key{"radius_mm", 0.01, 1e5, "20"};
-constexpr std::string_view radius_of_tool = "tool";
 
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
 constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
@@ -77,7 +76,6 @@ class MachineReader {
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
-  static std::optional<Mm> read_surface_radius(TableReader& reader, Axis axis);
   std::optional<HomeDescription> read_home_of(TableReader& reader, const AxisDescription& axis);
   void read_second_of(TableReader& reader, AxisDescription& axis);
   static void read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
@@ -288,22 +286,6 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   }
   if (reader.has(motor_key.name) && !result.motor) motors_are_readable_ = false;
   finish(reader);
-}
-
-// The tool's distance from the axis is its Z, so it is known of A and B only.
-std::optional<Mm> MachineReader::read_surface_radius(TableReader& reader, Axis axis) {
-  if (!reader.has_text(radius_key.name)) {
-    const auto radius = reader.number(radius_key, Need::optional);
-    return radius ? std::optional(Mm(*radius)) : std::nullopt;
-  }
-  const auto word = reader.text(radius_key.name, radius_of_tool, Need::optional);
-  if (word == radius_of_tool && axis != Axis::c) return Mm(0);
-  reader.error(
-      "machine.radius", radius_key.name,
-      machine_file_says::key_is.with(
-          {{"key", reader.full_name(radius_key.name)}, {"value", fmt::format("\"{}\"", *word)}}),
-      axis == Axis::c ? "a radius in millimetres" : fmt::format("a radius in millimetres, or \"{}\"", radius_of_tool));
-  return std::nullopt;
 }
 
 std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, const AxisDescription& axis) {

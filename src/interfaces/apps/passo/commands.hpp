@@ -49,34 +49,39 @@ struct SimulatedMotors {
   bool anyway = false;                    // sim:first_board: runs even if its loop is too slow for the pulses
 };
 
+// Changes while the program runs.
+struct ChangeArguments {
+  std::vector<std::string> holds;      // SECONDS, or SECONDS:SECONDS with a duration
+  std::vector<std::string> overrides;  // PERCENT@SECONDS
+  std::string adaptive_feed;           // file of factors for M52; empty: the factor is 1
+};
+
 struct RunArguments {
   ProgramArguments program;
   std::string machine;
-  std::vector<std::string> pictures;   // .svg or .png
-  std::string colour_by = "speed";     // colouring of feed moves in pictures: speed, depth or tool
-  std::string view = "auto";           // the flat view of pictures: auto, top, front, side or lathe
-  bool no_rapids = false;              // omits the rapids in pictures
-  std::vector<std::string> traces;     // .vcd or .csv
-  std::string log;                     // output file of (LOG,…); empty: none
-  std::string report;                  // a name that ends in .json; with any other name, a text report
-  std::uint64_t passes = 1;            // number of runs of a main program that ends with M99
-  std::vector<std::string> holds;      // holds: SECONDS, or SECONDS:SECONDS with a duration
-  std::vector<std::string> overrides;  // PERCENT@SECONDS
-  std::string adaptive_feed;           // file of factors for M52; empty: 1
-  std::vector<std::string> touches;    // ranges LOW:HIGH of axes: "X10:60,Z:-2"
-  std::string cable_cut;               // SECONDS:SECONDS; empty: none
-  SimulatedMotors motors;              // of a virtual or emulated machine
-  std::string board = "virtual";       // an address for parse_board_address(), or sim:first_board
-  std::string journal;                 // empty: usual_journal()
-  bool resume = false;                 // resumes an interrupted run
-  std::uint32_t from_line = 0;         // the line at which the program is to start; 0: its first line
-  std::uint32_t pass = 0;              // which pass through that line; 0: it is reached only once
-  double after = 0;                    // mm along the path from that line
-  bool home = false;                   // homes the machine first; the program then starts from the position after
-                                       // homing
-  bool from_here = false;              // treats the current position as machine zero, whatever was known before
-  bool yes = false;                    // continues at M0, M1 and M6 without asking
-  bool json = false;                   // prints the summary as JSON
+  std::vector<std::string> pictures;  // .svg or .png
+  std::string colour_by = "speed";    // colouring of feed moves in pictures: speed, depth or tool
+  std::string view = "auto";          // the flat view of pictures: auto, top, front, side or lathe
+  bool no_rapids = false;             // omits the rapids in pictures
+  std::vector<std::string> traces;    // .vcd or .csv
+  std::string log;                    // output file of (LOG,…); empty: none
+  std::string report;                 // a name that ends in .json; with any other name, a text report
+  std::uint64_t passes = 1;           // number of runs of a main program that ends with M99
+  ChangeArguments changes;
+  std::vector<std::string> touches;  // ranges LOW:HIGH of axes: "X10:60,Z:-2"
+  std::string cable_cut;             // SECONDS:SECONDS; empty: none
+  SimulatedMotors motors;            // of a virtual or emulated machine
+  std::string board = "virtual";     // an address for parse_board_address(), or sim:first_board
+  std::string journal;               // empty: usual_journal()
+  bool resume = false;               // resumes an interrupted run
+  std::uint32_t from_line = 0;       // the line at which the program is to start; 0: its first line
+  std::uint32_t pass = 0;            // which pass through that line; 0: it is reached only once
+  double after = 0;                  // mm along the path from that line
+  bool home = false;                 // homes the machine first; the program then starts from the position after
+                                     // homing
+  bool from_here = false;            // treats the current position as machine zero, whatever was known before
+  bool yes = false;                  // continues at M0, M1 and M6 without asking
+  bool json = false;                 // prints the summary as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

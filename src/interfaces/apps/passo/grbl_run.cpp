@@ -206,7 +206,7 @@ bool suits_grbl(const RunArguments& arguments) {
     words =
         "--picture, --trace, --report and --log are not possible with Grbl, which plans its own motion; use passo run "
         "without --board for them [grbl.cannot]";
-  } else if (!arguments.adaptive_feed.empty()) {
+  } else if (!arguments.changes.adaptive_feed.empty()) {
     words = "--adaptive-feed is not possible with Grbl, which does not know M52; use --override [grbl.cannot]";
   }
   if (words != nullptr) fail(exit_bad_program, words);

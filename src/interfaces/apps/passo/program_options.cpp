@@ -74,10 +74,10 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->check(refuse_count)
       ->capture_default_str();
   command.add_option(
-      "--hold-at", arguments.holds,
+      "--hold-at", arguments.changes.holds,
       "SECONDS: feed hold at that time, which ends the run; SECONDS:PAUSE: continue after PAUSE seconds");
-  command.add_option("--override", arguments.overrides, "PERCENT@SECONDS: feed override from that time on");
-  command.add_option("--adaptive-feed", arguments.adaptive_feed,
+  command.add_option("--override", arguments.changes.overrides, "PERCENT@SECONDS: feed override from that time on");
+  command.add_option("--adaptive-feed", arguments.changes.adaptive_feed,
                      "file with the machine's own feed factor for programs with M52 P1: SECONDS,FACTOR in each line, "
                      "factors 0 to 1");
   command.add_option("--touch", arguments.touches,

@@ -141,7 +141,7 @@ void count(const ProbeOutcome& outcome, const MachineDescription& machine, Probe
 bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& options) {
   NamedFiles files = files_of(arguments.program, options);
   files.reads("the machine file", arguments.machine);
-  files.reads("--adaptive-feed", arguments.adaptive_feed);
+  files.reads("--adaptive-feed", arguments.changes.adaptive_feed);
   for (const std::string& path : arguments.pictures) files.writes("--picture", path);
   for (const std::string& path : arguments.traces) files.writes("--trace", path);
   files.writes("--log", arguments.log);
@@ -452,16 +452,14 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
 
 int run(const RunArguments& arguments) {
   if (!names_are_good(arguments)) return exit_bad_program;
-  std::optional<ScheduledChanges> changes = ScheduledChanges::read(arguments.holds, arguments.overrides);
-  if (!changes) return exit_bad_program;
-  if (!arguments.adaptive_feed.empty() && !changes->add_adaptive_feed(arguments.adaptive_feed)) return exit_bad_program;
+  std::optional<ScheduledChanges> changes = ScheduledChanges::read(arguments.changes);
   std::optional<CableCut> cut;
+  if (!changes) return exit_bad_program;
   if (!arguments.cable_cut.empty() && !(cut = read_cable_cut(arguments.cable_cut))) return exit_bad_program;
   Diagnostics diagnostics;
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
   if (!machine) return exit_bad_machine;
-
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
   const auto disturbances = read_disturbances(arguments.motors.disturbances, *machine);
   if (!things || !disturbances) return exit_bad_program;

@@ -68,10 +68,9 @@ void TailWatch::update(const MachineSession& session, const VirtualMachine& mach
                     .resumed = session.now()});
 }
 
-std::optional<ScheduledChanges> ScheduledChanges::read(const std::vector<std::string>& holds,
-                                                       const std::vector<std::string>& overrides) {
+std::optional<ScheduledChanges> ScheduledChanges::read(const ChangeArguments& arguments) {
   ScheduledChanges changes;
-  for (const std::string& text : holds) {
+  for (const std::string& text : arguments.holds) {
     if (const auto at = number(text)) {
       changes.changes_.push_back({.at = Seconds(*at)});
     } else if (const auto both = pair_of(text, ':')) {
@@ -82,7 +81,7 @@ std::optional<ScheduledChanges> ScheduledChanges::read(const std::vector<std::st
       return std::nullopt;
     }
   }
-  for (const std::string& text : overrides) {
+  for (const std::string& text : arguments.overrides) {
     const auto both = pair_of(text, '@');
     if (!both || both->first > most_percent) {
       fail(exit_bad_program, "'" + text + "': expected --override PERCENT@SECONDS, with 0 to 200 percent");
@@ -90,12 +89,9 @@ std::optional<ScheduledChanges> ScheduledChanges::read(const std::vector<std::st
     }
     changes.changes_.push_back({.at = Seconds(both->second), .factor = both->first / 100});
   }
-  changes.sort();
+  if (!arguments.adaptive_feed.empty() && !changes.add_adaptive_feed(arguments.adaptive_feed)) return std::nullopt;
+  std::ranges::stable_sort(changes.changes_, {}, &Change::at);
   return changes;
-}
-
-void ScheduledChanges::sort() {
-  std::ranges::stable_sort(changes_, {}, &Change::at);
 }
 
 bool ScheduledChanges::add_adaptive_feed(const std::string& file) {
@@ -104,7 +100,6 @@ bool ScheduledChanges::add_adaptive_feed(const std::string& file) {
   show(diagnostics);
   if (!factors) return false;
   for (const AdaptiveFeedChange& own : *factors) changes_.push_back({.at = own.at, .adaptive = own.factor});
-  sort();
   return true;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "commands.hpp"
+
 #include "passo/kinematics/kinematics.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -40,13 +42,10 @@ class TailWatch {
 
 class ScheduledChanges {
  public:
-  // `holds`: "2.5" ends the run with a hold at 2.5 s; "2.5:1" continues one second after the stop. `overrides`:
-  // "50@2.5" halves the feed from 2.5 s on. Times are the board's, from the start of the program. Reports any other
-  // text on standard error, and returns nothing.
-  static std::optional<ScheduledChanges> read(const std::vector<std::string>& holds,
-                                              const std::vector<std::string>& overrides);
-  // Adds the factors of a file (adaptive_feed_file.hpp). Shows what is wrong with it, and returns false.
-  [[nodiscard]] bool add_adaptive_feed(const std::string& file);
+  // Hold "2.5" ends the run with a hold at 2.5 s; "2.5:1" continues one second after the stop. Override "50@2.5" halves
+  // the feed from 2.5 s on. Times are the board's, from the start of the program. Reports any other text, and a wrong
+  // file of adaptive feed, on standard error, and returns nothing.
+  static std::optional<ScheduledChanges> read(const ChangeArguments& arguments);
 
   struct Change {
     Seconds at{0};
@@ -70,7 +69,7 @@ class ScheduledChanges {
   Seconds now(const MachineSession& session) const { return session.now() - begun_; }
   Seconds update_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   void apply(const Change& change, MachineSession& session);
-  void sort();
+  [[nodiscard]] bool add_adaptive_feed(const std::string& file);
 
   std::vector<Change> changes_;
   std::size_t next_ = 0;

@@ -293,6 +293,22 @@ TEST(MotionProof, an_exact_path_may_not_be_left) {
   EXPECT_EQ(proof_of(corner, {steady(corner[0], 1), steady(corner[1], 1)}).deviation.value, 0);
 }
 
+TEST(MotionProof, angles_count_in_their_own_tolerance) {
+  Segment programmed = line(xyz(0, 0), xyz(10, 0));
+  const auto multiple = [&](double sideways, double turned) {
+    Point middle = xyz(5, sideways);
+    middle[Axis::a] = turned;
+    return proof_of({programmed}, {steady(line(xyz(0, 0), middle), 1), steady(line(middle, xyz(10, 0)), 1)})
+        .deviation.multiple();
+  };
+  EXPECT_NEAR(multiple(0, 0.04), 4, 1e-9);  // a degree counts as a millimetre
+  programmed.turn_tolerance = 0.05;
+  EXPECT_NEAR(multiple(0, 0.04), 0.8, 1e-9);
+  EXPECT_NEAR(multiple(0, 0.06), 1.2, 1e-9);
+  EXPECT_NEAR(multiple(0.006, 0.04), 1, 1e-9);
+  EXPECT_NEAR(multiple(0.008, 0.04), std::hypot(0.8, 0.8), 1e-9);
+}
+
 TEST(MotionProof, the_same_way_back_is_no_deviation) {
   std::vector<Segment> path;
   for (int i = 0; i < 20; ++i) {
