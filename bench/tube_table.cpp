@@ -89,8 +89,8 @@ void print_circles() {
   const double slow_arc = time_of(arc_path(), jerk);
   std::printf("circle of R 25 as G3: %.4f s, with jerk %.4f s\n", arc, slow_arc);
   std::printf("%-10s %-10s %12s %12s\n", "grid, um", "chord, mm", "acceleration", "jerk");
-  for (const double grid : {0.1, 1.0, 2.54, 5.0}) {
-    for (const double chord : {0.02, 0.05, 0.2}) {
+  for (const double grid : {0.1, 1.0, 2.54, 5.0, 8.0, 12.0}) {
+    for (const double chord : {0.01, 0.02, 0.05, 0.2}) {
       const std::vector<PathItem> path = chord_path(chord, grid / 1000);
       std::printf("%-10g %-10g %12.4f %12.4f\n", grid, chord, time_of(path, 0) / arc, time_of(path, jerk) / slow_arc);
     }

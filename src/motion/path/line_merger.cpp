@@ -16,7 +16,7 @@ constexpr double least_share_of_length = 0.99;
 
 // Of the tolerance: how far an arc may be from its chord to be replaced by it; and an arc of which all is so close to
 // its ends that half of the tube around the chord is left.
-constexpr double nearly_straight = 0.05;
+constexpr double nearly_straight = 0.2;
 constexpr double tiny = 0.5;
 // Less of the arc's length than this is no chord of it.
 constexpr double least_share_of_arc = 0.9;
