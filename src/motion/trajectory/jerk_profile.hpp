@@ -128,7 +128,7 @@ class JerkProfile {
   std::uint32_t axes_near_limits(std::size_t i, const NodeState& most, double jerk) const;
   bool turns_much(std::size_t i, std::uint32_t axes) const;
   void check_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time, double way,
-                  int parts, Excess& worst) const;
+                  std::size_t parts, Excess& worst) const;
   static Inside inside(const NodeState& from, double jerk, double time);
   static bool is_possible(const PhasePair& pair, const NodeState& from);
   // maximum speed within a phase, without its end

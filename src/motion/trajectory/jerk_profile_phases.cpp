@@ -20,7 +20,8 @@ constexpr double share_seen_closely = 0.999;
 constexpr double looked_at_closely = 0.96;
 constexpr double not_worth_a_look = 1.02;
 constexpr double looked_at_velocity = 0.99995;
-constexpr int close_parts = 4;
+constexpr std::size_t close_parts = 4;
+constexpr std::size_t most_places = 2 * close_parts + 1;  // of half a cell
 constexpr double much_of_slope = 0.1;
 constexpr double far_below = 0.95;  // a share of a limit, less than `share_seen` times `looked_at_closely`
 constexpr double unseen_change = 1e-6;
@@ -103,7 +104,7 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
            std::max({std::abs(from.acceleration), std::abs(to.acceleration), std::abs(pair.middle.acceleration)})},
       std::max(std::abs(pair.first), std::abs(pair.second)));
   if (near == 0) return worst;
-  const auto look = [&](int parts) {
+  const auto look = [&](std::size_t parts) {
     check_half(i, near, from, pair.first, pair.half, 0, parts, worst);
     const double way = inside(from, pair.first, pair.half).way;
     check_half(i, near, pair.middle, pair.second, pair.half, way, parts, worst);
@@ -154,43 +155,47 @@ bool JerkProfile::turns_much(std::size_t i, std::uint32_t axes) const {
 // Looks at half the time of a cell that is not straight, in `parts` parts. `way` is the distance from the cell's start
 // to the start of that half. `axes`: those to look at, one bit each.
 void JerkProfile::check_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time,
-                             double way, int parts, Excess& worst) const {
+                             double way, std::size_t parts, Excess& worst) const {
   const double length = cells_[i].length;
   const double seen = parts > 1 ? share_seen_closely : share_seen;
-  const AxisShape* shape = shapes(i);
-  for (int part = 0; part < parts; ++part) {
-    std::array<Inside, 3> places;
-    for (std::size_t at = 0; at < places.size(); ++at) {
-      places[at] = inside(start, jerk, time * (part + 0.5 * static_cast<double>(at)) / parts);
+  const std::size_t count = 2 * parts + 1;
+  std::array<Inside, most_places> places;
+  for (std::size_t at = 0; at < count; ++at) {
+    places[at] = inside(start, jerk, time * static_cast<double>(at) / static_cast<double>(count - 1));
+  }
+  std::array<double, most_places> force{};
+  std::array<double, most_places> jolt{};
+  std::array<double, most_places> pace{};
+  const auto three_from = [](const std::array<double, most_places>& list, std::size_t at) {
+    return std::array<double, 3>{list[at], list[at + 1], list[at + 2]};
+  };
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    if ((axes >> k & 1) == 0) continue;
+    const LimitedAxis& axis = axes_[k];
+    const ShapeInside own(shapes(i)[k], length);
+    for (std::size_t at = 0; at < count; ++at) {
+      const double share = (way + places[at].way) / length;
+      const double bend = own.bend(share);
+      const double slope = own.slope(share);
+      const double v = places[at].state.speed;
+      const double a = places[at].state.acceleration;
+      pace[at] = slope * v;
+      force[at] = slope * a + bend * v * v;
+      jolt[at] = slope * jerk + v * (3 * bend * a + own.third(share) * v * v);
     }
-    for (std::size_t k = 0; k < axes_.size(); ++k) {
-      if ((axes >> k & 1) == 0) continue;
-      const ShapeInside own(shape[k], length);
-      std::array<double, 3> force{};
-      std::array<double, 3> jolt{};
-      std::array<double, 3> pace{};
-      for (std::size_t at = 0; at < places.size(); ++at) {
-        const double share = (way + places[at].way) / length;
-        const double third = own.third(share);
-        const double bend = own.bend(share);
-        const double slope = own.slope(share);
-        const double v = places[at].state.speed;
-        const double a = places[at].state.acceleration;
-        pace[at] = slope * v;
-        force[at] = slope * a + bend * v * v;
-        jolt[at] = slope * jerk + 3 * bend * v * a + third * v * v * v;
+    if (any_falls_ && axis.falling != nullptr) {
+      for (std::size_t at = 0; at + 2 < count; at += 2) {
+        raise_to(worst.force, highest_at_bends(axis, three_from(pace, at), three_from(force, at)), seen);
       }
-      if (any_falls_ && axes_[k].falling != nullptr) {
-        raise_to(worst.force, highest_at_bends(axes_[k], pace, force), seen);
-        for (std::size_t at = 0; at < places.size(); ++at) {
-          force[at] *= axes_[k].acceleration / axes_[k].acceleration_at(pace[at] * pace[at]);
-        }
-      }
-      const double fastest_here = highest_through(pace);
-      const double velocity = axes_[k].velocity * looked_at_velocity;
+      for (std::size_t at = 0; at < count; ++at)
+        force[at] *= axis.acceleration / axis.acceleration_at(pace[at] * pace[at]);
+    }
+    const double velocity = axis.velocity * looked_at_velocity;
+    for (std::size_t at = 0; at + 2 < count; at += 2) {
+      const double fastest_here = highest_through(three_from(pace, at));
       raise_to(worst.pace, fastest_here * fastest_here, velocity * velocity);
-      raise_to(worst.force, highest_through(force), axes_[k].acceleration * seen);
-      raise_to(worst.jolt, highest_through(jolt), axes_[k].jerk * seen);
+      raise_to(worst.force, highest_through(three_from(force, at)), axis.acceleration * seen);
+      raise_to(worst.jolt, highest_through(three_from(jolt, at)), axis.jerk * seen);
     }
   }
 }
