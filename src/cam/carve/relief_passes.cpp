@@ -141,7 +141,9 @@ Mm finishing_overrun(const ReliefProgramOptions& options) {
 
 Mm roughing_overrun(const ReliefProgramOptions& options) {
   const Mm radius = options.roughing->tool.cutter.radius;
-  return options.overrun.value_or(std::max(radius, options.finish.cutter.radius * 2 - radius));
+  // The sides of a body are cut: there must be room for the roughing cutter beside what it leaves, and some nodes more.
+  const Mm beside = options.beside == BesideGrid::nothing ? radius * 1.1 + options.roughing->stock : radius;
+  return options.overrun.value_or(std::max(beside, options.finish.cutter.radius * 2 - radius));
 }
 
 Mm rest_overrun(const ReliefProgramOptions& options) {

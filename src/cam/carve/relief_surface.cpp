@@ -107,8 +107,7 @@ BodyBounds bounds_of(const std::vector<SurfaceTriangle>& faces) {
 Mm body_pitch(const ReliefShape& shape, const Sides& sides) {
   if (shape.pitch) return *shape.pitch;
   constexpr double walls = 1400;  // nodes of the longest side
-  constexpr Mm finest{0.01};
-  const Mm coarse = std::max(finest, std::max(sides.x, sides.y) / walls);
+  const Mm coarse = std::max(shape.finest_pitch, std::max(sides.x, sides.y) / walls);
   const Mm wished = std::min(coarse, shape.wished_pitch.value_or(coarse));
   return std::max(wished, Mm(std::sqrt(sides.x.value() * sides.y.value() / static_cast<double>(most_fine_nodes))));
 }

@@ -136,6 +136,16 @@ TEST(Stl, that_is_broken_is_refused) {
               HasSubstr("surface.unknown-kind"));
 }
 
+TEST(SurfaceFile, open_edges_are_counted) {
+  const SurfacePoint a{0, 0, 0};
+  const SurfacePoint b{1, 0, 0};
+  const SurfacePoint c{0, 1, 0};
+  const SurfacePoint d{0, 0, 1};
+  EXPECT_EQ(open_edges({{a, b, c}, {a, b, d}, {b, c, d}, {a, c, d}}), 0U);
+  EXPECT_EQ(open_edges({{a, b, c}, {a, b, d}, {b, c, d}}), 3U);
+  EXPECT_EQ(open_edges({{a, b, c}, {d, d, d}}), 3U) << "a point is no edge";
+}
+
 TEST(SurfaceFile, that_is_not_there_is_told) {
   Diagnostics diagnostics;
   EXPECT_EQ(read_surface("/no/such/file.stl", diagnostics).triangles(), 0U);

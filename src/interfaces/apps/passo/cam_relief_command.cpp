@@ -204,7 +204,7 @@ bool fits_memory(const ReliefProgramOptions& program, const HeightGrid& grid, co
   Mm beyond = program.overrun.value_or(program.finish.cutter.radius);
   if (program.roughing && !program.overrun) {
     const Mm radius = program.roughing->tool.cutter.radius;
-    beyond = std::max({beyond, radius, program.finish.cutter.radius * 2 - radius});
+    beyond = std::max({beyond, radius * 1.1 + program.roughing->stock, program.finish.cutter.radius * 2 - radius});
   }
   const double columns = static_cast<double>(grid.columns) + 2 * (beyond / grid.pitch_x + 2);
   const double rows = static_cast<double>(grid.rows) + 2 * (beyond / grid.pitch_y + 2);
@@ -231,6 +231,8 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
   shape.wished_pitch = pitch_for(job.program);
+  // The time for a node grows with the square of the cutter's radius in nodes.
+  shape.finest_pitch = std::max(Mm(0.01), job.program.finish.cutter.radius / 80);
   ReliefGrid read;
   if (is_level_picture(*bytes)) {
     const PixelLevel level = arguments.channel == "alpha" ? PixelLevel::alpha : PixelLevel::luminance;

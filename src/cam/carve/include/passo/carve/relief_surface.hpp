@@ -30,8 +30,9 @@ struct ReliefShape {
   std::optional<Mm> pitch = {};   // for a model: the sample distance; for a picture: the maximum distance of nodes, by
                                   // interpolation
   // The maximum distance of nodes if `pitch` is empty, as far as `most_fine_nodes` allow. A model gets at least
-  // 1,400 nodes along its longest side, but none closer than 0.01 mm.
+  // 1,400 nodes along its longest side, but none closer than `finest_pitch`.
   std::optional<Mm> wished_pitch = {};
+  Mm finest_pitch{0.01};
   unsigned threads = 1;  // for a model; the result does not depend on it
 };
 
