@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <map>
 #include <numbers>
 
 #include "drawing_builder.hpp"
 #include "excellon_numbers.hpp"
+#include "excellon_tools.hpp"
 #include "text_lines.hpp"
 #include <fmt/format.h>
 
@@ -21,12 +21,6 @@ constexpr std::int64_t highest_tool = 9999;
 constexpr std::array ignored_words = {
     "FMAT,2", "ATC",  "VER,", "DETECT",   "OSTOP",   "FSB", "SBK", "TCST", "BLKD",  "UP,",  "R,T", "R,C",    "R,D",
     "R,H",    "R,CP", "R,CR", "PCKPARAM", "ICI,OFF", "AFS", "CCW", "CP,",  "MERGE", "STOP", "M47", "SBKOFF", "VER"};
-
-struct FileTool {
-  std::optional<Nanometres> diameter;
-  std::uint32_t layer = 0;
-  bool is_used = false;  // selected outside the header
-};
 
 // The words of one line: a letter, and the text of its number.
 struct DrillWord {
@@ -54,14 +48,13 @@ class ExcellonReader {
     finish_route();
     if (!ended_ && !diagnostics_.any_error()) builder_.note("the file does not end with M30, so it may be truncated");
     Drawing drawing = builder_.take();
-    add_late_sizes(drawing);
+    tools_.add_late_sizes(drawing);
     return drawing;
   }
 
  private:
   void read_line(std::string_view text);
   void read_comment(std::string_view text);
-  void add_late_sizes(Drawing& drawing) const;
   bool read_words(std::string_view text);
   void obey();
   bool obey_code(const DrillWord& word);
@@ -107,9 +100,7 @@ class ExcellonReader {
 
   std::string_view line_;
   std::vector<DrillWord> words_;
-  std::map<std::int64_t, FileTool> tools_;
-  const FileTool* tool_ = nullptr;
-  const FileTool* header_tool_ = nullptr;  // selected in the header, which may have no end
+  ExcellonTools tools_;
   DrawnPoint now_;
   DrawnPoint zero_;           // G93: where the file's zero is
   bool incremental_ = false;  // G91, ICI
@@ -126,28 +117,8 @@ class ExcellonReader {
 void ExcellonReader::read_comment(std::string_view text) {
   const std::optional<CommentedTool> found = numbers_.commented_tool(text);
   if (!found || found->number > highest_tool) return;
-  const bool is_new = !tools_.contains(found->number);
-  FileTool& tool = tools_[found->number];
-  if (is_new) tool.layer = builder_.layer(fmt::format("T{}", found->number));
+  FileTool& tool = tools_.named(found->number, builder_);
   if (!tool.diameter) tool.diameter = builder_.length(found->diameter, whole_line(), line_);
-}
-
-// Some files state the sizes of their tools behind the holes.
-void ExcellonReader::add_late_sizes(Drawing& drawing) const {
-  std::map<std::uint32_t, Nanometres> sizes;
-  for (const auto& [number, tool] : tools_) {
-    if (tool.diameter) {
-      sizes[tool.layer] = *tool.diameter;
-    } else if (tool.is_used) {
-      drawing.notes.push_back(fmt::format("the file does not give the diameter of T{}", number));
-    }
-  }
-  const auto add = [&](std::uint32_t layer, Nanometres& size) {
-    const auto found = sizes.find(layer);
-    if (size.count == 0 && found != sizes.end()) size = found->second;
-  };
-  for (DrawnHole& hole : drawing.holes) add(hole.layer, hole.diameter);
-  for (DrawnPath& path : drawing.paths) add(path.layer, path.width);
 }
 
 void ExcellonReader::read_line(std::string_view text) {
@@ -218,11 +189,8 @@ std::optional<std::int64_t> ExcellonReader::count_of(const DrillWord& word) {
 
 // A header without a "%" ends at the first place.
 void ExcellonReader::end_header() {
-  if (!in_header_) return;
+  if (in_header_) tools_.end_header();
   in_header_ = false;
-  if (tool_ != nullptr || header_tool_ == nullptr) return;
-  tool_ = header_tool_;
-  for (auto& [number, tool] : tools_) tool.is_used = tool.is_used || &tool == tool_;
 }
 
 // What a line says: first its modes and its tool, then where it goes.
@@ -342,14 +310,12 @@ bool ExcellonReader::choose_tool() {
     return refuse(place_of(word), "excellon.bad-number", fmt::format("T{} is not a tool", *number), "T1 to T9999");
   }
   finish_route();
-  if (*number == 0 && word_of('C') == nullptr && !tools_.contains(0)) {
-    tool_ = nullptr;
+  if (*number == 0 && word_of('C') == nullptr && !tools_.has(0)) {
+    tools_.select_none();
     return true;
   }
   const DrillWord* const diameter = word_of('C');
-  const bool is_new = !tools_.contains(*number);
-  FileTool& tool = tools_[*number];
-  if (is_new) tool.layer = builder_.layer(fmt::format("T{}", *number));
+  FileTool& tool = tools_.named(*number, builder_);
   if (diameter != nullptr) {
     const std::optional<Mm> value = numbers_.diameter(diameter->number);
     if (!value || value->value() < 0) {
@@ -358,11 +324,10 @@ bool ExcellonReader::choose_tool() {
     }
     tool.diameter = builder_.length(*value, place_of(*diameter), line_);
   }
-  if (in_header_) {
-    if (diameter == nullptr) header_tool_ = &tool;
-  } else {
-    tool.is_used = true;
-    tool_ = &tool;
+  if (!in_header_) {
+    tools_.select(tool);
+  } else if (diameter == nullptr) {
+    tools_.select_in_header(tool);
   }
   return true;
 }
@@ -389,13 +354,14 @@ bool ExcellonReader::read_place(char x, char y, DrawnPoint& place) {
 }
 
 void ExcellonReader::drill(DrawnPoint at) {
-  if (tool_ == nullptr) {
+  if (tools_.selected() == nullptr) {
     refuse(whole_line(), "excellon.no-tool", "a hole without a selected tool",
            "T1, or another tool, in an earlier line");
     return;
   }
   if (!builder_.has_room_for(1, whole_line(), line_)) return;
-  builder_.add_hole({at, tool_->diameter.value_or(Nanometres{}), tool_->layer, lines_.number()});
+  builder_.add_hole(
+      {at, tools_.selected()->diameter.value_or(Nanometres{}), tools_.selected()->layer, lines_.number()});
 }
 
 void ExcellonReader::move() {
@@ -462,15 +428,15 @@ void ExcellonReader::arc_to(DrawnPoint from, DrawnPoint to) {
 
 void ExcellonReader::begin_route() {
   finish_route();
-  if (tool_ == nullptr) {
+  if (tools_.selected() == nullptr) {
     refuse(whole_line(), "excellon.no-tool", "a route without a selected tool",
            "T1, or another tool, in an earlier line");
     return;
   }
   is_down_ = true;
   route_.points = {{now_}};
-  route_.width = tool_->diameter.value_or(Nanometres{});
-  route_.layer = tool_->layer;
+  route_.width = tools_.selected()->diameter.value_or(Nanometres{});
+  route_.layer = tools_.selected()->layer;
   route_.line = lines_.number();
 }
 
@@ -494,7 +460,7 @@ void ExcellonReader::add_slot(DrawnPoint from) {
   words_.assign(all.begin() + static_cast<std::ptrdiff_t>(index) + 1, all.end());
   if (!read_place('X', 'Y', end)) return;
   now_ = end;
-  if (tool_ == nullptr) {
+  if (tools_.selected() == nullptr) {
     refuse(whole_line(), "excellon.no-tool", "a slot without a selected tool",
            "T1, or another tool, in an earlier line");
     return;
@@ -502,8 +468,8 @@ void ExcellonReader::add_slot(DrawnPoint from) {
   if (!builder_.has_room_for(2, whole_line(), line_)) return;
   builder_.add_path({.points = {{begin}, {end}},
                      .is_closed = false,
-                     .width = tool_->diameter.value_or(Nanometres{}),
-                     .layer = tool_->layer,
+                     .width = tools_.selected()->diameter.value_or(Nanometres{}),
+                     .layer = tools_.selected()->layer,
                      .line = lines_.number()});
 }
 

@@ -289,10 +289,9 @@ void GerberReader::operate() {
   DrawnPoint place;
   ArcWords arc;
   if (!read_place(place, arc)) return;
-  plotter_.net = attributes_.net();
   switch (operation_) {
-    case draw_code: return plotter_.draw_to(place, arc);
-    case flash_code: return plotter_.flash(place);
+    case draw_code: plotter_.net = attributes_.net(); return plotter_.draw_to(place, arc);
+    case flash_code: return plotter_.flash(place, attributes_.net());
     case move_code: return plotter_.move_to(place);
     default:
       findings_.note("coordinates before the first D01, D02 or D03 are read as moves");

@@ -197,7 +197,6 @@ void GerberPlotter::draw_to(DrawnPoint place, const ArcWords& words) {
   if (!has_room_for(chords * points_of_end + 4)) return;
   if (way_.empty()) {
     way_ = {at_};
-    net_of_way_ = net;
     path_ = {.points = {{at_}}, .is_closed = false, .width = {}, .layer = 0, .line = findings_.command.line};
   }
   if (is_arc) {
@@ -221,7 +220,7 @@ void GerberPlotter::draw_way(std::size_t first, std::size_t last) {
 }
 
 void GerberPlotter::keep_name(DrawnPoint place) {
-  if (net_of_way_ != 0 && is_dark_) image().named.push_back({place, 0, net_of_way_, findings_.command.line});
+  if (net != 0 && is_dark_) image().named.push_back({place, 0, net, findings_.command.line});
 }
 
 void GerberPlotter::finish_stroke() {
@@ -245,7 +244,7 @@ void GerberPlotter::finish_stroke() {
   path_ = {};
 }
 
-void GerberPlotter::flash(DrawnPoint place) {
+void GerberPlotter::flash(DrawnPoint place, std::uint32_t of_net) {
   if (in_region_) {
     findings_.refuse(0, 0, "gerber.bad-region", "a flash between G36 and G37", "D01 and D02 only");
     return;
@@ -269,7 +268,7 @@ void GerberPlotter::flash(DrawnPoint place) {
   placement.at = place;
   image().add(placement.placed(with.shape), is_dark_);
   if (is_dark_) {
-    image().pads.push_back({place, static_cast<std::uint32_t>(source->index), net, findings_.command.line});
+    image().pads.push_back({place, static_cast<std::uint32_t>(source->index), of_net, findings_.command.line});
   }
 }
 

@@ -46,7 +46,7 @@ class GerberPlotter {
   const GerberPlacement& modal() const { return modal_; }
   Interpolation interpolation = Interpolation::linear;
   Quadrants quadrants = Quadrants::unknown;
-  std::uint32_t net = 0;
+  std::uint32_t net = 0;  // of the strokes and contours
 
   void define(std::uint32_t code, PlotterAperture aperture);
   void select(std::uint32_t code);
@@ -54,7 +54,7 @@ class GerberPlotter {
   DrawnPoint at() const { return at_; }
   void move_to(DrawnPoint place);
   void draw_to(DrawnPoint place, const ArcWords& words);
-  void flash(DrawnPoint place);
+  void flash(DrawnPoint place, std::uint32_t of_net);
   void begin_region();
   void end_region();
   bool in_region() const { return in_region_; }
@@ -114,7 +114,6 @@ class GerberPlotter {
   bool in_region_ = false;
   std::vector<DrawnPoint> way_;  // the current stroke or contour as chords
   DrawnPath path_;               // the same stroke, including its arcs
-  std::uint32_t net_of_way_ = 0;
   Tool tool_;
   bool tool_is_new_ = true;
   std::size_t points_ = 0;
