@@ -24,7 +24,7 @@ using testing::HasSubstr;
 const std::string prompt = "passo ";
 constexpr double step_mm = 0.02;
 
-std::string in_one_line(const std::string& text) {
+std::string as_one_line(const std::string& text) {
   std::istringstream words(text);
   std::string line;
   for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
@@ -145,7 +145,7 @@ TEST_F(FirstMachine, drills_the_board_of_the_drawing_through_port_and_pic) {
   expect_true("holes.json", 10'000);
   EXPECT_EQ(nlohmann::json::parse(read(path("holes.json")))["port"]["relay_closings"], 1);
   const std::string table = document.substr(document.find("Parallel port and PIC, in steps"));
-  EXPECT_THAT(in_one_line(outcomes[2].out), HasSubstr(in_one_line(table.substr(0, table.find("```")))));
+  EXPECT_THAT(as_one_line(outcomes[2].out), HasSubstr(as_one_line(table.substr(0, table.find("```")))));
   // The rotors have been 3 mm deep in each hole and nowhere else, and the stock shows it.
   const auto drilled = deep_points(read(path("drilled.ngc")), -2.9);
   EXPECT_EQ(drilled.size(), 12U);
@@ -185,7 +185,7 @@ TEST_F(FirstMachine, refuses_pulses_that_are_too_short_for_the_loop) {
   ASSERT_EQ(shown.size(), 1U);
   const Outcome refused = run(shown[0].command);
   EXPECT_EQ(refused.code, 3);
-  EXPECT_EQ(in_one_line(refused.err), in_one_line(shown[0].output));
+  EXPECT_EQ(as_one_line(refused.err), as_one_line(shown[0].output));
   const Outcome anyway = run(shown[0].command + " --anyway --report lost.json");
   if (lacks_an_emulator(anyway)) GTEST_SKIP() << anyway.err;
   EXPECT_EQ(anyway.code, 1);
