@@ -233,7 +233,7 @@ HeightGrid relief_of(ReliefBody body, const ReliefShape& shape, const std::strin
   if (body.height) {
     const double columns_all = static_cast<double>(grid.columns - 1);
     cover.has_straight_edges_only = true;
-    cover.at_node = [&, scale = high > 0 ? depth.value() / high : 0](double x, double y) {
+    cover.at_node = [&, columns_all, scale = high > 0 ? depth.value() / high : 0](double x, double y) {
       const double along = (shape.mirror ? columns_all - x : x) / columns_all;
       const double top =
           body.height(bounds.low.x + across * along, bounds.low.y + up * y / static_cast<double>(grid.rows - 1));

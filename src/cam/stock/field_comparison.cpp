@@ -64,9 +64,13 @@ double cell_difference(const HeightField& field, const CutTarget& target, std::s
   }
   double gouge = std::max(0.0, static_cast<double>(low) - here);
   if (target.at_most) {
+    if (gouge > 0) gouge = at_wall(gouge, static_cast<double>(low), *target.at_most, column, row);
     const auto wanted = static_cast<double>(target.high.below_top(row)[column]);
-    gouge = std::max(gouge, wanted - static_cast<double>(target.at_most->below_top(row)[column]));
-    if (gouge > 0) gouge = at_wall(gouge, wanted, *target.at_most, column, row);
+    const double below = wanted - static_cast<double>(target.at_most->below_top(row)[column]);
+    // A model that was made from cells, or from chords, may be a cell off.
+    const double sideways = below > 0 ? at_wall(below, wanted, *target.at_most, column, row) : 0;
+    const bool is_wall = sideways < below && sideways <= field.cell();
+    if (!is_wall) gouge = std::max(gouge, sideways);
   }
   return -gouge;
 }

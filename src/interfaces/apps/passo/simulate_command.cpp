@@ -190,9 +190,9 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
     Mm tip{0};
     for (const ToolShape& tool : *tools) tip = std::max(tip, thinned_tip(tool.cutter, thinner_for(cell)));
     simulation.difference->unseen_depth = arguments.tolerance + (is_body ? tip.value() : 0);
-    // A whole cell must be cut before it counts, and the thinner tool must reach its middle.
-    simulation.difference->unseen_sideways =
-        is_body ? (cell * std::sqrt(2) + thinner_for(cell)).value() : 2 * cell.value();
+    // A whole cell must be cut before it counts, the thinner tool must reach its middle, and a wall may be a cell off.
+    const double sideways = is_body ? std::sqrt(2) + 1 + thinner_for(cell) / cell : 2;
+    simulation.difference->unseen_sideways = sideways * cell.value();
   }
   if (const int code = write_files(arguments, simulation, target ? &*target : nullptr); code != exit_done) return code;
   Diagnostics findings(std::numeric_limits<std::size_t>::max());

@@ -2,8 +2,8 @@
 //
 // Material is left if the stock at the centre of a cell is higher than the highest point of the target in the cell and
 // its eight neighbours. A gouge is a height below the lowest of these nine, or a cell that was surely cut below the
-// highest point of the target in it (CutTarget::at_most). At a wall, a difference counts sideways: its size is the
-// distance to where the height is right, if that is less.
+// highest point of the target in it (CutTarget::at_most), by more than a cell at a wall. At a wall, a difference counts
+// sideways: its size is the distance to where the height is right, if that is less.
 #pragma once
 
 #include <cstddef>
