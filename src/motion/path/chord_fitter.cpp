@@ -282,8 +282,8 @@ Point ChordFitter::Fit::miss_at(double u, const Point& way, Point& direction) co
 }
 
 // Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and, where that may matter,
-// in the chords, and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a chord goes back
-// along it counts as distance.
+// in the chords, and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a
+// chord goes back along it counts as distance.
 template <std::size_t axes>
 bool ChordFitter::passes_in(Fit& fit) const {
   using Way = std::array<double, axes>;
