@@ -46,8 +46,9 @@ constexpr std::size_t most_behind = 128;
 constexpr double clearance = 15;
 constexpr double far = 1e9;
 
-// The next window is so many times as long as the last one.
+// The next window is so many times as long as the last one. The first is so much of that of the fit before.
 constexpr double growth = 1.4;
+constexpr double first_share = 0.5;
 
 // The weight of an end that must be met, among weights whose sum is 1.
 constexpr double pinning = 1e6;
@@ -58,16 +59,9 @@ Point unit(const Point& way) {
 
 // Legendre's polynomials of the degrees 4 to 7, at x from -1 to 1.
 std::array<double, 4> next_polynomials(double x) {
-  std::array<double, 4> found{};
-  double before = 1;
-  double here = x;
-  for (int k = 1; k < 7; ++k) {
-    const double next = ((2 * k + 1) * x * here - k * before) / (k + 1);
-    before = here;
-    here = next;
-    if (k >= 3) found[static_cast<std::size_t>(k - 3)] = next;
-  }
-  return found;
+  const double y = x * x;
+  return {(3 + y * (35 * y - 30)) / 8, x * (15 + y * (63 * y - 70)) / 8, (y * (105 + y * (231 * y - 315)) - 5) / 16,
+          x * (y * (315 + y * (429 * y - 693)) - 35) / 16};
 }
 
 }  // namespace
@@ -146,14 +140,14 @@ Point ChordFitter::way_ahead(std::uint64_t number, double distance) {
   return way;
 }
 
-void ChordFitter::add(const Vertex& vertex, double weight) {
+void ChordFitter::Sums::add(const Vertex& vertex, double weight) {
   double power = vertex.s * weight;
-  for (std::size_t i = 0; i < sums_.moments.size(); ++i) {
-    sums_.moments[i] = sums_.moments[i] + vertex.way * power;
+  for (Point& moment : moments) {
+    moment = moment + vertex.way * power;
     power *= vertex.s;
   }
   power = vertex.s * vertex.s * weight;
-  for (double& sum : sums_.powers) {
+  for (double& sum : powers) {
     sum += power;
     power *= vertex.s;
   }
@@ -166,13 +160,14 @@ void ChordFitter::add_chord(std::uint64_t number) {
   const Curve& chord = segment_at(number)->curve;
   const Point& start = segment_at(ahead_.first())->curve.start();
   const Point way = chord.end() - chord.start();
+  for (std::size_t i = 3; i < axis_count; ++i) wide_ = wide_ || way.values[i] != 0;
   const double around = look_around * tolerance_;
   heading_ = heading_ * (around / (around + chord.length().value())) + way;
   const double length = std::max(0.0, dot(way, heading_) / length_of(heading_));
-  if (!vertices_.empty()) add(vertices_.back(), length / 2);
+  if (!vertices_.empty()) sums_.add(vertices_.back(), (last_chord_ + length) / 2);
   const double s = vertices_.empty() ? length : vertices_.back().s + length;
   vertices_.push_back({.s = s, .way = chord.end() - start, .deviation = ahead_[number].deviation});
-  add(vertices_.back(), length / 2);
+  last_chord_ = length;
 }
 
 void ChordFitter::add_what_is_behind() {
@@ -182,9 +177,9 @@ void ChordFitter::add_what_is_behind() {
   for (std::size_t i = behind_.size(); i-- > 0 && -after.s < overlap_;) {
     const Point way = behind_[i] - start;
     const double length = std::max(0.0, dot(after.way - way, direction));
-    if (after.s < 0) add(after, length / 2);
+    if (after.s < 0) sums_.add(after, length / 2);
     after = {.s = after.s - length, .way = way};
-    add(after, length / 2);
+    sums_.add(after, length / 2);
   }
 }
 
@@ -193,10 +188,12 @@ void ChordFitter::add_what_is_behind() {
 ChordFitter::Fit ChordFitter::best_fit() {
   const std::uint64_t first = ahead_.first();
   if (!(overlap_ > 0)) first_heading_ = way_ahead(first, look_around * tolerance_);
+  double start = overlap_ > 0 ? first_share * last_window_ : 0;
   add_chords(1);
   Fit best;
   while (vertices_.size() < most_fitted) {
-    const double goal = growth * vertices_.back().s;
+    const bool begins_long = vertices_.size() == 1 && start > vertices_.back().s;
+    const double goal = begins_long ? start : growth * vertices_.back().s;
     const std::size_t least = std::max<std::size_t>(least_fitted, vertices_.size() + 1);
     bool goes_on = goes_on_after(first + vertices_.size() - 1);
     while (goes_on && vertices_.size() < most_fitted && (vertices_.size() < least || vertices_.back().s < goal)) {
@@ -211,6 +208,11 @@ ChordFitter::Fit ChordFitter::best_fit() {
     if (vertices_.size() < least_fitted || vertices_.back().s <= best.window) break;
     Fit longer = solved(goes_on);
     const bool is_near = passes(longer);
+    if (!is_near && begins_long) {  // once more, from few chords on
+      start = 0;
+      add_chords(1);
+      continue;
+    }
     if (!is_near && !is_all && best.count == 0 && overlap_ > 0 && vertices_.size() < patience) continue;
     if (!is_near || longer.error > hopeless * best.error) break;
     const bool leaves_tube = vertices_.size() >= few || longer.deviation <= share_for_few * tolerance_;
@@ -236,6 +238,7 @@ void ChordFitter::stay_clear_of_the_end() {
 void ChordFitter::add_chords(std::size_t count) {
   vertices_.clear();
   sums_ = {};
+  wide_ = false;
   heading_ = first_heading_;
   add_what_is_behind();
   for (std::size_t i = 0; i < count; ++i) add_chord(ahead_.first() + i);
@@ -244,14 +247,16 @@ void ChordFitter::add_chords(std::size_t count) {
 // The three normal equations, in u = s / length, by Gauss's elimination.
 ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
   const double length = vertices_.back().s;
+  Sums sums = sums_;
+  sums.add(vertices_.back(), last_chord_ / 2);
   const double end_weight = end_is_free ? 0 : pinning;
   std::array<double, 5> powers{};
   Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
   double scale = 1 / length;
   for (std::size_t i = 0; i < powers.size(); ++i) {
     scale /= length;
-    if (i < 3) fit.parts[i] = sums_.moments[i] * scale + vertices_.back().way * end_weight;
-    powers[i] = sums_.powers[i] * (scale / length) + end_weight;
+    if (i < 3) fit.parts[i] = sums.moments[i] * scale + vertices_.back().way * end_weight;
+    powers[i] = sums.powers[i] * (scale / length) + end_weight;
   }
   std::array<std::array<double, 3>, 3> rows{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -277,32 +282,59 @@ Point ChordFitter::Fit::miss_at(double u, const Point& way, Point& direction) co
   return residual - direction * dot(residual, direction);
 }
 
-// Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and in the chords' middles,
-// and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a chord goes back
-// along it counts as distance.
-bool ChordFitter::passes(Fit& fit) const {
+// Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and, where that may matter,
+// in the chords, and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a
+// chord goes back along it counts as distance.
+template <std::size_t axes>
+bool ChordFitter::passes_in(Fit& fit) const {
+  using Way = std::array<double, axes>;
   const double whole = vertices_.back().s;
   const double bend =
       2 * std::max(length_of(fit.parts[1]), length_of(fit.parts[1] + fit.parts[2] * 3)) / (whole * whole);
+  const auto product = [](const Way& a, const Way& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < axes; ++i) sum += a[i] * b[i];
+    return sum;
+  };
+  const auto miss_at = [&](double u, const Point& way, Way& direction) {
+    Way miss;
+    for (std::size_t i = 0; i < axes; ++i) {
+      const double first = fit.parts[0].values[i];
+      const double second = fit.parts[1].values[i];
+      const double third = fit.parts[2].values[i];
+      direction[i] = first + (2 * second + 3 * third * u) * u;
+      miss[i] = way.values[i] - (first + (second + third * u) * u) * u;
+    }
+    const double square = product(direction, direction);
+    const double along = product(miss, direction) / square;
+    for (std::size_t i = 0; i < axes; ++i) miss[i] -= direction[i] * along;
+    return miss;
+  };
   const double most = share_of_tolerance * tolerance_;
   const double until = fit.end_is_free ? cut_to * whole : whole;
   Vertex before;
   double off_before = ahead_.front().moved;
   double back = 0;
-  Point miss_before;
+  Way miss_before{};
   std::array<double, 4> share_before{};
-  std::array<Point, 4> misfit{};
+  std::array<Way, 4> misfit{};
   for (const Vertex& vertex : vertices_) {
-    Point direction;
-    const Point miss = fit.miss_at(vertex.s / whole, vertex.way, direction);
-    const double off = length_of(miss);
+    Way direction;
+    const Way miss = miss_at(vertex.s / whole, vertex.way, direction);
+    const double off = std::sqrt(product(miss, miss));
     const double chord = vertex.s - before.s;
     const std::array<double, 4> share = next_polynomials(2 * vertex.s / whole - 1);
     for (std::size_t i = 0; i < misfit.size(); ++i) {
-      misfit[i] = misfit[i] + (miss_before * share_before[i] + miss * share[i]) * (chord / 2);
+      const double first = share_before[i] * chord / 2;
+      const double last = share[i] * chord / 2;
+      for (std::size_t k = 0; k < axes; ++k) misfit[i][k] += miss_before[k] * first + miss[k] * last;
     }
     if (before.s < until) {
-      back = std::max(0.0, back - dot(vertex.way - before.way, direction));
+      double forward = 0;
+      for (std::size_t i = 0; i < axes; ++i) forward += (vertex.way.values[i] - before.way.values[i]) * direction[i];
+      if (back > 0 || forward < 0) {
+        back = std::max(0.0, back - forward / std::sqrt(product(direction, direction)));
+      }
       double between = chord * chord * bend / 8;
       double deviation = std::max(off, off_before) + back;
       if (deviation + between + vertex.deviation > most / 2) {
@@ -310,10 +342,10 @@ bool ChordFitter::passes(Fit& fit) const {
         for (double part = 1; part < parts; ++part) {
           const double to = part / parts;
           const Point way = before.way + (vertex.way - before.way) * to;
-          const Point inner = fit.miss_at((before.s + chord * to) / whole, way, direction);
-          deviation = std::max(deviation, length_of(inner) + back);
+          const Way inner = miss_at((before.s + chord * to) / whole, way, direction);
+          deviation = std::max(deviation, std::sqrt(product(inner, inner)) + back);
         }
-        between /= parts * parts;
+        between /= std::max(1.0, parts * parts);
       }
       deviation += between + vertex.deviation;
       if (deviation > most) return false;
@@ -326,8 +358,8 @@ bool ChordFitter::passes(Fit& fit) const {
   }
   double square = 0;
   double weight = 9;  // 2 k + 1
-  for (const Point& part : misfit) {
-    square += weight * dot(part, part);
+  for (const Way& part : misfit) {
+    square += weight * product(part, part);
     weight += 2;
   }
   fit.error = std::max(std::sqrt(square) / whole, no_misfit * tolerance_) / std::sqrt(whole);
@@ -409,6 +441,7 @@ void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) 
   segment.curve = Curve::cubic(start, fit.slope_at(0) * share, end, fit.slope_at(1) * share, Mm(fit.length));
   deviation = fit.deviation;
   overlap_ = overlap_share * fit.window;
+  last_window_ = fit.window;
   first_heading_ = unit(fit.slope_at(1)) * (look_around * tolerance_);
   ahead_.drop_before(next);
 }
