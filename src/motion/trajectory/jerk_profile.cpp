@@ -69,7 +69,7 @@ double JerkProfile::constant_speed_cap(std::size_t node) const {
 
 void JerkProfile::begin_in_motion(const NodeState& state) {
   states_.assign(1, state);
-  in_motion_ = true;
+  ends_.in_motion = true;
   planned_ = 0;
 }
 
@@ -168,15 +168,16 @@ void JerkProfile::grade() {
 }
 
 double JerkProfile::most_at_start() const {
-  if (in_motion_) return states_[0].speed * states_[0].speed;
-  return start_squared_ > 0 ? std::min({start_squared_, entry_cap_[0], node_cap_[0], stop_cap(0, true)}) : 0;
+  if (ends_.in_motion) return states_[0].speed * states_[0].speed;
+  return ends_.start_squared > 0 ? std::min({ends_.start_squared, entry_cap_[0], node_cap_[0], stop_cap(0, true)}) : 0;
 }
 
 double JerkProfile::most_at_end() const {
-  if (!(end_squared_ > 0)) return 0;
+  if (!(ends_.end_squared > 0)) return 0;
   const double velocity =
       velocity_cap(cells_.size() - 1, [](const AxisShape& shape, double) { return shape.slope_out; });
-  return std::min({end_squared_, planned_velocity * planned_velocity * velocity, stop_cap(cells_.size() - 1, false)});
+  return std::min(
+      {ends_.end_squared, planned_velocity * planned_velocity * velocity, stop_cap(cells_.size() - 1, false)});
 }
 
 // The greatest x with which a motion may begin or end at a stop without acceleration along the path: no axis'
@@ -199,7 +200,7 @@ void JerkProfile::guess(double share, double growth) {
   guess_.assign(n + 1, 0.0);
   const double start = most_at_start();
   const double end = most_at_end();
-  const double least_inside = in_motion_ ? 0 : std::min(start, end);
+  const double least_inside = ends_.in_motion ? 0 : std::min(start, end);
   for (std::size_t k = 0; k < n; ++k) {
     const double cap = std::min(entry_cap_[k], node_cap_[k]);
     guess_[k] = std::max(share * cap, std::min(cap, least_inside));
@@ -207,10 +208,10 @@ void JerkProfile::guess(double share, double growth) {
   guess_[0] = start;
   guess_[n] = end;
   guess_from(n, true, growth);
-  if (in_motion_) guess_[0] = start;
+  if (ends_.in_motion) guess_[0] = start;
   guess_from(0, false, growth);
   // A window that begins in motion cannot brake harder than that.
-  double least = in_motion_ ? guess_[0] : 0;
+  double least = ends_.in_motion ? guess_[0] : 0;
   for (std::size_t k = 1; k < n && guess_[k] < least; ++k) {
     least -= 2 * hardest_guessed_braking * cells_[k - 1].acceleration * cells_[k - 1].length;
     guess_[k] = std::max(guess_[k], least);
@@ -222,7 +223,7 @@ void JerkProfile::begin_with_guess() {
   guess(guessed_speed_squared, most_growth);
   const std::vector<double>& x = guess_;
   const std::size_t n = cells_.size();
-  const NodeState front = in_motion_ ? states_[0] : NodeState{.speed = std::sqrt(x[0]), .acceleration = 0};
+  const NodeState front = ends_.in_motion ? states_[0] : NodeState{.speed = std::sqrt(x[0]), .acceleration = 0};
   states_.resize(n + 1);
   for (std::size_t k = 1; k < n; ++k) {
     const double before = cells_[k - 1].length;
@@ -256,7 +257,7 @@ bool JerkProfile::lift(const Stretch& stretch) {
 // Lowers the speeds of a cell that is too fast only, and by little, to its cap. Returns whether it and the cell before
 // keep their limits then; else nothing changes. The cell after is looked at later, if it is in the same stretch.
 bool JerkProfile::trim(std::size_t i, const Excess& worst, const Stretch& lifted) {
-  if (worst.pace > most_trimmed || std::max(worst.force, worst.jolt) > 1 || (i == 0 && in_motion_)) return false;
+  if (worst.pace > most_trimmed || std::max(worst.force, worst.jolt) > 1 || (i == 0 && ends_.in_motion)) return false;
   const NodeState in = states_[i];
   const NodeState out = states_[i + 1];
   const double factor = std::sqrt(lower_pace / worst.pace);
@@ -348,7 +349,7 @@ void JerkProfile::find_steady() {
     return guess_[k] >= node_cap_[k] * at_cap && node_cap_[k - 1] == node_cap_[k] && node_cap_[k + 1] == node_cap_[k];
   };
   steady_.assign(n + 1, false);
-  steady_[0] = in_motion_ && guess_[0] >= node_cap_[0] * at_cap && states_[0].acceleration == 0;
+  steady_[0] = ends_.in_motion && guess_[0] >= node_cap_[0] * at_cap && states_[0].acceleration == 0;
   for (std::size_t k = 1; k < n; ++k) steady_[k] = is_flat(k);
   // Widens what is not steady by the time in which the acceleration can change, in both directions.
   double left = narrow_steady(0, 0, infinity);
@@ -410,7 +411,7 @@ bool JerkProfile::find_motion() {
     if (!split_coarse() && was_whole) break;
     prepare();
   }
-  return !in_motion_ && find_motion_from_slow();
+  return !ends_.in_motion && find_motion_from_slow();
 }
 
 // Begins with a motion that keeps all limits, and lifts it as far as it goes.
@@ -435,7 +436,7 @@ bool JerkProfile::find_motion_from_slow() {
 }
 
 std::size_t JerkProfile::plan(bool closed, double end_squared) {
-  end_squared_ = closed ? end_squared : 0;
+  ends_.end_squared = closed ? end_squared : 0;
   kept_.assign(states_.begin(), states_.end());
   if (cells_.size() < fewest_cells && planned_ == 0) even_out();
   grade();
@@ -477,9 +478,9 @@ void JerkProfile::drop(std::size_t count) {
   entry_cap_.erase(entry_cap_.begin(), entry_cap_.begin() + n);
   states_.erase(states_.begin(), states_.begin() + std::min(n, static_cast<std::ptrdiff_t>(states_.size())));
   planned_ -= std::min(planned_, count);
-  in_motion_ = !all && states_[0].speed > 0;
+  ends_.in_motion = !all && states_[0].speed > 0;
   if (all) states_.clear();
-  start_squared_ = 0;
+  ends_.start_squared = 0;
 }
 
 }  // namespace passo

@@ -50,7 +50,7 @@ class JerkProfile {
   // Sets the start of an empty profile to that state, in motion.
   void begin_in_motion(const NodeState& state);
   // Sets the start of an empty profile to a stop. The motion may begin at once with at most that speed (squared).
-  void begin_at_stop(double most_squared) { start_squared_ = most_squared; }
+  void begin_at_stop(double most_squared) { ends_.start_squared = most_squared; }
   // Adds a cell, with one shape per axis.
   void push(const JerkCell& cell, const AxisShape* shapes);
   // Returns the square of the highest entry speed of the last cell.
@@ -151,9 +151,13 @@ class JerkProfile {
   std::vector<bool> steady_;         // for each node: passed at the speed limit without acceleration
   std::vector<std::size_t> exceeded_;
   std::vector<Stretch> again_;  // sections to optimise again
-  double start_squared_ = 0;    // at a stop: the greatest speed to begin with
-  double end_squared_ = 0;
-  bool in_motion_ = false;   // the window begins in motion, in the first of the states
+  // The ends of the window.
+  struct Ends {
+    bool in_motion = false;    // the window begins in motion, in the first of the states
+    double start_squared = 0;  // at a stop: the greatest speed to begin with
+    double end_squared = 0;    // and the greatest one left at the end
+  };
+  Ends ends_;
   std::size_t planned_ = 0;  // cells for which the states are a plan to a stop
   bool fell_back_ = false;
   JerkOptimizer lift_;

@@ -20,7 +20,7 @@ bool JerkProfile::split_coarse() {
   std::ranges::sort(exceeded_);  // stretches that were lifted overlap
   const std::vector<double>& x = guess_;
   bool any = false;
-  const std::size_t first = in_motion_ ? std::max<std::size_t>(planned_, 1) : 0;
+  const std::size_t first = ends_.in_motion ? std::max<std::size_t>(planned_, 1) : 0;
   for (std::size_t i = cells_.size(); i-- > first;) {
     const double low = std::min(x[i], x[i + 1]);
     const bool is_steep = low > 0 && std::max(x[i], x[i + 1]) > steepest * low;

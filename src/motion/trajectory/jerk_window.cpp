@@ -33,8 +33,8 @@ void JerkWindow::begin_at(const PathState& start, const Point& stopped) {
   profile_.drop(profile_.size());
   if (start.speed > 0) profile_.begin_in_motion({.speed = start.speed, .acceleration = start.acceleration});
   start_ = start;
-  stopped_ = stopped;
-  after_corner_ = false;
+  at_stops_.stopped = stopped;
+  at_stops_.after_corner = false;
   cut_ = start.segment;
   started_ = cutting_ = closed_ = false;
   length_ = 0;
@@ -45,7 +45,7 @@ void JerkWindow::begin_at(const PathState& start, const Point& stopped) {
 // Begins where the window before has ended: at a stop between two segments.
 void JerkWindow::begin_after_stop() {
   begin_at({.segment = path_.first()});
-  after_corner_ = true;
+  at_stops_.after_corner = true;
 }
 
 // The greatest speed (squared) at the start. Nothing is read from the path before it is needed.
@@ -53,7 +53,8 @@ double JerkWindow::start_squared(const Segment& first) const {
   if (start_.speed > 0) return start_.speed * start_.speed;
   if (stops_ == nullptr) return 0;
   const Point direction = first.curve.tangent(Mm(start_.s));
-  return after_corner_ ? stops_->between(end_direction_, direction).start : stops_->at_start(direction, stopped_);
+  return at_stops_.after_corner ? stops_->between(at_stops_.end_direction, direction).start
+                                : stops_->at_start(direction, at_stops_.stopped);
 }
 
 // The greatest speed (squared) at the stop after that segment. A path that waits for its next line may go on there.
@@ -69,7 +70,7 @@ double JerkWindow::end_squared_after(std::uint64_t number, const Point& directio
 bool JerkWindow::can_go_on(double way) {
   while (!closed_ && profile_.size() < most_queued_ && (length_ < way || profile_.size() < fewest_in_motion)) pull();
   if (profile_.size() == 0) return false;
-  decided_ = profile_.plan(closed_, end_squared_);
+  decided_ = profile_.plan(closed_, at_stops_.end_squared);
   return !profile_.fell_back();
 }
 
@@ -77,7 +78,7 @@ bool JerkWindow::can_rest_after(double way) {
   way_to_rest_ = way;
   while (!closed_ && profile_.size() < most_queued_) pull();
   if (!closed_ || profile_.size() == 0) return false;
-  decided_ = profile_.plan(closed_, end_squared_);
+  decided_ = profile_.plan(closed_, at_stops_.end_squared);
   return !profile_.fell_back();
 }
 
@@ -120,7 +121,7 @@ void JerkWindow::look_ahead() {
       std::max<std::size_t>(profile_.fell_back() ? profile_.size() : 2 * profile_.size(), first_jerk_window);
   while (!closed_ && profile_.size() < wanted && profile_.size() < most_queued_) pull();
   if (profile_.size() == 0) return;
-  decided_ = profile_.plan(closed_, end_squared_);
+  decided_ = profile_.plan(closed_, at_stops_.end_squared);
   if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
 }
 
@@ -134,8 +135,8 @@ bool JerkWindow::goes_from_rest_to_rest(PlannedMove& move) {
   if (!cutter_.is_straight()) return false;
   move.begin_on(*segment);
   const double start = start_squared(*segment);  // first: it needs the direction in which the window before ended
-  end_direction_ = segment->curve.tangent(segment->curve.length());
-  const double end = end_squared_after(start_.segment, end_direction_);
+  at_stops_.end_direction = segment->curve.tangent(segment->curve.length());
+  const double end = end_squared_after(start_.segment, at_stops_.end_direction);
   add_rest_to_rest(
       {.from = start_.s, .to = segment->curve.length().value(), .entry = std::sqrt(start), .exit = std::sqrt(end)},
       cutter_.path_limits(), move);
@@ -174,12 +175,12 @@ void JerkWindow::pull() {
     const Segment& before = *path_.at(cut_ - 1);
     estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
   }
-  end_squared_ = 0;
+  at_stops_.end_squared = 0;
   if (after == nullptr && !rests) {
-    end_direction_ = segment->curve.tangent(segment->curve.length());
-    end_squared_ = end_squared_after(cut_, end_direction_);
+    at_stops_.end_direction = segment->curve.tangent(segment->curve.length());
+    at_stops_.end_squared = end_squared_after(cut_, at_stops_.end_direction);
   }
-  const double exit = after == nullptr ? end_squared_ : cutter_.joint_cap(*segment, *after);
+  const double exit = after == nullptr ? at_stops_.end_squared : cutter_.joint_cap(*segment, *after);
   cutter_.begin(*segment, {.from = from,
                            .to = rest < length - least ? rest : length,
                            .entry_squared = estimate_,

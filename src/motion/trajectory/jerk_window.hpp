@@ -61,18 +61,23 @@ class JerkWindow {
   JerkProfile profile_;
   std::size_t most_queued_;
 
+  // What the stops at both ends allow.
+  struct Stops {
+    Point stopped;              // the velocity with which the motion before the start ended
+    bool after_corner = false;  // the window before ended in `end_direction`
+    double end_squared = 0;     // if closed: the greatest speed at the end
+    Point end_direction;        // if closed
+  };
+
   PathState start_;
-  Point stopped_;              // at a stop: the velocity with which the motion before ended
-  bool after_corner_ = false;  // at a stop: the window before ended in `end_direction_`
-  std::uint64_t cut_ = 0;      // the first segment that is not completely in the profile
+  Stops at_stops_;
+  std::uint64_t cut_ = 0;  // the first segment that is not completely in the profile
   bool started_ = false;
   bool cutting_ = false;
   double estimate_ = 0;  // squared: the highest entry speed of the next cell
   double length_ = 0;    // of all cells since the start
   double way_to_rest_ = std::numeric_limits<double>::infinity();
   bool closed_ = false;
-  double end_squared_ = 0;   // if closed: the greatest speed at the end
-  Point end_direction_;      // if closed
   std::size_t decided_ = 0;  // cells at the front that later cells cannot change
   std::size_t given_ = 0;    // of the decided cells, those returned
   JerkCell cell_;
