@@ -1,7 +1,5 @@
 #include "passo/path/path_smoother.hpp"
 
-#include <functional>
-
 #include "smoothing_kit.hpp"
 #include <gmock/gmock.h>
 
@@ -10,48 +8,12 @@ namespace {
 
 using test::apart;
 using test::Faults;
+using test::PathSmootherTest;
 using test::Random;
 using test::RandomPath;
 using test::segments_of;
 using test::smooth;
 using test::xyz;
-
-class PathSmootherTest : public testing::Test {
- protected:
-  Segment& add(const Curve& curve) {
-    path_.emplace_back(Segment{.curve = curve,
-                               .speed = MmPerSecond(50),
-                               .tolerance = Mm(tolerance_),
-                               .merge = Mm(tolerance_ * 0.05),
-                               .source = {.line = static_cast<std::uint32_t>(path_.size() + 1)}});
-    position_ = curve.end();
-    return std::get<Segment>(path_.back());
-  }
-  Segment& go(double x, double y, double z = 0) { return add(Curve::line(position_, xyz(x, y, z))); }
-  Segment& arc(double x, double y, double center_x, double center_y, double sweep) {
-    return add(Curve::arc(position_, xyz(x, y), Axis::x, Axis::y, center_x, center_y, sweep));
-  }
-  static void expect_good(const std::vector<PathItem>& path, Smoothness smoothness = Smoothness::least_bending) {
-    const Faults faults = test::faults_of(path, smooth(path, smoothness));
-    EXPECT_LE(faults.excess, 1e-9) << faults.where;
-    EXPECT_EQ(faults.gaps, 0U);
-    EXPECT_LT(faults.tangent_jump, 1e-9);
-    EXPECT_LT(faults.bend_jump, 1e-4);
-  }
-  std::vector<Segment> smoothed() { return segments_of(smooth(path_)); }
-  static std::size_t cubics(const std::vector<Segment>& segments) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        segments, [](const Segment& segment) { return segment.curve.shape() == Curve::Shape::cubic; }));
-  }
-  static std::size_t stops(const std::vector<Segment>& segments) {
-    return static_cast<std::size_t>(
-        std::ranges::count(segments, PathMode::exact_stop, [](const Segment& segment) { return segment.mode; }));
-  }
-
-  std::vector<PathItem> path_;
-  Point position_;
-  double tolerance_ = 0.01;
-};
 
 TEST_F(PathSmootherTest, a_corner_is_rounded_and_what_lies_beside_it_stays_a_line) {
   go(10, 0);
@@ -342,127 +304,6 @@ TEST_F(PathSmootherTest, a_circle_of_rounded_chords_bends_as_the_circle_does) {
       }
     }
   }
-}
-
-// A curve that is sampled at equal distances of its parameter from 0 to 1, by chords whose ends are rounded.
-std::vector<Point> rounded(const std::function<Point(double)>& curve, int chords, double grid) {
-  std::vector<Point> places;
-  for (int i = 0; i <= chords; ++i) {
-    Point place = curve(static_cast<double>(i) / chords);
-    for (double& value : place.values) value = std::round(value / grid) * grid;
-    if (places.empty() || place != places.back()) places.push_back(place);
-  }
-  return places;
-}
-
-// Ends of chords are off by up to 0.85 of the tolerance. Stairs of the grid turn by right angles, some chords have no
-// length, and neighbours are off by the same where the curve runs along an axis.
-TEST_F(PathSmootherTest, chords_whose_rounding_nears_the_tolerance_bend_as_the_curve_does) {
-  constexpr double turn = 2 * 3.14159265358979;
-  struct Case {
-    const char* name;
-    std::function<Point(double)> curve;
-    double length;
-    double grid;
-    double most;  // of its curvature
-  };
-  const std::vector<Case> cases = {
-      {"circle", [](double t) { return xyz(19 * std::cos(turn * t), 19 * std::sin(turn * t)); }, 119, 0.008, 1.0 / 19},
-      {"circle on a coarse grid", [](double t) { return xyz(19 * std::cos(turn * t), 19 * std::sin(turn * t)); }, 119,
-       0.012, 1.0 / 19},
-      {"ellipse", [](double t) { return xyz(20 * std::cos(turn * t), 7 * std::sin(turn * t)); }, 90, 0.008, 20.0 / 49},
-      {"helix",
-       [](double t) {
-         Point place = xyz(8 * std::cos(2 * turn * t), 8 * std::sin(2 * turn * t), 5 * t);
-         place[Axis::a] = 30 * t;
-         return place;
-       },
-       101, 0.008, 1.0 / 8},
-  };
-  for (const Case& one : cases) {
-    for (const double chord : {0.01, 0.02, 0.05}) {
-      for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
-        path_.clear();
-        const std::vector<Point> places = rounded(one.curve, static_cast<int>(one.length / chord), one.grid);
-        for (std::size_t i = 1; i < places.size(); ++i) add(Curve::line(places[i - 1], places[i]));
-        expect_good(path_, smoothness);
-        double most = 0;
-        double s = 0;
-        for (const Segment& segment : segments_of(smooth(path_, smoothness))) {
-          s += segment.curve.length().value();
-          if (s > 5 && s < one.length - 5) most = std::max(most, segment.curve.curvature());
-        }
-        EXPECT_LT(most, 1.5 * one.most) << one.name << " " << chord;
-      }
-    }
-  }
-}
-
-// An arc that was rounded to 0.001 mm begins in a direction that is wrong by up to 0.02.
-TEST_F(PathSmootherTest, short_arcs_bend_as_the_curve_that_they_make_up) {
-  constexpr double radius = 25;
-  constexpr double step = 0.05;
-  const auto round = [](double value) { return std::round(value * 1000) / 1000; };
-  position_ = xyz(radius, 0);
-  for (double s = step; s < 100; s += step) {
-    const double x = round(radius * std::cos(s / radius));
-    const double y = round(radius * std::sin(s / radius));
-    const double center_x = position_[Axis::x] + round(-radius * std::cos((s - step) / radius));
-    const double center_y = position_[Axis::y] + round(-radius * std::sin((s - step) / radius));
-    const double sweep = std::atan2(y - center_y, x - center_x) -
-                         std::atan2(position_[Axis::y] - center_y, position_[Axis::x] - center_x);
-    arc(x, y, center_x, center_y, std::remainder(sweep, 2 * 3.14159265358979));
-  }
-  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
-    expect_good(path_, smoothness);
-    double most = 0;
-    double s = 0;
-    for (const Segment& segment : segments_of(smooth(path_, smoothness))) {
-      s += segment.curve.length().value();
-      if (s > 5 && s < 95) most = std::max(most, segment.curve.curvature());
-    }
-    EXPECT_LT(most, 1.15 / radius);
-  }
-}
-
-// As CAM programs write where they drill with G2.
-TEST_F(PathSmootherTest, circles_of_a_fraction_of_the_tolerance_are_passed_as_a_line) {
-  constexpr double turn = 2 * 3.14159265358979;
-  for (const double radius : {0.0003, 0.001, 0.0015}) {
-    path_.clear();
-    position_ = xyz(4 + radius, 0, 1);
-    for (int i = 1; i <= 8; ++i) {
-      add(Curve::arc(position_, xyz(4 + radius, 0, 1 - 0.5 * i), Axis::x, Axis::y, 4, 0, -turn));
-    }
-    expect_good(path_);
-    const std::vector<Segment> segments = smoothed();
-    ASSERT_EQ(segments.size(), 1U) << radius;
-    EXPECT_EQ(segments[0].curve.shape(), Curve::Shape::line);
-  }
-  // One that could be seen stays what it is.
-  path_.clear();
-  position_ = xyz(4.02, 0, 1);
-  add(Curve::arc(position_, xyz(4.02, 0, 0.5), Axis::x, Axis::y, 4, 0, -turn));
-  EXPECT_EQ(smoothed()[0].curve.shape(), Curve::Shape::arc);
-}
-
-// A corner of 60 degrees is no rounding, however coarse that is.
-TEST_F(PathSmootherTest, a_corner_between_coarsely_rounded_chords_stays_a_corner) {
-  constexpr double grid = 0.008;
-  const auto corner = [](double t) {
-    return t < 0.5 ? xyz(10 * t, 0) : xyz(5 + 5 * (t - 0.5), 8.6602540378 * (t - 0.5));
-  };
-  const std::vector<Point> places = rounded(corner, 500, grid);
-  for (std::size_t i = 1; i < places.size(); ++i) add(Curve::line(places[i - 1], places[i]));
-  expect_good(path_);
-  double nearest = 1;
-  for (const Segment& segment : smoothed()) {
-    for (int i = 0; i <= 100; ++i) {
-      nearest = std::min(nearest, apart(segment.curve.at(segment.curve.length() * (i / 100.0)), xyz(5, 0)));
-    }
-  }
-  EXPECT_GT(nearest, 0.5 * tolerance_);
-  EXPECT_EQ(stops(smoothed()), 1U);
 }
 
 // Beside a corner the chords stay, so that all of the tube is the corner's.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kit/stage_test.hpp"
+#include <gtest/gtest.h>
 
 #include "passo/path/path_smoother.hpp"
 #include "passo/path/path_text.hpp"
@@ -409,6 +410,43 @@ class RandomPath {
   Point position_;
   Point direction_ = xyz(1, 0);
   double feed_ = 30;
+  double tolerance_ = 0.01;
+};
+
+class PathSmootherTest : public testing::Test {
+ protected:
+  Segment& add(const Curve& curve) {
+    path_.emplace_back(Segment{.curve = curve,
+                               .speed = MmPerSecond(50),
+                               .tolerance = Mm(tolerance_),
+                               .merge = Mm(tolerance_ * 0.05),
+                               .source = {.line = static_cast<std::uint32_t>(path_.size() + 1)}});
+    position_ = curve.end();
+    return std::get<Segment>(path_.back());
+  }
+  Segment& go(double x, double y, double z = 0) { return add(Curve::line(position_, xyz(x, y, z))); }
+  Segment& arc(double x, double y, double center_x, double center_y, double sweep) {
+    return add(Curve::arc(position_, xyz(x, y), Axis::x, Axis::y, center_x, center_y, sweep));
+  }
+  static void expect_good(const std::vector<PathItem>& path, Smoothness smoothness = Smoothness::least_bending) {
+    const Faults faults = faults_of(path, smooth(path, smoothness));
+    EXPECT_LE(faults.excess, 1e-9) << faults.where;
+    EXPECT_EQ(faults.gaps, 0U);
+    EXPECT_LT(faults.tangent_jump, 1e-9);
+    EXPECT_LT(faults.bend_jump, 1e-4);
+  }
+  std::vector<Segment> smoothed() { return segments_of(smooth(path_)); }
+  static std::size_t cubics(const std::vector<Segment>& segments) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        segments, [](const Segment& segment) { return segment.curve.shape() == Curve::Shape::cubic; }));
+  }
+  static std::size_t stops(const std::vector<Segment>& segments) {
+    return static_cast<std::size_t>(
+        std::ranges::count(segments, PathMode::exact_stop, [](const Segment& segment) { return segment.mode; }));
+  }
+
+  std::vector<PathItem> path_;
+  Point position_;
   double tolerance_ = 0.01;
 };
 
