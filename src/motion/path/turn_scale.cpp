@@ -33,9 +33,15 @@ bool counts_degrees(const Segment& segment) {
   return counted_group(curve.tangent(curve.length() / 2), segment.surface) == CountedGroup::abc;
 }
 
-double unit_for(const Segment& segment) {
+double ratio_of_tolerances(const Segment& segment) {
   if (!(segment.turn_tolerance > 0) || !(segment.tolerance > Mm(0))) return 1;
-  return largest_turn_unit(segment.turn_tolerance / segment.tolerance.value());
+  return segment.turn_tolerance / segment.tolerance.value();
+}
+
+// At least 1: instead of a smaller unit, the path gets a smaller tolerance. A spline bends least in these units, and in
+// small ones that would be where the rotary axes bend most.
+double unit_for(const Segment& segment) {
+  return largest_turn_unit(std::max(1.0, ratio_of_tolerances(segment)));
 }
 
 bool suits(double unit, const Segment& segment) {
@@ -129,7 +135,7 @@ void TurnScale::scale(Segment& segment) {
   if (has_turned_) {
     narrow(segment, unit_);
   } else {
-    is_wide_ = is_wide_ || unit_ > unit_for(segment);
+    is_wide_ = is_wide_ || unit_ > ratio_of_tolerances(segment) * (1 + rounding_of_ratio);
   }
   segment.turn_unit = unit_;
   if (unit_ == 1) return;
