@@ -29,9 +29,13 @@ class PathPlaces {
     const int chords = turn > 0 ? std::clamp(static_cast<int>(turn / 0.02), 16, 2000) : 1;
     const double height = turn * curve.length().value() / (8.0 * chords * chords);  // of a chord
     // That of the junctions at both ends, and a thousandth on an exact path.
-    Piece piece{.from = curve.start(),
-                .tolerance = std::max({segment->tolerance.value(), last_tolerance_, 0.001}) + height};
-    last_tolerance_ = segment->tolerance.value();
+    const double own = segment->tolerance.value();
+    const double own_turn = segment->turn_tolerance > 0 ? segment->turn_tolerance : own;
+    const double tolerance = std::max({own, last_tolerance_, 0.001});
+    const double turn_tolerance = std::max({own_turn, last_turn_tolerance_, 0.001});
+    Piece piece{.from = curve.start(), .tolerance = tolerance + height, .degree = tolerance / turn_tolerance};
+    last_tolerance_ = own;
+    last_turn_tolerance_ = own_turn;
     for (int i = 1; i <= chords; ++i) {
       piece.to = curve.at(curve.length() * (static_cast<double>(i) / chords));
       pieces_.push_back(piece);
@@ -60,6 +64,7 @@ class PathPlaces {
     Point from = {};
     Point to = {};
     double tolerance = 0;
+    double degree = 1;  // how much a degree counts, in mm
   };
 
   using Place = std::array<std::int64_t, StepLog::motors>;
@@ -73,7 +78,7 @@ class PathPlaces {
       const double nearest = std::lerp(piece.from[axis.axis], piece.to[axis.axis], share);
       const double away = std::abs(static_cast<double>(place[m]) / axis.steps_per_unit - nearest);
       const double rounding = 2 / std::abs(axis.steps_per_unit) + (axis.screw ? axis.screw->backlash : 0);
-      const double excess = std::max(away - rounding, 0.0);
+      const double excess = std::max(away - rounding, 0.0) * (is_rotary(axis.axis) ? piece.degree : 1);
       sum += excess * excess;
     }
     return std::sqrt(sum);
@@ -109,6 +114,7 @@ class PathPlaces {
 
   std::vector<Piece> pieces_;
   double last_tolerance_ = 0;
+  double last_turn_tolerance_ = 0;
   mutable std::size_t near_ = 0;
 };
 

@@ -57,9 +57,11 @@ Point unit(const Point& way) {
   return way * (1 / length_of(way));
 }
 
-// How far s goes on along a heading, for each 1 along it.
-double counted_share(const Point& heading, const SurfaceScale& surface) {
-  return counted_length(heading, surface) / length_of(heading);
+// How far s goes on along a heading.
+double counted_along(const Point& heading, const Point& way, const SurfaceScale& surface) {
+  const CountedGroup group = counted_group(heading, surface);
+  const double product = (square_in(heading + way, group, surface) - square_in(heading - way, group, surface)) / 4;
+  return std::max(0.0, product / length_in(heading, group, surface));
 }
 
 // Legendre's polynomials of the degrees 4 to 7, at x from -1 to 1.
@@ -168,8 +170,7 @@ void ChordFitter::add_chord(std::uint64_t number) {
   for (std::size_t i = 3; i < axis_count; ++i) wide_ = wide_ || way.values[i] != 0;
   const double around = look_around * tolerance_;
   heading_ = heading_ * (around / (around + chord.length().value())) + way;
-  const double along = std::max(0.0, dot(way, heading_) / length_of(heading_));
-  const double length = along * counted_share(heading_, segment_at(number)->surface);
+  const double length = counted_along(heading_, way, segment_at(number)->surface);
   if (!vertices_.empty()) sums_.add(vertices_.back(), (last_chord_ + length) / 2);
   const double s = vertices_.empty() ? length : vertices_.back().s + length;
   vertices_.push_back({.s = s, .way = chord.end() - start, .deviation = ahead_[number].deviation});
@@ -178,11 +179,11 @@ void ChordFitter::add_chord(std::uint64_t number) {
 
 void ChordFitter::add_what_is_behind() {
   const Point& start = segment_at(ahead_.first())->curve.start();
-  const Point direction = unit(first_heading_) * counted_share(first_heading_, segment_at(ahead_.first())->surface);
+  const SurfaceScale& surface = segment_at(ahead_.first())->surface;
   Vertex after;
   for (std::size_t i = behind_.size(); i-- > 0 && -after.s < overlap_;) {
     const Point way = behind_[i] - start;
-    const double length = std::max(0.0, dot(after.way - way, direction));
+    const double length = counted_along(first_heading_, after.way - way, surface);
     if (after.s < 0) sums_.add(after, length / 2);
     after = {.s = after.s - length, .way = way};
     sums_.add(after, length / 2);

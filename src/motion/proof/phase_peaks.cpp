@@ -10,6 +10,7 @@ namespace passo::proof {
 namespace {
 
 constexpr double turn_between_looks = 0.05;  // radians
+constexpr double start_of_curve = 1e-12;     // mm; what a move leaves out there shows as a gap
 constexpr double end_of_curve = 1e-12;       // a share of its length
 constexpr double fewest_looks = 12;
 constexpr double most_looks = 4096;
@@ -91,7 +92,7 @@ void PhasePeaks::watch(const PlannedMove& move, const ExactCurve& curve) {
   ++proof_.moves;
   line_ = move.segment.source.line;
   downs_ = move.segment.downs;
-  bool begins_segment = move.from() == Mm(0);
+  bool begins_segment = move.from().value() <= std::max(curve.length() * end_of_curve, start_of_curve);
   for (const Phase& phase : move) {
     ++proof_.phases;
     join(curve, phase, std::exchange(begins_segment, false) || at_rest_);

@@ -177,10 +177,10 @@ TEST(TurnScale, chords_on_a_surface_become_a_curve_again) {
     for (const double share : {0.1, 0.5, 0.9}) {
       const Point slope = segment.curve.tangent(Mm(s * share));
       const double speed = segment.speed.value() * length_in(slope, CountedGroup::xyz, surface);
-      EXPECT_NEAR(speed, 100, 1.5);
+      EXPECT_NEAR(speed, 100, 1);
     }
   }
-  EXPECT_NEAR(length, 10 * std::numbers::pi, 0.5);
+  EXPECT_NEAR(length, 10 * std::numbers::pi, 0.04);
 }
 
 }  // namespace
