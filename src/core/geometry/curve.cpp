@@ -356,19 +356,12 @@ Curve Curve::turned(double cosine, double sine) const {
   return turned;
 }
 
-Curve Curve::with_turns_scaled(double by, double along) const {
+Curve Curve::with_turns_scaled(double by) const {
   Curve scaled = *this;
   for (const Axis axis : {Axis::a, Axis::b, Axis::c}) {
     for (Point* const of : {&scaled.start_, &scaled.end_, &scaled.slope_, &scaled.square_, &scaled.cube_}) {
       (*of)[axis] *= by;
     }
-  }
-  if (along == 1) return scaled;
-  scaled.length_ *= along;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    scaled.slope_.values[i] /= along;
-    scaled.square_.values[i] /= along * along;
-    scaled.cube_.values[i] /= along * along * along;
   }
   return scaled;
 }

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "passo/geometry/euclid.hpp"
-
 namespace passo {
 namespace {
 
@@ -25,12 +23,6 @@ constexpr Mm exact_turn_tolerance{0.001};
 
 bool turns(const Segment& segment) {
   return std::ranges::any_of(rotary_axes, [&](Axis axis) { return segment.curve.moves(axis); });
-}
-
-// Whether s is a travel in degrees.
-bool counts_degrees(const Segment& segment) {
-  const Curve& curve = segment.curve;
-  return counted_group(curve.tangent(curve.length() / 2), segment.surface) == CountedGroup::abc;
 }
 
 double ratio_of_tolerances(const Segment& segment) {
@@ -137,27 +129,17 @@ void TurnScale::scale(Segment& segment) {
   } else {
     is_wide_ = is_wide_ || unit_ > ratio_of_tolerances(segment) * (1 + rounding_of_ratio);
   }
-  segment.turn_unit = unit_;
   if (unit_ == 1) return;
-  if (counts_degrees(segment)) {
-    segment.speed = segment.speed / unit_;
-    segment.pitch = segment.pitch / unit_;
-  }
   segment.surface = segment.surface.in_units_of(unit_);
   segment.curve = divided(segment.curve, unit_, segment.surface);
 }
 
 void convert_to_degrees(Segment& segment) {
-  const double unit = segment.turn_unit;
+  const double unit = segment.surface.unit;
   if (unit == 1) return;
-  const bool is_in_degrees = counts_degrees(segment);
-  segment.curve = segment.curve.with_turns_scaled(unit, is_in_degrees ? unit : 1);
-  if (is_in_degrees) {
-    segment.speed = segment.speed * unit;
-    segment.pitch = segment.pitch * unit;
-  }
+  segment.curve = segment.curve.with_turns_scaled(unit);
   segment.surface = segment.surface.in_units_of(1 / unit);
-  segment.turn_unit = 1;
+  segment.surface.unit = 1;
 }
 
 }  // namespace passo

@@ -56,8 +56,8 @@ class Curve {
   // Returns the curve rotated about Z at the origin, by the angle with this cosine and sine. The plane of an arc must
   // be XY, or contain neither X nor Y.
   Curve turned(double cosine, double sine) const;
-  // Returns the curve with the values of A, B and C multiplied by `by`, and its parameter by `along`.
-  Curve with_turns_scaled(double by, double along) const;
+  // Returns the curve with the values of A, B and C multiplied by `by`. The parameter stays as it is.
+  Curve with_turns_scaled(double by) const;
 
   Shape shape() const { return shape_; }
   const ArcData& arc_data() const { return arc_; }

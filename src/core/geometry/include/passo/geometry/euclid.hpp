@@ -28,7 +28,7 @@ inline double square_in(const Point& travel, CountedGroup group, const SurfaceSc
   const std::size_t first = group == CountedGroup::xyz ? 0 : group == CountedGroup::uvw ? 6 : 3;
   double sum = group == CountedGroup::xyz ? surface.square_of(travel) : 0;
   for (std::size_t i = first; i < first + 3; ++i) sum += travel.values[i] * travel.values[i];
-  return sum;
+  return group == CountedGroup::abc ? sum * (surface.unit * surface.unit) : sum;
 }
 inline double length_in(const Point& travel, CountedGroup group, const SurfaceScale& surface = {}) {
   return std::sqrt(square_in(travel, group, surface));

@@ -1,4 +1,5 @@
-// SurfaceScale: for axes that turn a cylinder, how far its surface moves for each degree.
+// SurfaceScale: for axes that turn a cylinder, how far its surface moves for each degree. It also has the unit of the
+// angles.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace passo {
 
 struct SurfaceScale {
   std::array<double, 3> mm_per_degree{};  // of A, B and C; 0: the axis does not count for the length s
+  double unit = 1;                        // degrees for 1 of A, B and C; then mm_per_degree is for this unit, too
 
   double& operator[](Axis axis) { return mm_per_degree[index_of(axis) - index_of(Axis::a)]; }
   double operator[](Axis axis) const { return mm_per_degree[index_of(axis) - index_of(Axis::a)]; }
@@ -20,6 +22,7 @@ struct SurfaceScale {
   // The same for angles in other units, of `degrees` each.
   SurfaceScale in_units_of(double degrees) const {
     SurfaceScale other;
+    other.unit = unit * degrees;
     for (std::size_t i = 0; i < mm_per_degree.size(); ++i) other.mm_per_degree[i] = mm_per_degree[i] * degrees;
     return other;
   }

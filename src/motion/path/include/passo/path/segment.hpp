@@ -32,8 +32,7 @@ struct Segment {
   // Maximum deviation of A, B and C there, in degrees. 0: they share the tolerance, and a degree counts as a
   // millimetre.
   double turn_tolerance = 0;
-  SurfaceScale surface{};  // the axes that turn and count for the length s
-  double turn_unit = 1;    // degrees for 1 of the curve's A, B and C; not 1 only inside PathSmoother
+  SurfaceScale surface{};  // the axes that turn and count for s. Its unit is 1 outside PathSmoother
   Point work_zero{};       // zero of the work coordinate system in machine coordinates
   OverridePermissions heeds{};
   SpindleLock lock = SpindleLock::none;
