@@ -3,27 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace passo {
-
-namespace {
-
-// The acceleration of the slowest rotary axis beside that of the slowest linear one, at least 1 degree for 1 mm.
-double degrees_per_mm(const MachineDescription& machine) {
-  double rotary = std::numeric_limits<double>::infinity();
-  double linear = rotary;
-  for (const AxisDescription& axis : machine.axes) {
-    double& slowest = is_rotary(axis.axis) ? rotary : linear;
-    slowest = std::min(slowest, axis.acceleration.value());
-  }
-  return std::isfinite(linear) ? std::max(1.0, rotary / linear) : linear;
-}
-
-}  // namespace
 
 PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start) {
   PathOptions options;
@@ -34,10 +18,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
     options.surface_radius[axis.axis] = axis.surface_radius;
   }
   options.tolerance = machine.path_tolerance;
-  if (machine.has_rotary_axis()) {
-    options.turn_tolerance = machine.path_tolerance_deg;
-    options.degrees_per_mm = degrees_per_mm(machine);
-  }
+  options.turn_tolerance = machine.has_rotary_axis() ? machine.path_tolerance_deg : 0;
   options.spindle_limit = machine.tool.highest_rpm;
   options.spindle_run_up = machine.spindle.run_up;
   options.threads_hold_speed = machine.spindle.counts_per_turn == 0;

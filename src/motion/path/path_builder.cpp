@@ -357,7 +357,7 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item, cons
                  .mode = path_mode_,
                  .tolerance = tolerance_,
                  .merge = merge_,
-                 .turn_tolerance = turn_tolerance(),
+                 .turn_tolerance = tolerance_ > Mm(0) ? options_.turn_tolerance : 0,
                  .surface = surface,
                  .work_zero = frame_.machine_from_work(Point()),
                  .heeds = heeds(),
@@ -365,11 +365,6 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item, cons
                  .pitch = pitch(),
                  .source = operation_.source};
   return true;
-}
-
-double PathBuilder::turn_tolerance() const {
-  if (!(tolerance_ > Mm(0))) return 0;
-  return std::min(options_.turn_tolerance, tolerance_.value() * options_.degrees_per_mm);
 }
 
 // An axis that does not move keeps its value bit for bit. The conversion by the frame could change its last bits.

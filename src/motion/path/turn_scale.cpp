@@ -25,15 +25,9 @@ bool turns(const Segment& segment) {
   return std::ranges::any_of(rotary_axes, [&](Axis axis) { return segment.curve.moves(axis); });
 }
 
-double ratio_of_tolerances(const Segment& segment) {
-  if (!(segment.turn_tolerance > 0) || !(segment.tolerance > Mm(0))) return 1;
-  return segment.turn_tolerance / segment.tolerance.value();
-}
-
-// At least 1: instead of a smaller unit, the path gets a smaller tolerance. A spline bends least in these units, and in
-// small ones that would be where the rotary axes bend most.
 double unit_for(const Segment& segment) {
-  return largest_turn_unit(std::max(1.0, ratio_of_tolerances(segment)));
+  if (!(segment.turn_tolerance > 0) || !(segment.tolerance > Mm(0))) return 1;
+  return largest_turn_unit(segment.turn_tolerance / segment.tolerance.value());
 }
 
 bool suits(double unit, const Segment& segment) {
@@ -127,7 +121,7 @@ void TurnScale::scale(Segment& segment) {
   if (has_turned_) {
     narrow(segment, unit_);
   } else {
-    is_wide_ = is_wide_ || unit_ > ratio_of_tolerances(segment) * (1 + rounding_of_ratio);
+    is_wide_ = is_wide_ || unit_ > unit_for(segment);
   }
   if (unit_ == 1) return;
   segment.surface = segment.surface.in_units_of(unit_);

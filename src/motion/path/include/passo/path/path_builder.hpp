@@ -16,7 +16,6 @@
 
 #include <array>
 #include <deque>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,9 +44,6 @@ struct PathOptions {
                                     // rejected
   Mm tolerance{0.01};               // for junctions, if the program gives none (G64 P)
   double turn_tolerance = 0;        // of A, B and C at junctions, degrees; 0: they share the tolerance
-  // Of the tolerance, A, B and C use at most so many degrees for each mm. PathSmoother weighs bends like deviations, so
-  // with more it would bend least where the axes accelerate best.
-  double degrees_per_mm = std::numeric_limits<double>::infinity();
   // Of the cylinders that A, B and C turn: the feed is then that of the surface. Empty: it is not. 0: the tool's
   // distance from the rotation axis, Z in the work coordinate system.
   PerAxis<std::optional<Mm>> surface_radius{};
@@ -137,7 +133,6 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   bool next_spline_piece(PathItem& item);
   void be_piece(bool last, Segment& segment) const;
   bool add_curve(const Curve& curve, bool rapid, PathItem& item, const SurfaceScale& surface = {});
-  double turn_tolerance() const;
   SurfaceScale surface_to(const Point& machine_end, bool rapid) const;
 
   Point machine_end(const Point& work_end) const;
