@@ -171,7 +171,8 @@ TEST_F(CamMill, an_edge_with_gaps_is_joined_where_that_is_asked_for) {
   const std::string board = "board " + copper() + " " + open + " -o " + path("job");
   const Outcome refused = cam(board);
   EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("0.3 mm away, so --join 0.3mm"));
+  EXPECT_THAT(refused.err, HasSubstr("it ends at X0 Y0 and at X0 Y0.3 mm"));
+  EXPECT_THAT(refused.err, HasSubstr("--join 0.3mm closes it"));
   const Outcome made = cam(board + " --join 0.3mm");
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_TRUE(std::filesystem::exists(path("job/2-outline.ngc")));

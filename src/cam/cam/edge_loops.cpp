@@ -4,7 +4,9 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "edge_grid.hpp"
 #include "place_tree.hpp"
@@ -63,7 +65,8 @@ class EdgeJoiner {
   void follow(std::size_t path, std::vector<bool>& is_used);
   void refuse_others();
   std::optional<Nanometres> join_that_helps() const;
-  void refuse(std::size_t end, std::optional<Nanometres> join);
+  void refuse(std::size_t first, std::size_t last, std::optional<Nanometres> join);
+  void refuse_line(std::uint32_t line, const std::string& ends, std::optional<Nanometres> join);
   void append(std::vector<PathPoint>& loop, std::size_t first_end);
 
   const Drawing& drawing_;
@@ -250,9 +253,7 @@ void EdgeJoiner::follow(std::size_t path, std::vector<bool>& is_used) {
     const std::size_t far_end = end ^ 1U;
     if (!partners_[far_end]) {
       if (open_rows_ == OpenRows::refused) {
-        const std::optional<Nanometres> join = join_that_helps();
-        refuse(first, join);
-        refuse(far_end, join);
+        refuse(first, far_end, join_that_helps());
       } else {
         found_.open.push_back(std::move(loop));
         open_ends_.emplace_back(first, far_end);
@@ -294,10 +295,7 @@ void EdgeJoiner::refuse_others() {
   found_.open = std::move(slots);
   if (refused.empty()) return;
   const std::optional<Nanometres> join = join_that_helps();
-  for (const auto& [first, last] : refused) {
-    refuse(first, join);
-    refuse(last, join);
-  }
+  for (const auto& [first, last] : refused) refuse(first, last, join);
 }
 
 // The --join that closes all rows, if there is one: it was tried. No loop may be without an inside.
@@ -332,17 +330,26 @@ std::optional<Nanometres> EdgeJoiner::join_that_helps() const {
   return area_mm2(board_within(loops)) > 0.9 * area_mm2(board_within(found_)) ? std::optional(join) : std::nullopt;
 }
 
-void EdgeJoiner::refuse(std::size_t end, std::optional<Nanometres> join) {
+// Both ends of a row: in one error if one line of the file has drawn both.
+void EdgeJoiner::refuse(std::size_t first, std::size_t last, std::optional<Nanometres> join) {
+  const auto words = [&](std::size_t end) {
+    return fmt::format("X{:.4g} Y{:.4g}", to_mm(place(end).x).value(), to_mm(place(end).y).value());
+  };
+  const std::uint32_t line = open_[first / 2].line;
+  const std::uint32_t other_line = open_[last / 2].line;
+  if (line == other_line) return refuse_line(line, words(first) + " and at " + words(last), join);
+  refuse_line(line, words(first), join);
+  refuse_line(other_line, words(last), join);
+}
+
+void EdgeJoiner::refuse_line(std::uint32_t line, const std::string& ends, std::optional<Nanometres> join) {
   if (diagnostics_.full()) return;
-  const DrawnPoint at = place(end);
-  const std::uint32_t line = open_[end / 2].line;
   std::string expected = "a closed line";
   if (join) expected += fmt::format("; --join {:.4g}mm closes it", to_mm(*join).value());
   diagnostics_.add({.code = "outline.open",
                     .file = drawing_.file,
                     .place = {line, line == 0 ? 0U : 1U, 1},
-                    .message = fmt::format("the outline is open: it ends at X{:.4g} Y{:.4g} mm", to_mm(at.x).value(),
-                                           to_mm(at.y).value()),
+                    .message = fmt::format("the outline is open: it ends at {} mm", ends),
                     .expected = std::move(expected),
                     .text = ""});
 }

@@ -8,6 +8,7 @@
 #include "drawing_builder.hpp"
 #include "excellon_numbers.hpp"
 #include "excellon_tools.hpp"
+#include "excellon_words.hpp"
 #include "text_lines.hpp"
 #include <fmt/format.h>
 
@@ -21,13 +22,6 @@ constexpr std::int64_t highest_tool = 9999;
 constexpr std::array ignored_words = {
     "FMAT,2", "ATC",  "VER,", "DETECT",   "OSTOP",   "FSB", "SBK", "TCST", "BLKD",  "UP,",  "R,T", "R,C",    "R,D",
     "R,H",    "R,CP", "R,CR", "PCKPARAM", "ICI,OFF", "AFS", "CCW", "CP,",  "MERGE", "STOP", "M47", "SBKOFF", "VER"};
-
-// The words of one line: a letter, and the text of its number.
-struct DrillWord {
-  char letter = 0;
-  std::string_view number;
-  std::uint32_t column = 1;  // of the letter
-};
 
 class ExcellonReader {
  public:
@@ -154,27 +148,9 @@ void ExcellonReader::read_line(std::string_view text) {
 }
 
 bool ExcellonReader::read_words(std::string_view text) {
-  words_.clear();
-  const auto column_of = [&](const char* at) { return static_cast<std::uint32_t>(at - line_.data()) + 1; };
-  while (!text.empty()) {
-    const char letter = text.front();
-    const char* const begin = text.data();
-    if (letter == ' ' || letter == '\t') {
-      text.remove_prefix(1);
-      continue;
-    }
-    if (letter == ';') break;
-    if (letter < 'A' || letter > 'Z') {
-      return refuse({lines_.number(), column_of(begin), 1}, "excellon.unknown-command", "this is not a drill command",
-                    "a letter and a number, e.g. X1.27");
-    }
-    const std::size_t end = std::min(text.find_first_not_of("+-.0123456789", 1), text.size());
-    words_.push_back({letter, text.substr(1, end - 1), column_of(begin)});
-    if (end == 1) {
-      return refuse({lines_.number(), column_of(begin), 1}, "excellon.unknown-command",
-                    fmt::format("'{}' has no number", letter), "a drill command, e.g. X1.27Y2.54, T1 or M30");
-    }
-    text.remove_prefix(end);
+  const auto first_column = static_cast<std::uint32_t>(text.data() - line_.data()) + 1;
+  if (const std::optional<DrillWordFault> fault = scan_drill_words(text, first_column, words_)) {
+    return refuse({lines_.number(), fault->column, 1}, "excellon.unknown-command", fault->message, fault->expected);
   }
   return !words_.empty();
 }

@@ -9,6 +9,7 @@
 #include "edge_grid.hpp"
 #include "ring_groups.hpp"
 
+#include "passo/cam/bulge.hpp"
 #include "passo/cam/mill_program.hpp"
 
 namespace passo {
@@ -137,14 +138,20 @@ class ProvedLayer {
   Region common_with(const Region& milled, const Strip& strip) const {
     return common(common(copper_, Region{{rectangle(strip.box)}}), milled);
   }
-  // How far from the rim of the copper the corners of what is lost lie, at most.
+  // How far from the rim of the copper what is lost lies, at most. A way across a pad has its corners on the rim, so
+  // places along the edges are measured, too.
   Nanometres deepest(const Region& lost) const {
     constexpr double reach = 1e6;  // nm
+    constexpr double apart = 10'000;
     double deepest = 0;
     for (const DrawnRing& ring : lost.rings) {
-      for (const DrawnPoint& point : ring) {
-        const auto near = rims_.nearest(point, reach);
-        deepest = std::max(deepest, near ? near->distance_nm : reach);
+      for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+        const auto count = static_cast<std::size_t>(std::ceil(distance_nm(ring[last], ring[i]) / apart));
+        for (std::size_t k = 1; k <= count; ++k) {
+          const double share = static_cast<double>(k) / static_cast<double>(count);
+          const auto near = rims_.nearest(point_along(ring[last], ring[i], 0, share), reach);
+          deepest = std::max(deepest, near ? near->distance_nm : reach);
+        }
       }
     }
     return {std::llround(deepest)};

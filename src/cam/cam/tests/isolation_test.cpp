@@ -4,49 +4,26 @@
 #include <cmath>
 #include <random>
 
-#include "milled_picture.hpp"
+#include "isolated_pads.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "passo/cam/board_layer.hpp"
-#include "passo/cam/isolation_advice.hpp"
 #include "passo/cam/isolation_proof.hpp"
-#include "passo/cam/joined_nets.hpp"
 #include "passo/cam/mill_program.hpp"
 #include "passo/cam/mirror.hpp"
 
 namespace passo {
 namespace {
 
-DrawnPoint spot(double x, double y) {
-  return {to_nanometres(Mm(x)), to_nanometres(Mm(y))};
-}
-Nanometres wide(double mm) {
-  return to_nanometres(Mm(mm));
-}
-Region pad(double x, double y, double size) {
-  return filled({rectangle({spot(x - size / 2, y - size / 2), spot(x + size / 2, y + size / 2)})});
-}
+using test::isolated;
+using test::pad;
+using test::spot;
+using test::two_pads;
+using test::wide;
+using test::with;
+
 Region disc(double x, double y, double diameter) {
   return swept({{spot(x, y)}}, wide(diameter / 2));
-}
-IsolationOptions with(std::vector<double> cutters) {
-  IsolationOptions options;
-  for (const double cutter : cutters) options.cutters.push_back({wide(cutter), "cutter"});
-  return options;
-}
-struct Isolated {
-  IsolationPlan plan;
-  IsolationProof proof;
-};
-Isolated isolated(const Region& copper, const IsolationOptions& options) {
-  Diagnostics findings;
-  Isolated result;
-  result.plan = plan_isolation(copper, options, findings);
-  EXPECT_FALSE(findings.any_error());
-  result.proof =
-      prove_isolation(copper, result.plan.mill, options.voronoi ? options.board : Region{}, {}, result.plan.kept);
-  return result;
 }
 std::size_t runs_of(const IsolationPlan& plan) {
   std::size_t runs = 0;
@@ -58,11 +35,6 @@ double milled_mm(const IsolationPlan& plan) {
   for (const MillTool& tool : plan.mill.tools) milled += lengths_of(tool, {}).milled_nm / nanometres_per_mm;
   return milled;
 }
-// Two pads of 2 mm, this far apart.
-Region two_pads(double gap) {
-  return united(pad(0, 0, 2), pad(2 + gap, 0, 2));
-}
-
 TEST(Isolation, one_loop_around_each_island_parts_them_and_takes_no_copper) {
   const auto [plan, proof] = isolated(two_pads(1), with({0.2}));
   EXPECT_EQ(plan.islands, 2U);
@@ -102,150 +74,6 @@ TEST(Isolation, a_gap_too_narrow_is_told_with_its_place_and_width) {
   EXPECT_EQ(proof.lost_mm2, 0);
   EXPECT_EQ(proof.joined, 2U);
   EXPECT_EQ(proof.groups, 1U);
-}
-
-// The program beside the copper, in pixels.
-test::MilledPicture picture_of(const Region& copper, const MillPlan& plan, double pixel) {
-  const DrawnBox box = *bounds(copper);
-  const auto mm = [](Nanometres length) { return to_mm(length).value(); };
-  test::MilledPicture picture(mm(box.least.x) - 1, mm(box.least.y) - 1, mm(box.most.x) + 1, mm(box.most.y) + 1, pixel);
-  std::vector<test::MilledPicture::Corners> rings;
-  for (const DrawnRing& ring : copper.rings) {
-    rings.emplace_back();
-    for (const DrawnPoint& point : ring) rings.back().emplace_back(mm(point.x), mm(point.y));
-  }
-  picture.draw_copper(rings);
-  for (const MillTool& tool : plan.tools)
-    picture.mill(write_mill_program({{tool}, {}}, {.name = "i.ngc", .command = "test"}), mm(tool.width));
-  return picture;
-}
-
-// The number of islands that are still joined to another one in the picture. `kept`: what is left of each.
-std::size_t joined_in(test::MilledPicture& picture, const std::vector<Region>& kept) {
-  test::MilledPicture::Corners places;
-  for (const Region& island : kept) {
-    // A place well within: the first corner of what is left when the rim is taken away.
-    Region inside = grown(island, {-10'000});
-    if (inside.empty()) inside = island;
-    const DrawnPoint at = inside.rings.front().front();
-    places.emplace_back(to_mm(at.x).value(), to_mm(at.y).value());
-  }
-  const std::vector<int> pieces = picture.pieces_at(places);
-  std::size_t joined = 0;
-  for (const int piece : pieces) joined += std::ranges::count(pieces, piece) > 1 ? 1 : 0;
-  return joined;
-}
-
-TEST(Isolation, a_narrow_gap_is_milled_midway_and_both_sides_give) {
-  IsolationOptions options = with({0.2});
-  options.allowed_loss = wide(0.03);
-  const Region copper = two_pads(0.15);
-  const auto [plan, proof] = isolated(copper, options);
-  EXPECT_TRUE(plan.gaps.empty());
-  EXPECT_EQ(proof.joined, 0U);
-  EXPECT_EQ(proof.damage_mm2, 0);
-  // Along 2 mm the cutter is 0.05 mm wider than the gap; the proof's disc a little more.
-  EXPECT_NEAR(proof.lost_mm2, 2 * 0.05, 0.015);
-  EXPECT_NEAR(to_mm(proof.deepest).value(), 0.025, 0.004);
-  test::MilledPicture picture = picture_of(copper, plan.mill, 0.005);
-  EXPECT_EQ(joined_in(picture, plan.kept), 0U);
-  EXPECT_NEAR(picture.lost_mm2(), 2 * 0.05, 0.02);
-  EXPECT_LE(picture.deepest_loss(0.1), 0.03 + 0.005);
-
-  options.allowed_loss = wide(0.02);
-  const auto [less, joined] = isolated(copper, options);
-  EXPECT_EQ(joined.joined, 2U);
-  EXPECT_LT(joined.lost_mm2, 0.005);  // at the mouths of the gap
-  EXPECT_EQ(less.gaps.size(), 1U);
-}
-
-// A trace of 0.12 mm between two pads may lose 0.01 mm on each side, so the pads give the rest.
-TEST(Isolation, a_trace_keeps_its_least_width_and_the_pads_give) {
-  IsolationOptions options = with({0.2});
-  options.allowed_loss = wide(0.03);
-  const Region trace = filled({rectangle({spot(1.17, -2), spot(1.29, 2)})});
-  const Region copper = united({pad(0, 0, 2), trace, pad(2.46, 0, 2)});
-  const auto [plan, proof] = isolated(copper, options);
-  EXPECT_EQ(proof.joined, 0U);
-  EXPECT_EQ(proof.damage_mm2, 0);
-  EXPECT_TRUE(proof.broken.empty());
-  test::MilledPicture picture = picture_of(copper, plan.mill, 0.005);
-  EXPECT_EQ(joined_in(picture, plan.kept), 0U);
-  for (double y = -1; y <= 1; y += 0.1) {
-    int across = 0;
-    for (double x = 1.1525; x < 1.3; x += 0.005) across += picture.is_copper_left(x, y) ? 1 : 0;
-    EXPECT_GE(across, 20) << y;
-  }
-  // A trace that is not wider than the least width gives nothing.
-  options.least_trace = wide(0.125);
-  EXPECT_EQ(isolated(copper, options).proof.joined, 3U);
-}
-
-TEST(Isolation, random_layouts_give_only_what_is_allowed_and_are_apart_as_proved) {
-  std::mt19937_64 random(11);
-  const auto between = [&](double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random);
-  };
-  std::size_t parted = 0;
-  for (int layout = 0; layout < 8; ++layout) {
-    std::vector<Region> shapes;
-    for (int i = 0; i < 14; ++i) {
-      const DrawnPoint from = spot(between(0, 6), between(0, 6));
-      shapes.push_back(i % 2 == 0 ? pad(between(0, 6), between(0, 6), between(0.3, 1.5))
-                                  : swept({{from, spot(between(0, 6), between(0, 6))}}, wide(between(0.05, 0.3))));
-    }
-    const Region copper = united(shapes);
-    IsolationOptions options = with({layout % 2 == 0 ? 0.3 : 0.2});
-    const std::size_t before = isolated(copper, options).proof.joined;
-    options.allowed_loss = wide(0.05);
-    const auto [plan, proof] = isolated(copper, options);
-    EXPECT_EQ(proof.damage_mm2, 0) << layout;
-    EXPECT_TRUE(proof.broken.empty()) << layout;
-    EXPECT_LE(proof.joined, before) << layout;
-    parted += before - proof.joined;
-    test::MilledPicture picture = picture_of(copper, plan.mill, 0.01);
-    EXPECT_LE(picture.deepest_loss(0.2), 0.05 + 0.01) << layout;
-    EXPECT_EQ(joined_in(picture, plan.kept.empty() ? parts_of(copper) : plan.kept), proof.joined) << layout;
-  }
-  EXPECT_GT(parted, 0U);
-}
-
-TEST(JoinedNets, are_islands_with_pads_holes_or_names) {
-  // Four pads in a row, 0.15 mm apart, and a far one.
-  const Region copper = united({pad(0, 0, 2), pad(2.15, 0, 2), pad(4.3, 0, 2), pad(6.45, 0, 2), pad(20, 0, 2)});
-  const auto [plan, proof] = isolated(copper, with({0.2}));
-  EXPECT_EQ(proof.joined, 4U);
-  JoinedNets all = find_joined_nets(copper, {}, plan.mill, proof, wide(0.2));
-  EXPECT_EQ(all.nets, 5U);
-  EXPECT_EQ(all.joined, 4U);
-  EXPECT_EQ(all.groups, 1U);
-  ASSERT_EQ(all.gaps.size(), 3U);
-  EXPECT_EQ(all.gaps[0].width, wide(0.15));
-  // The second is text: it joins the first one with the others all the same.
-  std::vector<NetPlace> known = {{spot(0, 0), "A", {}}, {spot(4.3, 0), "B", {}}, {spot(20, 0), "A", {}}};
-  JoinedNets named = find_joined_nets(copper, known, plan.mill, proof, wide(0.2));
-  EXPECT_EQ(named.nets, 2U);
-  EXPECT_EQ(named.joined, 2U);
-  EXPECT_EQ(named.others, 2U);
-  known[1].net = "A";
-  EXPECT_EQ(find_joined_nets(copper, known, plan.mill, proof, wide(0.2)).joined, 0U) << "one net, drawn in two islands";
-}
-
-TEST(IsolationAdvice, is_tried) {
-  const Region copper = united(two_pads(0.08), pad(10, 0, 2));
-  IsolationOptions options = with({0.3});
-  options.allowed_loss = wide(0.03);
-  const auto [plan, proof] = isolated(copper, options);
-  const JoinedNets joined = find_joined_nets(copper, {}, plan.mill, proof, wide(0.3));
-  EXPECT_EQ(joined.joined, 2U);
-  const std::vector<IsolationCutter> finer = {{wide(0.3), ""}, {wide(0.2), ""}, {wide(0.12), ""}, {wide(0.1), ""}};
-  const auto advice = advise_isolation(copper, {}, options, joined, finer, wide(0.05));
-  ASSERT_TRUE(advice);
-  EXPECT_EQ(advice->cutter, 2U);  // 0.08 + 2 x 0.03 mm
-  EXPECT_EQ(advice->joined, 0U);
-  EXPECT_EQ(advice->allowed_loss, wide(0.03));
-  options.cutters[0].width = finer[advice->cutter].width;
-  EXPECT_EQ(isolated(copper, options).proof.joined, 0U);
 }
 
 TEST(Isolation, a_finer_cutter_mills_only_what_the_wide_one_left_between_islands) {
@@ -472,23 +300,6 @@ TEST(IsolationProof, joins_the_strips_of_a_large_board) {
 
   runs.push_back({{{spot(-100, 0), 0, {}}, {spot(-3.5, 0), 0, {}}}});
   EXPECT_NEAR(prove_isolation(copper, plan).lost_mm2, 1.5 * 0.2 + M_PI * 0.005, 0.01);
-}
-
-// The board of the examples, with the cutter and the loss that the report advises: its narrowest gap is 0.018 mm.
-TEST(Isolation, every_net_of_the_example_board_comes_apart) {
-  Diagnostics findings;
-  const std::string folder = std::string(PASSO_SOURCE_DIR) + "/examples/boards/";
-  const BoardLayer layer = read_board_layer(folder + "timer-B_Cu.gbr", {}, findings);
-  ASSERT_FALSE(findings.any_error());
-  IsolationOptions options = with({0.1});
-  options.allowed_loss = wide(0.045);
-  const auto [plan, proof] = isolated(layer.face, options);
-  EXPECT_EQ(proof.damage_mm2, 0);
-  EXPECT_EQ(proof.joined, 0U);
-  EXPECT_EQ(find_joined_nets(layer.face, layer.nets, plan.mill, proof, wide(0.1)).joined, 0U);
-  test::MilledPicture picture = picture_of(layer.face, plan.mill, 0.02);
-  EXPECT_EQ(joined_in(picture, plan.kept), 0U);
-  EXPECT_LE(picture.deepest_loss(0.2), 0.045 + 0.02);
 }
 
 TEST(MillProgram, goes_down_along_and_up_and_ends_at_rest) {

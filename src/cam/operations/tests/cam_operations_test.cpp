@@ -74,14 +74,14 @@ TEST(CamOperations, read_and_write_the_member_that_a_row_names) {
   CamOutlineArguments arguments;
   const std::vector<CamOption> options = cam_options_of(arguments);
   const CamOption& tabs = *find_option(options, "tabs");
-  EXPECT_EQ(text_of(tabs), "0");
-  *std::get<std::uint32_t*>(tabs.value) = 4;
-  EXPECT_EQ(arguments.tabs, 4U);
   EXPECT_EQ(text_of(tabs), "4");
+  *std::get<std::uint32_t*>(tabs.value) = 6;
+  EXPECT_EQ(arguments.tabs, 6U);
+  EXPECT_EQ(text_of(tabs), "6");
   EXPECT_EQ(text_of(*find_option(options, "tool")), "2mm");
   EXPECT_EQ(text_of(*find_option(options, "scale")), "") << "nothing is said";
   EXPECT_EQ(find_option(options, "passes"), nullptr);
-  EXPECT_EQ(text_of(*find_option(find_cam_operation("outline")->options(), "tabs")), "0") << "the default has changed";
+  EXPECT_EQ(text_of(*find_option(find_cam_operation("outline")->options(), "tabs")), "4") << "the default has changed";
 }
 
 constexpr const char* table_head = "| option | default | |\n|---|---|---|\n";

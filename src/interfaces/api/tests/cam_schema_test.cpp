@@ -84,7 +84,7 @@ TEST(CamSchemas, say_what_an_option_may_be) {
   const Json& all = outline["properties"];
   EXPECT_EQ(all["tool"]["type"], Json({"string", "number"}));
   EXPECT_EQ(all["tool"]["default"], "2mm");
-  EXPECT_EQ(all["tabs"]["default"], 0);
+  EXPECT_EQ(all["tabs"]["default"], 4);
   EXPECT_EQ(all["tabs"]["maximum"], 1000.0);
   EXPECT_EQ(all["mirror"]["enum"], Json({"x", "y"}));
   EXPECT_FALSE(all["mirror"].contains("default"));

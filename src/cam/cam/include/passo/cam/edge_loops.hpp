@@ -20,8 +20,9 @@ struct EdgeLoops {
   Nanometres widest_joined = {};
 };
 
-// The treatment of open contours: an error "outline.open" at each end, or keeping them. `slots`: a line within the
-// board whose ends are more than 1 mm from other ends is kept, other open contours are refused.
+// The treatment of open contours: an error "outline.open" that names the ends (an error for each if two lines of the
+// file have drawn them), or keeping them. `slots`: a line within the board whose ends are more than 1 mm from other
+// ends is kept, other open contours are refused.
 enum class OpenRows : std::uint8_t { refused, kept, slots };
 
 EdgeLoops edge_loops(const Drawing& drawing, Nanometres join, Diagnostics& diagnostics,
