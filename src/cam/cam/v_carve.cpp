@@ -236,7 +236,7 @@ std::vector<MillRun> clean_floor(const Region& left, Nanometres z, Nanometres ap
         const DrawnPoint from = last.empty() ? ring.front() : last.back();
         const auto nearest =
             std::ranges::min_element(ring, {}, [&](const DrawnPoint& at) { return distance_nm(at, from); });
-        std::ranges::rotate(ring, nearest);
+        std::rotate(ring.begin(), nearest, ring.end());
         ring.push_back(ring.front());
         const bool is_near =
             k > 0 && !last.empty() && distance_nm(from, ring.front()) < 3 * static_cast<double>(apart.count);
