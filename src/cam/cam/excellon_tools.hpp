@@ -1,5 +1,5 @@
-// ExcellonTools: the tools of a drill file: in its header, in comments, where they are used, or behind the holes.
-// Private to cam/.
+// ExcellonTools: the tools of a drill file, which may be defined in its header, in comments, where they are used, or
+// after the holes. Private to cam/.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class ExcellonTools {
  public:
   bool has(std::int64_t number) const { return tools_.contains(number); }
 
-  // Returns the tool, which is new if the file has not named it before.
+  // Returns the tool; adds it if the file has not named it before.
   FileTool& named(std::int64_t number, DrawingBuilder& builder) {
     const auto [entry, is_new] = tools_.try_emplace(number);
     if (is_new) entry->second.layer = builder.layer(fmt::format("T{}", number));
@@ -42,7 +42,7 @@ class ExcellonTools {
     if (selected_ == nullptr && of_header_ != nullptr) select(*of_header_);
   }
 
-  // Adds the sizes that the file states behind the holes, and notes about those that it does not state.
+  // Adds the sizes that the file states after the holes, and notes about those that it does not state.
   void add_late_sizes(Drawing& drawing) const {
     std::map<std::uint32_t, Nanometres> sizes;
     for (const auto& [number, tool] : tools_) {

@@ -16,7 +16,7 @@ struct DrillWord {
   std::uint32_t column = 1;  // of the letter
 };
 
-// Text that is no word.
+// Text that is not a word.
 struct DrillWordFault {
   std::uint32_t column = 1;
   std::string message;

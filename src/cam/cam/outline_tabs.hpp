@@ -21,7 +21,7 @@ struct SpreadTabs {
   double wide_nm = 0;                // stretch of the track that each tab takes
 };
 
-// Spreads `wanted` tabs evenly, on straight pieces where they fit. If the track is too short for so many, there are
+// Spreads `wanted` tabs evenly, on straight pieces where they fit. If the track is too short for all of them, it gets
 // fewer, but at least one; the only tab of a short track may be narrower.
 SpreadTabs spread_tabs(const ClosedToolpath& track, std::uint32_t wanted, const TabSize& size);
 
@@ -29,10 +29,10 @@ SpreadTabs spread_tabs(const ClosedToolpath& track, std::uint32_t wanted, const 
 std::vector<DrawnPoint> put_tabs_on(ClosedToolpath& track, const SpreadTabs& tabs, const TabSize& size,
                                     Nanometres depth);
 
-// Returns what is to be said about a track with fewer tabs than wanted. Empty: nothing.
+// Returns a note about a track that gets fewer tabs than wanted. Empty: there is no need for one.
 std::string fewer_tabs_words(const ClosedToolpath& track, std::uint32_t wanted, const SpreadTabs& tabs);
 
-// Returns what is to be said about tabs that are likely to break. Empty: nothing.
+// Returns a note about tabs that are likely to break. Empty: there is no need for one.
 std::string thin_tabs_words(const TabSize& size, Nanometres depth);
 
 }  // namespace passo

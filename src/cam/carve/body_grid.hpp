@@ -1,13 +1,13 @@
 // cover_body: heights at the nodes of a grid whose bilinear patches lie nowhere below a body. Private to carve/.
 //
-// At a node the height is that of the body, where that is enough. A cell that one triangle covers completely needs no
-// more: a patch with corners on or above a plane is above it. In the other cells the body is highest, relative to the
-// patch, at the ends of edges or where edges cross the lines of the grid. If the body rises little above the patch
-// there, all corners of the cell are raised by that much; at a wall, a rib or a tip they are raised to the highest
-// point in the cell. So a wall is moved outwards by less than two cells, and never inwards.
+// Where possible, the height of a node is that of the body. This is enough in a cell that one triangle covers
+// completely, because a patch with corners on or above a plane is above it. In the other cells the body is highest,
+// relative to the patch, at the ends of edges or where edges cross the lines of the grid. If the body rises little
+// above the patch there, all corners of the cell are raised by that much; at a wall, a rib or a tip they are raised to
+// the highest point in the cell. So a wall is moved outwards by less than two cells, and never inwards.
 //
-// Cost: the nodes under each triangle and the cells along each edge. The grid is processed in bands of rows; memory for
-// one band per thread.
+// Cost: the nodes under each triangle and the cells along each edge. The grid is processed in bands of rows, with
+// memory for one band per thread.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// NodeMask: a yes or no for each node of a map. Private to carve/.
+// NodeMask: a flag for each node of a map. Private to carve/.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class NodeMask {
  public:
   explicit NodeMask(const TipMap& map) : map_(map), marks_(map.columns * map.rows, 0) {}
 
-  // Nodes by their places in the map: margins counted.
+  // Nodes by their positions in the map, including its margins.
   char& mark(std::size_t column, std::size_t row) { return marks_[row * map_.columns + column]; }
   bool at(std::ptrdiff_t column, std::ptrdiff_t row) const {
     return marks_[static_cast<std::size_t>(row + map_.margin_y) * map_.columns +

@@ -156,7 +156,8 @@ TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm 
                const ReliefProgramOptions& options);
 // Returns the tip heights of the roughing cutter, including the stock to leave, limited to the top of the stock.
 TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options);
-// Returns the nodes where the program may cut: all, or those where the cutter touches the model, and `around` more.
+// Returns the nodes where the program may cut: all, or those where the cutter touches the model and all within
+// `around` of them.
 NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, Mm around, float floor,
                        const ReliefProgramOptions& options);
 AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t gap);

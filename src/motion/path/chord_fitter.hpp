@@ -8,9 +8,10 @@
 //     polynomials, of which rounding has little (docs/smoothing.md).
 //
 // The deviation of a cubic from its chords is returned, and reduces the tolerance tube around it. A cubic ends well
-// before the end of its window, where it crosses its chords; before a stop it ends at the chords' own end. The next one
-// is fitted to some chords before its start too, so that both have nearly the same direction there. PathSmoother rounds
-// the junction like any other. Close to a corner the chords stay unchanged; a turn that rounding explains is none.
+// before the end of its window, where it crosses its chords; before a stop it ends at the chords' own end. The next
+// cubic is also fitted to some chords before its start, so that both have nearly the same direction there.
+// PathSmoother rounds the junction like any other. Close to a corner the chords stay unchanged. A turn that rounding
+// can explain is not a corner.
 //
 // Only continuous lines of equal speed, kind and tolerance are fitted, and never in a thread, where the spindle is
 // synchronised to s. The look-ahead is at most `most_fitted` lines. Time: each line is processed about five times,

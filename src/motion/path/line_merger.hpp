@@ -7,9 +7,8 @@
 // directions. So each vertex has the same cost. A line that was programmed in pieces becomes one line again, with the
 // total length and time.
 //
-// An arc that hardly leaves its chord becomes this chord first: short arcs, with which CAM programs write a curve, are
-// then merged and fitted like chords, and circles of a few micrometres, with which they drill, are no circles for the
-// motion.
+// First, an arc that hardly leaves its chord becomes this chord. So the short arcs with which CAM programs write a
+// curve are merged and fitted like chords, and the circles of a few micrometres with which they drill become lines.
 //
 // Only lines with equal speed, kind, tolerance and length-defining axes are merged. No merged line reverses.
 #pragma once

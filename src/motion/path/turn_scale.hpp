@@ -1,16 +1,16 @@
-// TurnScale: gives a degree of A, B and C the weight that the tolerances give it.
+// TurnScale: weights a degree of A, B and C by the ratio of the tolerances.
 //
 // PathSmoother measures deviations as one distance over all axes. TurnScale divides A, B and C by a number of degrees,
 // the turn unit, so that one unit may deviate as far as one millimetre: turn_tolerance / tolerance, or a little less.
 // convert_to_degrees() is its inverse for the smoothed segments.
 //
-// The unit is a sum of two powers of two. Division of a number of 52 bits by such a unit, and multiplication by it,
-// give the same number again (D. Goldberg, "What every computer scientist should know about floating-point arithmetic",
-// 1991, theorem 7). PathBuilder gives angles 52 bits. So the smoothed path begins and ends exactly where the programmed
-// one does.
+// The unit is a sum of two powers of two. Dividing a 52-bit number by such a unit and multiplying the result by it
+// gives the same number again (D. Goldberg, "What every computer scientist should know about floating-point
+// arithmetic", 1991, theorem 7). PathBuilder rounds angles to 52 bits. So the smoothed path begins and ends exactly
+// where the programmed one does.
 //
-// The unit changes only where the path rests. Where the tolerance changes between moves of which one turns, the path
-// stops once. Where nothing turns, it does not.
+// The unit changes only at a stop of the path. If the tolerance changes between moves, and one of them turns A, B or
+// C, the path stops once. If none turns, the path does not stop.
 #pragma once
 
 #include "passo/base/source.hpp"

@@ -4,7 +4,7 @@
 // A(v). So for any two speeds at two points, these distances differ by at most the distance between the points,
 // whichever speed comes first. With a constant A this is v₁² − v₀² ≤ 2 A |q₁ − q₀|. A limit that falls with the speed
 // is replaced by a step function that is nowhere below the limit. Its steps are even in v², so the distance is a
-// piecewise linear function of v², and the other way round.
+// piecewise linear function of v², and vice versa.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class AxisRamp {
     return steps_.empty() ? speed * speed / (2 * strongest_) : way_to(step_at(speed * speed), speed * speed);
   }
 
-  // Returns whether the axis can come so far from rest in that time, if no speed is too high.
+  // Returns whether the axis can cover that distance from rest in that time, if no speed is too high.
   bool comes_from_rest(double way, double time) const;
 
   // Upper bounds of the axis' squared speed: at the start and the end of a distance, and anywhere on it.

@@ -6,7 +6,7 @@
 //   q̈  = q' a + q'' x    a parabola of σ
 //   q⃛  = ṡ (q''' x + 3 q'' a)
 //
-// So the places of all peaks are roots of polynomials of degree 1 and 2.
+// So all peaks lie at roots of polynomials of degree 1 and 2.
 #pragma once
 
 #include <optional>

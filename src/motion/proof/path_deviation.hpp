@@ -1,9 +1,10 @@
 // PathDeviation: the maximum distance between programmed and planned path, in both directions.
 //
 // Two points move along the two paths from start to end, and never back. The result is the smallest distance that they
-// can keep, a Fréchet distance (Alt and Godau 1995), with each point measured in units of its tolerances: millimetres
-// in that of the path, degrees of A, B and C in their own, and the root of the sum of the squares of the two. Nearest
-// points alone are not enough: a path that turns, or has loops smaller than its tolerance, is near itself.
+// can keep, a Fréchet distance (Alt and Godau 1995), in units of the tolerances at each point: millimetres are divided
+// by the path tolerance, degrees of A, B and C by their own tolerance, and the two are added as the root of the sum of
+// their squares. Nearest points alone are not enough: a path that turns, or has loops smaller than its tolerance, is
+// near itself.
 //
 // The planned path is processed in small pieces. For each piece of the programmed path, the smallest distance is stored
 // with which the two points can be there now. A piece is dropped if it needs twice as much as the best one and more

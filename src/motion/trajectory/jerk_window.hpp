@@ -61,7 +61,7 @@ class JerkWindow {
   JerkProfile profile_;
   std::size_t most_queued_;
 
-  // What the stops at both ends allow.
+  // The speeds that the stops at both ends allow.
   struct Stops {
     Point stopped;              // the velocity with which the motion before the start ended
     bool after_corner = false;  // the window before ended in `end_direction`

@@ -4,7 +4,7 @@
 //                /  \________            speed; the same for deceleration. A short distance omits some phases.
 //                            \__/
 //
-// With start-stop velocities the motion begins and ends with a speed, still without acceleration.
+// With start-stop velocities the motion begins and ends at a speed above 0, still without acceleration.
 //
 // Source: the closed forms for limited jerk, for instance L. Biagiotti, C. Melchiorri, "Trajectory Planning for
 // Automatic Machines and Robots" (2008), 3.4.

@@ -103,7 +103,7 @@ export const operations = {
   'cam.option.voronoi': 'Midway between islands (Voronoi)',
   'cam.option.overlap': 'Overlap of passes, %',
   'cam.option.allow-loss': 'Copper loss per side in narrow gaps',
-  'cam.option.least-trace': 'Least trace width there',
+  'cam.option.least-trace': 'Minimum trace width in narrow gaps',
   'cam.option.accept-joined': 'Accept nets that stay joined',
   'cam.option.turn.y': 'top-bottom',
   'cam.option.turn.x': 'left-right',

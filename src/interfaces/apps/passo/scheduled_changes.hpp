@@ -42,9 +42,9 @@ class TailWatch {
 
 class ScheduledChanges {
  public:
-  // Hold "2.5" ends the run with a hold at 2.5 s; "2.5:1" continues one second after the stop. Override "50@2.5" halves
-  // the feed from 2.5 s on. Times are the board's, from the start of the program. Reports any other text, and a wrong
-  // file of adaptive feed, on standard error, and returns nothing.
+  // Hold "2.5" ends the run with a hold at 2.5 s; "2.5:1" continues one second after the stop. Override "50@2.5"
+  // halves the feed from 2.5 s on. Times are the board's, from the start of the program. Reports any other text, and a
+  // faulty adaptive feed file, on standard error, and returns nothing.
   static std::optional<ScheduledChanges> read(const ChangeArguments& arguments);
 
   struct Change {

@@ -29,8 +29,8 @@ struct BoardLayer {
   std::vector<NetPlace> nets = {};  // empty: unknown
 };
 
-// Returns the pads of a layer, and the places that have a name. None of a negative layer, which draws what is not
-// copper.
+// Returns the pads of a layer and the places that have a name. None for a negative layer, which draws the areas
+// without copper.
 std::vector<NetPlace> net_places_of(const GerberLayer& layer);
 
 // Reports the errors of the readers, and "kicad.which-layer" and "kicad.no-layer" for a KiCad board.

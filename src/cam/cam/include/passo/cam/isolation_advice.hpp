@@ -1,5 +1,5 @@
-// advise_isolation: finds a cutter, or an allowed loss, with which all nets of a layer come apart. Each proposal has
-// been planned and proved.
+// advise_isolation: finds a cutter, or an allowed loss, that separates all nets of a layer. Each proposal has been
+// planned and proved.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ struct IsolationAdvice {
 
 // `now`: the options with which `joined` was found. `finer`: cutters to try in place of the finest one, from wide to
 // narrow; the first may be the finest itself. `most_loss`: the largest allowed loss to try. At most four trials.
-// Returns the first trial in which all nets come apart; otherwise the one that joins the fewest nets, if fewer than
-// now.
+// Returns the first trial in which all nets come apart; otherwise the trial that leaves the fewest nets joined, if
+// they are fewer than now.
 std::optional<IsolationAdvice> advise_isolation(const Region& copper, const std::vector<NetPlace>& known,
                                                 const IsolationOptions& now, const JoinedNets& joined,
                                                 const std::vector<IsolationCutter>& finer, Nanometres most_loss);

@@ -2,7 +2,7 @@
 //
 // A net is an island of copper with a pad, a hole or a name; islands with the same name are one net. Other islands,
 // such as text, do not count, but they can connect two nets. If nothing is known about a layer's nets, each island is
-// one.
+// a net.
 #pragma once
 
 #include <cstddef>

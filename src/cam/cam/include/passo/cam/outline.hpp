@@ -5,9 +5,9 @@
 // of the toolpath.
 //
 // Tabs hold the board: at a tab the cutter stays above the full depth. Tabs given by number are spread evenly along
-// each contour, on straight edges if possible; where so many do not fit, there are as many as fit. In an opening they
-// hold the slug; a slug narrower than `least_slug` is milled away instead. Tabs given by position are placed at the
-// nearest point of any cut.
+// each contour, on straight edges if possible; if the contour is too short for all of them, it gets as many as fit. In
+// an opening they hold the slug; a slug narrower than `least_slug` is milled away instead. Tabs given by position are
+// placed at the nearest point of any cut.
 #pragma once
 
 #include <cstdint>

@@ -52,9 +52,10 @@ struct VCarvePlan {
 VCarvePlan plan_v_carve(const Region& area, const VCarveOptions& options, Diagnostics& diagnostics,
                         const WorkProgress& progress = {});
 
-// Returns runs with which the tip of the V-bit mills away what a flat cutter left of a floor: loops within it, `apart`
-// from each other, at the depth `z`. Where loops are close together, the cutter stays down between them. `steps`: the
-// depth of a layer; 0: a single layer. At most 20,000 loops of a layer; nothing if there would be more.
+// Returns runs with which the tip of the V-bit mills away the material that a flat cutter left on a floor: loops
+// within the floor, `apart` from each other, at the depth `z`. Where loops are close together, the cutter stays down
+// between them. `steps`: the depth of a layer; 0: a single layer. At most 20,000 loops per layer; returns nothing if
+// there would be more.
 std::vector<MillRun> clean_floor(const Region& left, Nanometres z, Nanometres apart, Nanometres step);
 
 }  // namespace passo

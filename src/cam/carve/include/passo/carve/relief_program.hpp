@@ -73,7 +73,8 @@ struct ReliefProgramOptions {
   // Empty: the finishing cutter's radius; for the roughing cutter at least its own radius.
   std::optional<Mm> overrun = {};
   BesideGrid beside = BesideGrid::goes_on;
-  // Cuts only where a cutter touches what is higher than the floor, and one stepover around. Not for spirals.
+  // Cuts only where a cutter touches material of the model above the floor, and one stepover around it. Not for
+  // spirals.
   bool only_on_model = false;
   unsigned threads = 1;  // at least 1
 };

@@ -29,8 +29,8 @@ struct ReliefShape {
   bool margin_at_top = false;     // the border stays at the top; otherwise it is cut down to the depth
   std::optional<Mm> pitch = {};   // for a model: the sample distance; for a picture: the maximum distance of nodes, by
                                   // interpolation
-  // The maximum distance of nodes if `pitch` is empty, as far as `most_fine_nodes` allow. A model gets at least
-  // 1,400 nodes along its longest side, but none closer than `finest_pitch`.
+  // The maximum spacing of the nodes if `pitch` is empty, unless that needs more than `most_fine_nodes` nodes. A model
+  // gets at least 1,400 nodes along its longest side, but none closer than `finest_pitch`.
   std::optional<Mm> wished_pitch = {};
   Mm finest_pitch{0.01};
   unsigned threads = 1;  // for a model; the result does not depend on it
@@ -51,9 +51,9 @@ float floor_of(const HeightGrid& grid);
 HeightGrid relief_of(const LevelPicture& picture, const ReliefShape& shape, const std::string& name,
                      Diagnostics& diagnostics);
 
-// Returns a surface of bilinear patches that lies nowhere below the model. It is higher than the model by the curvature
-// within a cell; walls and details within a cell are less than two cells wider. Positions outside the model get the
-// height of its lowest point.
+// Returns a surface of bilinear patches that lies nowhere below the model. On smooth faces it is higher than the model
+// by the curvature within a cell; walls, and details smaller than a cell, are less than two cells wider. Positions
+// outside the model get the height of its lowest point.
 HeightGrid relief_of(ReliefBody body, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace passo

@@ -1,9 +1,9 @@
 // CutTarget: what a program should leave, at the cells of a height field, and how precisely the cut is known.
 //
-// A height field knows the stock at the centres of its cells. A rib or a tip may stand between them: so the target has
-// the highest point of each cell, too, and a gouge is judged by the highest that the stock may be in the cell
-// (`at_most`): the height after a cut with thinner tools. If a tool that is thinner by half the diagonal of a cell
-// reaches the centre, the tool itself has swept the cell.
+// A height field knows the stock at the centres of its cells. A rib or a tip may stand between the centres. So the
+// target also has the highest point of each cell, and a gouge is measured with the greatest height that the stock can
+// have in the cell (`at_most`): the height after a cut with thinner tools. If a tool that is thinner by half the
+// diagonal of a cell reaches the centre, the tool itself has swept the cell.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ CutTarget target_of(const std::vector<SurfaceTriangle>& faces, const Surface& su
 // it is moved by at most `by` in X and Y.
 Cutter thinned(const Cutter& cutter, Mm by);
 Mm thinned_tip(const Cutter& cutter, Mm by);
-// How much thinner the tools must be for a cell of this size.
+// Returns how much thinner the tools must be for a cell of this size.
 Mm thinner_for(Mm cell);
 
 }  // namespace passo

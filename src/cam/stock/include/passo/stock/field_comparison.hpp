@@ -1,9 +1,9 @@
 // compare_fields: computes the material left above a target, and the gouges into it.
 //
 // Material is left if the stock at the centre of a cell is higher than the highest point of the target in the cell and
-// its eight neighbours. A gouge is a height below the lowest of these nine, or a cell that was surely cut below the
-// highest point of the target in it (CutTarget::at_most), by more than a cell at a wall. At a wall, a difference counts
-// sideways: its size is the distance to where the height is right, if that is less.
+// its eight neighbours. A gouge is a height below the lowest of these nine, or a cell that was certainly cut below the
+// highest point of the target in it (CutTarget::at_most); at a wall, by more than a cell. At a wall, a difference
+// counts sideways: its size is the distance to where the height is right, if that is less.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct FieldDifference {
   };
   Side left;
   Side gouge;
-  // The largest gouge that the cells do not show, mm: down into a face, and sideways into a wall.
+  // The largest gouge that the cells cannot show, mm: down into a face, and sideways into a wall.
   double unseen_depth = 0;
   double unseen_sideways = 0;
 };

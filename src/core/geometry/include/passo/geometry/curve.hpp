@@ -1,8 +1,8 @@
 // Curve: one geometric piece of a path. Its parameter is the length s to which the feed rate applies.
 //
 // s runs from 0 to length(). s is the travel of X Y Z in millimetres if any of them moves, otherwise that of U V W,
-// otherwise that of A B C in degrees (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion. Where an axis
-// turns a cylinder of known radius, the way of its surface counts like X, Y and Z (SurfaceScale).
+// otherwise that of A B C in degrees (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion. If an axis
+// turns a cylinder of known radius, the travel of the surface counts like X, Y and Z (SurfaceScale).
 //
 // - A line moves every axis in proportion to s.
 // - An arc rotates two axes of a plane about a centre and moves all others in proportion (helix). If the

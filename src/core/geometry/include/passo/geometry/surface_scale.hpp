@@ -1,5 +1,5 @@
-// SurfaceScale: for axes that turn a cylinder, how far its surface moves for each degree. It also has the unit of the
-// angles.
+// SurfaceScale: the distance that the surface of a cylinder moves for each degree of the axis that turns it. It also
+// stores the unit of the angles.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// The test input for adaptive feed (M52): the machine's own factor on the feed over time, from a file.
+// The test input for adaptive feed (M52): the machine's own feed factor over time, from a file.
 //
-// The file is a table in CSV: a time in seconds and a factor from 0 to 1 in each line, in the order of time. A factor
-// holds until the next line. A first line of words, empty lines and lines that begin with # are skipped.
+// The file is a table in CSV: a time in seconds and a factor from 0 to 1 in each line, in order of time. A factor
+// holds until the next line. A header line, empty lines and lines that begin with # are skipped.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ struct AdaptiveFeedChange {
   double factor = 1;
 };
 
-// Returns nothing, and adds diagnostics with codes "adaptive-feed.*", if the file cannot be read or is wrong. A file
+// Returns nothing, and adds diagnostics with codes "adaptive-feed.*", if the file cannot be read or is faulty. A file
 // may have at most 64 MiB.
 std::optional<std::vector<AdaptiveFeedChange>> read_adaptive_feed(const std::string& path, Diagnostics& diagnostics);
 

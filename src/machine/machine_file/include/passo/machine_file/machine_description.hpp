@@ -85,8 +85,8 @@ struct AxisDescription {
   MmPerSecond3 jerk{0};            // 0: no limit
   MmPerSecond start_stop{0};       // the motor starts and stops at this velocity without a ramp; 0: always with a ramp
   bool inverted = false;           // true: the motor has the reversed direction
-  // Of the cylinder that a rotary axis turns: the feed is that of its surface. Empty: degrees count. 0: the distance
-  // of the tool from the rotation axis.
+  // The radius of the cylinder that a rotary axis turns: the feed is the speed along its surface. Empty: degrees
+  // count. 0: the distance of the tool from the rotation axis.
   std::optional<Mm> surface_radius = {};
   std::optional<HomeDescription> home = {};
   std::optional<ScrewDescription> screw = {};

@@ -44,8 +44,8 @@ struct PathOptions {
                                     // rejected
   Mm tolerance{0.01};               // for junctions, if the program gives none (G64 P)
   double turn_tolerance = 0;        // of A, B and C at junctions, degrees; 0: they share the tolerance
-  // Of the cylinders that A, B and C turn: the feed is then that of the surface. Empty: it is not. 0: the tool's
-  // distance from the rotation axis, Z in the work coordinate system.
+  // The radii of the cylinders that A, B and C turn: the feed is the speed along their surface. Empty: degrees count.
+  // 0: the tool's distance from the rotation axis, Z in the work coordinate system.
   PerAxis<std::optional<Mm>> surface_radius{};
   double spindle_limit = 0;  // maximum spindle speed, rpm; 0: no spindle speed is rejected
   Point start;               // machine position at the start
