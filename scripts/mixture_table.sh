@@ -42,15 +42,19 @@ head_of_table() {  # FIRST COLUMN
 }
 # The values of a column ($2) of the rows that match the condition ($1).
 column() { awk -F'\t' "$1 { print $2 }" "$rows"; }
+by_mixture() {  # CONDITION COLUMN
+  local limit share
+  for limit in jerk torque backlash starts rotary; do
+    for share in none some all; do
+      column "$1 && \$3 ~ /$limit=$share/" "$2" | spread "$limit on $share of the axes"
+    done
+  done
+}
 
 law='$1 == "time" && $4 > 1'
 head_of_table 'time / bound, programs of more than 1 s'
 column "$law" '$5' | spread 'all'
-for limit in jerk torque backlash starts rotary; do
-  for share in none some all; do
-    column "$law && \$3 ~ /$limit=$share/" '$5' | spread "$limit on $share of the axes"
-  done
-done
+by_mixture "$law" '$5'
 column "$law && \$3 !~ /jerk=some/ && \$3 ~ /torque=none backlash=none starts=none rotary=none/" '$5' | spread 'jerk on all axes or none, nothing else'
 column '$1 == "time" && $4 > 1' '$6' | spread 'all, bound in the tube'
 head_of_table 'ratio to the limit, all programs'
@@ -64,11 +68,7 @@ column '$1 == "time"' '$7' | spread 'seconds of CPU'
 halt='$1 == "halt" && $7 > 0.02 && $6 > 0'
 head_of_table 'hold or stop to rest / least possible, if that is more than 20 ms'
 column "$halt" '$6 / $7' | spread 'all'
-for limit in jerk torque backlash starts rotary; do
-  for share in none some all; do
-    column "$halt && \$3 ~ /$limit=$share/" '$6 / $7' | spread "$limit on $share of the axes"
-  done
-done
+by_mixture "$halt" '$6 / $7'
 
 echo
 column '$1 == "acts"' '$4' | awk '{ sum += $1 } END { printf "%d instants of holds, resumes, overrides and stops\n", sum }'

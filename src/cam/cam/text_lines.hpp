@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "passo/base/trimmed.hpp"
+
 namespace passo {
 
 class TextLines {
@@ -30,12 +32,5 @@ class TextLines {
   std::string_view rest_;
   std::uint32_t number_ = 0;
 };
-
-inline std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 }  // namespace passo

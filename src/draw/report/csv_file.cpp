@@ -6,17 +6,12 @@
 #include "signals_file.hpp"
 
 #include "passo/base/lower_case.hpp"
+#include "passo/base/trimmed.hpp"
 
 namespace passo {
 namespace {
 
 constexpr std::int64_t longest_pulse = 1'000'000;  // ns
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
 
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;

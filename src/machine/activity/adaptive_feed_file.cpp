@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passo/base/read_double.hpp"
+#include "passo/base/trimmed.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
@@ -11,12 +12,6 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{64} << 20U;
 constexpr double longest_time = 1e6;  // s; a later time is a typing error
 constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 // A number that is the whole text, in a range.
 std::optional<double> number_within(std::string_view text, double most) {
@@ -48,7 +43,7 @@ class AdaptiveFeedReader {
 
  private:
   void read_line(std::string_view whole) {
-    const std::string_view line = trimmed(whole);
+    const std::string_view line = trimmed(whole, blanks);
     if (line.empty() || line.front() == '#') return;
     const bool is_header = changes_.empty() && !has_header_ && begins_with_a_letter(line);
     if (is_header) {
@@ -56,9 +51,9 @@ class AdaptiveFeedReader {
       return;
     }
     const std::size_t comma = std::min(line.find(','), line.size());
-    const auto at = number_within(trimmed(line.substr(0, comma)), longest_time);
+    const auto at = number_within(trimmed(line.substr(0, comma), blanks), longest_time);
     const auto factor =
-        comma < line.size() ? number_within(trimmed(line.substr(comma + 1)), 1) : std::optional<double>();
+        comma < line.size() ? number_within(trimmed(line.substr(comma + 1), blanks), 1) : std::optional<double>();
     if (!at || !factor) {
       return refuse(whole, "adaptive-feed.bad-line", "this line is not a time and a factor",
                     "SECONDS,FACTOR with a factor from 0 to 1, e.g. 2.5,0.4");

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/trimmed.hpp"
+
 namespace passo {
 namespace {
 
@@ -12,9 +14,7 @@ constexpr std::string_view blank_characters = " \t\r\v\f";
 }  // namespace
 
 std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blank_characters);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank_characters) + 1 - first);
+  return trimmed(text, blank_characters);
 }
 
 SourceLines::SourceLines(std::string_view text) : rest_(text) {

@@ -76,6 +76,7 @@ double largest_turn_unit(double ratio) {
 }
 
 double with_52_bits(double value) {
+  if (value == 0) return value;  // an axis that is not there
   int exponent = 0;
   const double significand = std::frexp(value, &exponent);
   return std::ldexp(std::nearbyint(std::ldexp(significand, 52)), exponent - 52);
