@@ -38,7 +38,7 @@ SimulatedPath::SimulatedPath(ProgramReader program, const InterpreterOptions& op
   watched_.watch([this](const PathItem& item) { record_zeros(item); });
   if (machine == nullptr) return;
   limits_ = motion_limits(*machine);
-  smoother_ = std::make_unique<PathSmoother>(watched_, smoothness(*machine));
+  smoother_ = std::make_unique<PathSmoother>(watched_, smoothness(*machine), smoothing_share(*machine));
 }
 
 void SimulatedPath::record_zeros(const PathItem& item) {

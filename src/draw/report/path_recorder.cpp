@@ -67,12 +67,12 @@ void PathRecorder::change_tool(std::int32_t tool) {
 
 void PathRecorder::watch_move(const PlannedMove& move, const Point& origin) {
   time_ += move.duration();
-  const Box box = move.segment.curve.extents();
+  const Box box = move.segment.lead ? move.segment.tool_curve().extents() : move.segment.curve.extents();
   if (!(diagonal(box) > 0)) return;  // only other axes move
 
   if (!any_) {
     any_ = true;
-    base_ = move.segment.curve.start();
+    base_ = move.segment.tool_at(Mm(0));
     extents_ = box;
   }
   for (const Axis axis : space) {
@@ -102,7 +102,7 @@ void PathRecorder::record(const PlannedMove& move) {
   }
   if (moves_++ / stretch % keep_one_of_ != 0) return;
   const Vertex before = vertices_.empty() ? Vertex{} : vertices_.back();
-  add(move.segment.curve.at(move.from()), 0, Kind::jump);
+  add(move.segment.tool_at(move.from()), 0, Kind::jump);
   const Vertex& begin = vertices_.back();
   const bool continues = vertices_.size() > 1 && before.x == begin.x && before.y == begin.y && before.z == begin.z;
   if (continues) vertices_.pop_back();
@@ -132,7 +132,7 @@ void PathRecorder::record(const PlannedMove& move, const Phase& phase, Mm end) {
   double last = from;
   for (int i = 1; i <= count; ++i) {
     const double s = i == count ? to : phase.position_at(step * i).value();
-    add(curve.at(Mm(s)), (s - last) / step.value(), kind);
+    add(move.segment.lead ? move.segment.tool_at(Mm(s)) : curve.at(Mm(s)), (s - last) / step.value(), kind);
     last = s;
   }
 }

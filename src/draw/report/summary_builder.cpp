@@ -166,10 +166,13 @@ class SummaryBuilder::Implementation {
 
   // If only a part of a segment is played, adds only that part.
   void add_extents(const PlannedMove& move, const Point& machine_minus_work) {
+    if (move.segment.lead) return add_box(move, move.segment.tool_curve().extents(), machine_minus_work);
     const Curve& whole = move.segment.curve;
     const bool is_part = move.from() > Mm(0) || move.to < whole.length();
     if (is_part && !(move.to > move.from())) return;
-    const Box box = is_part ? whole.part(move.from(), move.to).extents() : whole.extents();
+    add_box(move, is_part ? whole.part(move.from(), move.to).extents() : whole.extents(), machine_minus_work);
+  }
+  void add_box(const PlannedMove& move, const Box& box, const Point& machine_minus_work) {
     machine_.add(box.low, box.high);
     in_work_.add(box, machine_minus_work);
     if (!move.segment.rapid) cutting_.add(box.low, box.high);

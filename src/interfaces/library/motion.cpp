@@ -32,7 +32,7 @@ bool MotionRecording::add(const passo::MotionItem& item) {
 void MotionRecording::add(const passo::PlannedMove& move) {
   Motion::Content& content = *content_;
   if (move.phase_count == 0) return;
-  if (!goes_on_) content.curves.push_back(move.segment.curve);
+  if (!goes_on_) content.curves.push_back(move.segment.tool_curve());
   content.moves.push_back({.curve = static_cast<std::uint32_t>(content.curves.size() - 1),
                            .first_phase = static_cast<std::uint32_t>(content.phases.size()),
                            .phase_count = static_cast<std::uint16_t>(move.phase_count),
@@ -43,7 +43,7 @@ void MotionRecording::add(const passo::PlannedMove& move) {
                            .to = move.to.value()});
   content.phases.insert(content.phases.end(), move.begin(), move.end());
   content.duration += move.duration().value();
-  content.has_backlash = content.has_backlash || move.segment.takes_up_backlash;
+  content.has_backlash = content.has_backlash || move.segment.takes_up_backlash || move.segment.lead;
   if (!move.segment.takes_up_backlash && !passo::only_turns(move.segment.curve))
     content.length += (move.to - move.from()).value();
   goes_on_ = move.to < move.segment.curve.length();

@@ -14,7 +14,7 @@ ProgramStages::ProgramStages(ProgramReader program, const MachineDescription& ma
       path_builder_(operations_, path_options_, diagnostics, answers_),
       path_until_error_(path_builder_, diagnostics),
       path_(path_until_error_),
-      smoother_(path_, smoothness(machine)) {
+      smoother_(path_, smoothness(machine), smoothing_share(machine)) {
   path_.watch([this](const PathItem& item) { answers_.see(item); });
 }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "passo/path/backlash_compensator.hpp"
+
 namespace passo {
 
 PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start) {
@@ -48,6 +50,13 @@ bool has_jerk_limit(const MachineDescription& machine) {
 
 Smoothness smoothness(const MachineDescription& machine) {
   return has_jerk_limit(machine) ? Smoothness::slow_bending : Smoothness::least_bending;
+}
+
+double smoothing_share(const MachineDescription& machine) {
+  const Kinematics kinematics = kinematics_of(machine);
+  const bool any = std::ranges::any_of(
+      kinematics.rows(), [](const MotorRow& motor) { return motor.screw && motor.screw->can_take_up_in_motion(); });
+  return any ? smoothing_share_with_backlash : 1;
 }
 
 MotionLimits motion_limits(const MachineDescription& machine) {

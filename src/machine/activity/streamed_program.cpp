@@ -236,6 +236,6 @@ void StreamedProgram::drop(const Point& place) {
 }
 
 StreamedProgramRun::StreamedProgramRun(StreamedProgram& program, const MachineDescription& machine)
-    : program_(program), smoother_(program, smoothness(machine)) {}
+    : program_(program), smoother_(program, smoothness(machine), smoothing_share(machine)) {}
 
 }  // namespace passo

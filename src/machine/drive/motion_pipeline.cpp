@@ -5,9 +5,10 @@
 namespace passo {
 namespace {
 
-BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
+BacklashOptions backlash_of(StepOptions steps, const MotionLimits& limits, const DriveOptions& options) {
   if (options.begin_at) steps.downs = AxisSet();
-  return backlash_options(steps, options.tails || options.begin_at);
+  const Smoothness smoothness = limits.limits_jerk() ? Smoothness::slow_bending : Smoothness::least_bending;
+  return backlash_options(steps, smoothness, options.tails || options.begin_at);
 }
 
 }  // namespace
@@ -15,7 +16,7 @@ BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
 MotionPipeline::MotionPipeline(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
                                const DriveOptions& options)
     : path_items_(path),
-      backlash_compensator_(path_items_, backlash_of(steps, options)),
+      backlash_compensator_(path_items_, backlash_of(steps, limits, options)),
       path_(backlash_compensator_),
       line_stops_(path_),
       planner_(line_stops_, limits),

@@ -15,7 +15,7 @@ bool RewindablePath::next(PathItem& item) {
     if (!pull(item)) return false;
     auto* segment = std::get_if<Segment>(&item);
     const Mm left_out = std::exchange(left_out_of_item_, Mm(0));
-    if (segment != nullptr && left_out > Mm(0)) segment->curve = segment->curve.part(left_out, segment->curve.length());
+    if (segment != nullptr && left_out > Mm(0)) segment->drop_before(left_out);
     kept_.push_back(item);
   } else {
     item = kept_[next_ - first_];
@@ -23,7 +23,7 @@ bool RewindablePath::next(PathItem& item) {
   if (next_ == rewound_.item) {
     auto* segment = std::get_if<Segment>(&item);
     const bool begun = segment != nullptr && rewound_.s > Mm(0);
-    if (begun) segment->curve = segment->curve.part(rewound_.s, segment->curve.length());
+    if (begun) segment->drop_before(rewound_.s);
   }
   ++next_;
   if (forgets_) forget_before(next_ - 1);

@@ -43,7 +43,7 @@ class PathOfProgram {
                 const MachineResults& answers, const std::vector<ProbeOutcome>& known)
       : steps_(steps_from(machine, options.start)),
         stages_(std::move(program), machine, options, answers, diagnostics_, known),
-        backlash_compensator_(stages_.smooth_path(), backlash_options(steps_, true)),
+        backlash_compensator_(stages_.smooth_path(), backlash_options(steps_, smoothness(machine), true)),
         path_(backlash_compensator_) {
     path_.keep();
   }

@@ -13,7 +13,7 @@ namespace {
 BacklashOptions backlash_from(const MachineDescription& machine, const Point& start) {
   StepOptions steps = step_options(machine);
   steps.start = start;
-  return backlash_options(steps, false);
+  return backlash_options(steps, smoothness(machine), false);
 }
 
 }  // namespace

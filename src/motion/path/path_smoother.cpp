@@ -31,8 +31,8 @@ Segment& segment_in(PathItem& item) {
 
 class PathSmoother::Implementation {
  public:
-  Implementation(Source<PathItem>& path, Smoothness smoothness)
-      : scale_(path), reader_(scale_), placer_(reader_, smoothness), spline_(reader_, smoothness) {}
+  Implementation(Source<PathItem>& path, Smoothness smoothness, double share)
+      : scale_(path, share), reader_(scale_), placer_(reader_, smoothness), spline_(reader_, smoothness) {}
 
   bool next(PathItem& item) {
     if (!next_scaled(item)) return false;
@@ -74,8 +74,8 @@ class PathSmoother::Implementation {
   std::size_t chord_ = 0;
 };
 
-PathSmoother::PathSmoother(Source<PathItem>& path, Smoothness smoothness)
-    : implementation_(std::make_unique<Implementation>(path, smoothness)) {}
+PathSmoother::PathSmoother(Source<PathItem>& path, Smoothness smoothness, double share)
+    : implementation_(std::make_unique<Implementation>(path, smoothness, share)) {}
 
 PathSmoother::~PathSmoother() = default;
 

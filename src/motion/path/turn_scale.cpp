@@ -102,6 +102,11 @@ bool TurnScale::next(PathItem& item) {
     rests_ = true;
     return true;
   }
+  if (share_ != 1) {
+    segment->tolerance = segment->tolerance * share_;
+    segment->merge = segment->merge * share_;
+    segment->turn_tolerance *= share_;
+  }
   scale(*segment);
   if (has_tolerance_ && segment->mode != PathMode::exact_stop && pull()) {
     const auto* const after = std::get_if<Segment>(&ahead_);

@@ -20,7 +20,8 @@ namespace passo {
 
 class TurnScale final : public Source<PathItem> {
  public:
-  explicit TurnScale(Source<PathItem>& path) : path_(path) {}
+  // `share`: the part of each tolerance that may be used.
+  explicit TurnScale(Source<PathItem>& path, double share = 1) : path_(path), share_(share) {}
 
   [[nodiscard]] bool next(PathItem& item) override;
 
@@ -29,6 +30,7 @@ class TurnScale final : public Source<PathItem> {
   void scale(Segment& segment);
 
   Source<PathItem>& path_;
+  double share_;
   PathItem ahead_;
   bool has_ahead_ = false;
   bool at_end_ = false;

@@ -8,8 +8,12 @@
 //
 // The difference between this place and the planned one must stay within a step, for the reversals that are too small
 // to be taken up. A path begins with all backlash taken up for motion in the positive direction.
+//
+// In a move that takes up backlash while the path goes on (Segment::lead), the tool may be off the planned path. Only
+// that such a move is marked is taken from the plan: its tool is followed as above, and PathDeviation judges its way.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "exact_curve.hpp"
@@ -24,6 +28,8 @@ class LostMotion {
   LostMotion(const ProofOptions& options, MotionProof& proof);
 
   void watch(const PlannedMove& move, const ExactCurve& curve, Seconds now);
+  // The positions of the tool in that move, if it takes up backlash in motion; otherwise none.
+  std::span<const Point> way_of_tool() const { return way_; }
 
  private:
   struct Play {
@@ -37,6 +43,7 @@ class LostMotion {
 
   MotionProof& proof_;
   std::vector<Play> plays_;
+  std::vector<Point> way_;
   bool begun_ = false;
 };
 

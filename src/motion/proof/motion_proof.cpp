@@ -104,9 +104,13 @@ class MotionProver::Implementation {
     const auto& move = std::get<PlannedMove>(item);
     if (!move.segment.curve.has_length() || move.phase_count == 0) return;
     const proof::ExactCurve curve(move.segment.curve);
-    deviation_.planned(move, curve, peaks_.now());
-    bound_.watch(move, curve);
     backlash_.watch(move, curve, peaks_.now());
+    if (backlash_.way_of_tool().empty()) {
+      deviation_.planned(move, curve, peaks_.now());
+    } else {
+      deviation_.went(backlash_.way_of_tool(), peaks_.now());
+    }
+    bound_.watch(move, curve);
     peaks_.watch(move, curve);
   }
   MotionProof finish() {

@@ -69,6 +69,15 @@ void PathDeviation::planned(const PlannedMove& move, const ExactCurve& curve, Se
   }
 }
 
+void PathDeviation::went(std::span<const Point> places, Seconds time) {
+  if (reached_ == 0) begin(places.front(), time);
+  for (const Point& place : places) {
+    if (place_ && distance(*place_, place) == 0) continue;
+    const ExactCurve line(Curve::line(place_ ? *place_ : places.front(), place));
+    if (line.length() > 0) step({.curve = line, .from = 0, .to = line.length(), .time = time});
+  }
+}
+
 bool PathDeviation::is_in_stretch(std::size_t piece) const {
   return piece < pieces_.size() && pieces_[piece].stretch == planned_stretch_;
 }

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 
 #include "exact_curve.hpp"
 
@@ -32,6 +33,8 @@ class PathDeviation {
 
   void programmed(const PathItem& item);
   void planned(const PlannedMove& move, const ExactCurve& curve, Seconds time);
+  // The same for a tool that went along a polyline.
+  void went(std::span<const Point> places, Seconds time);
   // Processes an action of the planned motion, or its end: everything programmed before it must have been executed.
   void rest(Seconds time);
   // Ends the measurement: any remaining programmed path was never executed.

@@ -1,9 +1,14 @@
 // BacklashCompensator: takes up the backlash of an axis wherever the path reverses the axis.
 //
-// Position in the pipeline: before the planner. Segments are cut where an axis with backlash reverses. There, the path
-// stops, and an extra segment moves only the motor of that axis, within the limits of the axis, until the backlash is
-// taken up. The tool does not move during that time, so it stays on the path, to the step. Each segment records on
-// which side the backlash of each axis is (Segment::downs), so that motion can be followed from any point of a segment.
+// Position in the pipeline: before the planner. Each segment records on which side the backlash of each axis is
+// (Segment::downs), so that motion can be followed from any point of a segment. There are two ways to take it up:
+//
+// - In motion, where the path goes on smoothly: in a piece of the path on which the axis stays within the tolerance of
+//   its turning point, the curve of the segment contains the additional motion of the motor (Segment::lead). The planner
+//   keeps the motor within the limits of its axis.
+// - At a stop, everywhere else: an extra segment moves only the motor of that axis, and the tool stays on the path, to
+//   the step.
+//
 // See docs/decisions/0083-backlash-is-taken-up-at-rest.md.
 //
 // A path begins and ends with all backlash taken up for motion in the positive direction, so the step counts alone
@@ -15,12 +20,17 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
 
 #include "passo/base/source.hpp"
+#include "passo/path/path_smoother.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
+
+// How much of the tolerance smoothing uses if an axis may take up backlash in motion. Half of the tolerance would be
+// better in curves, but worse in corners.
+inline constexpr double smoothing_share_with_backlash = 0.7;
 
 struct BacklashOptions {
   Point start;               // start of the path
@@ -31,6 +41,13 @@ struct BacklashOptions {
   // True: the first item takes up the initial backlash, even if there is none, so that the number of items does not
   // depend on `downs`.
   bool counts_items = false;
+  // The axes whose backlash may be taken up in motion.
+  AxisSet in_motion{};
+  // How much of the tolerance smoothing uses on these machines (Segment::tolerance is that part). The rest is for
+  // backlash that is taken up in motion. An arc is exact, so there the whole tolerance is.
+  double smoothing_share = 1;
+  // Whether the acceleration must be continuous.
+  Smoothness smoothness = Smoothness::least_bending;
 };
 
 // The position of a stopped machine, and the axes whose backlash is taken up for motion in the negative direction.
@@ -42,40 +59,17 @@ struct BacklashAtRest {
 class BacklashCompensator final : public Source<PathItem> {
  public:
   BacklashCompensator(Source<PathItem>& path, const BacklashOptions& options);
+  ~BacklashCompensator() override;
 
   // `at_rest` is called when the machine is stopped at the end of a probe move.
-  void ask_after_probe(std::function<BacklashAtRest()> at_rest) { at_rest_ = std::move(at_rest); }
+  void ask_after_probe(std::function<BacklashAtRest()> at_rest);
 
   [[nodiscard]] bool next(PathItem& item) override;
 
  private:
-  bool has_backlash(Axis axis) const { return options_.backlash[axis] > 0; }
-  bool pull(PathItem& item);
-  void begin(const Segment& segment);
-  bool emit_piece(PathItem& item);
-  bool follow_to_next_turn();
-  void take_up(const Point& at, AxisSet turned, PathItem& item);
-  bool emit_start(PathItem& item);
-  bool emit_end(PathItem& item);
-
+  class Implementation;
   Source<PathItem>& path_;
-  BacklashOptions options_;
-  bool any_ = false;
-  std::function<BacklashAtRest()> at_rest_;
-
-  AxisSet downs_;
-  Point place_;     // the end of the path so far
-  Point farthest_;  // the extreme position of each axis since its last reversal
-  bool asks_ = false;
-  bool started_ = false;
-  bool ended_ = false;
-
-  Segment segment_;  // the current segment
-  bool in_segment_ = false;
-  double from_ = 0;      // the part before this s was returned
-  double followed_ = 0;  // farthest_ includes the part before this s
-  AxisSet turned_;       // the axes that reverse at followed_
-  std::optional<Action> before_segment_;
+  std::unique_ptr<Implementation> implementation_;  // null: no axis has backlash
 };
 
 }  // namespace passo

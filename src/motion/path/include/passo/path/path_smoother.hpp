@@ -27,7 +27,9 @@ enum class Smoothness : std::uint8_t { least_bending, slow_bending };
 
 class PathSmoother final : public Source<PathItem> {
  public:
-  explicit PathSmoother(Source<PathItem>& path, Smoothness smoothness = Smoothness::least_bending);
+  // `share`: of each tolerance, above 0 and at most 1. The smoothed path deviates by at most this part of it, and the
+  // tolerances of the smoothed segments are these parts.
+  explicit PathSmoother(Source<PathItem>& path, Smoothness smoothness = Smoothness::least_bending, double share = 1);
   ~PathSmoother() override;
 
   [[nodiscard]] bool next(PathItem& item) override;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 
 #include "passo/geometry/curve.hpp"
@@ -21,6 +22,21 @@ struct OverridePermissions {
 
 // How a feed follows the spindle: its speed (G95), or its angle from an index pulse on (G33).
 enum class SpindleLock : std::uint8_t { none, speed, place };
+
+// The distance from the tool to the position of its motor on one axis, which changes along a segment as a cubic: its
+// values and its derivatives by s at both ends.
+struct MotorLead {
+  Axis axis = Axis::x;
+  double start = 0;
+  double start_slope = 0;
+  double end = 0;
+  double end_slope = 0;
+
+  double at(double s, double length) const;
+  double slope_at(double s, double length) const;
+  // The lead on a part of the segment.
+  MotorLead part(double from, double to, double length) const;
+};
 
 struct Segment {
   Curve curve;
@@ -45,9 +61,16 @@ struct Segment {
   // True: the segment takes up the backlash of an axis that reverses. The motor moves along the curve, while the tool
   // stays at the curve's end.
   bool takes_up_backlash = false;
+  // Set: the axis takes up its backlash while the path goes on. The motors move along the curve, and the path of the
+  // tool is the curve less this lead.
+  std::optional<MotorLead> lead{};
   OperationSource source{};
 
-  Point tool_at(Mm s) const { return takes_up_backlash ? curve.end() : curve.at(s); }
+  Point tool_at(Mm s) const;
+  // The path of the tool. If the segment takes up backlash at a stop: the curve of the motor.
+  Curve tool_curve() const;
+  // Leaves out the part before s.
+  void drop_before(Mm s);
 };
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {

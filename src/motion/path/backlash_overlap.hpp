@@ -1,0 +1,78 @@
+// BacklashOverlap: takes up backlash in motion instead of at a stop, where the path goes on smoothly at the reversal.
+//
+// Before its turning point an axis rises to its extreme value, and afterwards it falls again. Its motor may leave the
+// flank of the screw where the axis is still e below the extreme, and must be at the other flank where the axis is e
+// below the extreme again. In between, the axis stands somewhere in this range, or follows the motor in it. So it is
+// off the path by at most e, however the motor moves. On this window of the path, a BacklashRamp is added to the
+// position of the motor: the window becomes cubics of s, with the motor's position as the axis' value. The planner
+// keeps the motor within the limits of the axis, and a hold or a brake stops on these cubics as on every other segment.
+//
+// Where there is no such window, because the path stops there, has no tolerance, or two axes reverse together, the
+// segment that takes up the backlash at a stop remains. Private to path/.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "backlash_ramp.hpp"
+
+#include "passo/path/backlash_compensator.hpp"
+
+namespace passo {
+
+class BacklashOverlap final : public Source<PathItem> {
+ public:
+  // `path`: as BacklashStops returns it.
+  BacklashOverlap(Source<PathItem>& path, const BacklashOptions& options) : path_(path), options_(options) {}
+
+  [[nodiscard]] bool next(PathItem& item) override;
+
+ private:
+  // A piece of the path around a reversal, from s = 0 on.
+  struct Run {
+    std::vector<Segment> segments;
+    std::vector<double> starts;  // s of each segment, and the end
+    double turn = 0;             // s of the reversal
+    double last_end = 0;         // s where the window ends at the latest
+
+    double length() const { return starts.back(); }
+    std::size_t segment_at(double s) const;
+  };
+  struct Reversal {
+    Axis axis = Axis::x;
+    double lead = 0;  // of the motor at the start of the window
+    double extreme = 0;
+    double room = 0;  // by which the axis may be off the path
+    double reach = 0;
+    bool on_arcs = false;
+    AxisSet downs;
+  };
+  struct Window {
+    double begin = 0;
+    double end = 0;
+  };
+
+  bool read(PathItem& item);
+  void keep(const Segment& segment);
+  void release_all();
+  void take_up(const Segment& at_stop);
+  bool overlap(const Segment& at_stop);
+  bool find_reversal(const Segment& at_stop, Reversal& reversal);
+  void read_ahead(const Reversal& reversal);
+  double room_on(const Segment& segment, Axis axis, bool on_arcs) const;
+  bool is_usable(const Segment& segment, const Reversal& reversal) const;
+  Run run_around(const Reversal& reversal) const;
+  static Window window_of(const Run& run, const Reversal& reversal);
+  BacklashRamp best_ramp(const Run& run, const Window& window, const Reversal& reversal) const;
+  void rewrite(Run& run, const Window& window, const BacklashRamp& ramp, const Reversal& reversal);
+  void add_piece(const Segment& whole, double start, double from, double to, const BacklashRamp& ramp,
+                 const Reversal& reversal);
+
+  Source<PathItem>& path_;
+  BacklashOptions options_;
+  std::deque<Segment> behind_;   // the last segments of a smooth path: a window may begin on them
+  std::deque<PathItem> ahead_;   // items that were read too early
+  std::deque<PathItem> ready_;
+};
+
+}  // namespace passo
