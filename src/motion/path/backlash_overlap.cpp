@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace passo {
@@ -11,6 +12,10 @@ namespace {
 constexpr double longest_window = 100;
 // Of the backlash: in a shorter window the motor would move four times as far as the tool. A stop takes as long.
 constexpr double shortest_window = 0.5;
+// Of the permitted deviation: how far below its extreme an axis may be at both ends of the window, and by which factor
+// depths are tried.
+constexpr double greatest_depth = 30;
+constexpr double next_depth = 1.2;
 // In mm or degrees of s. A shorter piece is no path for a planner.
 constexpr double shortest_piece = 1e-5;
 // In radians. A cubic with the ends and the slopes of such an arc differs from it by 2e-9 of the radius, and by 1e-4 of
@@ -47,6 +52,11 @@ double border(const Curve& curve, Axis axis, double extreme, double room, double
 std::size_t BacklashOverlap::Run::segment_at(double s) const {
   const auto after = std::upper_bound(starts.begin(), starts.end() - 1, s);
   return after == starts.begin() ? 0 : static_cast<std::size_t>(after - starts.begin()) - 1;
+}
+
+double BacklashOverlap::Run::at(double s, Axis axis) const {
+  const std::size_t i = segment_at(s);
+  return segments[i].curve.at(Mm(std::clamp(s - starts[i], 0.0, segments[i].curve.length().value())))[axis];
 }
 
 bool BacklashOverlap::next(PathItem& item) {
@@ -113,11 +123,24 @@ bool BacklashOverlap::overlap(const Segment& at_stop) {
   Reversal reversal;
   if (!find_reversal(at_stop, reversal)) return false;
   Run run = run_around(reversal);
-  Window window = window_of(run, reversal);
-  if (!(window.begin < run.turn && window.end > run.turn)) return false;
-  if (!(window.end - window.begin > std::max(shortest_window * std::abs(reversal.lead), 20 * shortest_piece)))
-    return false;
-  rewrite(run, window, best_ramp(run, window, reversal), reversal);
+  std::optional<Window> window;
+  std::optional<BacklashRamp> ramp;
+  for (double depth = reversal.room; depth <= reversal.room * greatest_depth; depth *= next_depth) {
+    const Window deeper = window_of(run, reversal, depth);
+    if (!(deeper.begin < run.turn && deeper.end > run.turn)) break;
+    const double width = deeper.end - deeper.begin;
+    if (!(width > std::max(shortest_window * std::abs(reversal.lead), 20 * shortest_piece))) continue;
+    if (window && !(width > window->end - window->begin)) break;
+    const BacklashRamp its_ramp = best_ramp(run, deeper, reversal);
+    const AxisWay way = way_on(run, deeper, its_ramp, reversal);
+    if (std::abs(way.at_end) > options_.least[reversal.axis]) break;
+    const bool is_certain = depth == reversal.room;
+    if (!is_certain && way.deviation > reversal.room) break;
+    window = deeper;
+    ramp = its_ramp;
+  }
+  if (!window) return false;
+  rewrite(run, *window, *ramp, reversal);
   return true;
 }
 
@@ -178,7 +201,7 @@ bool BacklashOverlap::is_usable(const Segment& segment, const Reversal& reversal
 // The segments before and after the reversal that may be part of the window.
 BacklashOverlap::Run BacklashOverlap::run_around(const Reversal& reversal) const {
   const auto near = [&](const Point& place) {
-    return std::abs(place[reversal.axis] - reversal.extreme) <= reversal.room;
+    return std::abs(place[reversal.axis] - reversal.extreme) <= reversal.room * greatest_depth;
   };
   Run run;
   double before = 0;
@@ -206,19 +229,29 @@ BacklashOverlap::Run BacklashOverlap::run_around(const Reversal& reversal) const
 }
 
 // As long as the tolerance allows. Both sides share the reach.
-BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversal& reversal) {
+BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversal& reversal, double depth) {
   const auto is_near = [&](const Point& place) {
-    return std::abs(place[reversal.axis] - reversal.extreme) <= reversal.room;
+    return std::abs(place[reversal.axis] - reversal.extreme) <= depth;
   };
   const auto border_on = [&](std::size_t i, double out, double in) {
-    return run.starts[i] +
-           border(run.segments[i].curve, reversal.axis, reversal.extreme, reversal.room, out, in);
+    return run.starts[i] + border(run.segments[i].curve, reversal.axis, reversal.extreme, depth, out, in);
   };
   Window window{.begin = 0, .end = run.length()};
-  const Curve& first = run.segments.front().curve;
-  const Curve& last = run.segments.back().curve;
-  if (!is_near(first.start())) window.begin = border_on(0, 0, first.length().value());
-  if (!is_near(last.end())) window.end = border_on(run.segments.size() - 1, last.length().value(), 0);
+  const std::size_t turn = run.segment_at(run.turn);
+  const auto begin_at_depth = [&] {
+    for (std::size_t i = turn; i-- > 0;) {
+      const Curve& curve = run.segments[i].curve;
+      if (!is_near(curve.start())) return border_on(i, 0, curve.length().value());
+    }
+    return 0.0;
+  };
+  window.begin = begin_at_depth();
+  for (std::size_t i = turn; i < run.segments.size(); ++i) {
+    const Curve& curve = run.segments[i].curve;
+    if (is_near(curve.end())) continue;
+    window.end = border_on(i, curve.length().value(), 0);
+    break;
+  }
   window.end = std::min(window.end, run.last_end);
   const double before = run.turn - window.begin;
   const double after = window.end - run.turn;
@@ -227,6 +260,9 @@ BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversa
     window.begin = run.turn - kept;
     window.end = run.turn + std::min(after, reversal.reach - kept);
   }
+  // An axis that stood lower than the path at the end of the window would have no flank there.
+  depth = std::min(depth, std::abs(run.at(window.end, reversal.axis) - reversal.extreme));
+  window.begin = std::max(window.begin, begin_at_depth());
   for (const double start : run.starts) {
     if (std::abs(window.begin - start) < shortest_piece) window.begin = start;
     if (std::abs(window.end - start) < shortest_piece) window.end = start;
@@ -268,6 +304,26 @@ BacklashRamp BacklashOverlap::best_ramp(const Run& run, const Window& window, co
     least = std::min(least, most);
   }
   return best;
+}
+
+// The axis begins at the flank on which it came.
+BacklashOverlap::AxisWay BacklashOverlap::way_on(const Run& run, const Window& window, const BacklashRamp& ramp,
+                                                 const Reversal& reversal) {
+  constexpr int looks = 100;
+  constexpr double between_looks = 1.02;
+  const double down = reversal.lead > 0 ? 1 : -1;
+  const double backlash = std::abs(reversal.lead);
+  double height = down * run.at(window.begin, reversal.axis);  // of the axis; the extreme is the highest
+  AxisWay way;
+  for (int i = 0; i <= looks; ++i) {
+    const double s = window.begin + (window.end - window.begin) * i / looks;
+    const double planned = down * run.at(s, reversal.axis);
+    const double motor = planned - backlash * ramp.at(s);  // of the flank below the axis
+    height = std::clamp(height, motor, motor + backlash);
+    way.at_end = height - planned;
+    way.deviation = std::max(way.deviation, std::abs(way.at_end) * between_looks);
+  }
+  return way;
 }
 
 // Replaces the segments of the window.

@@ -1,11 +1,15 @@
 // BacklashOverlap: takes up backlash in motion instead of at a stop, where the path goes on smoothly at the reversal.
 //
-// Before its turning point an axis rises to its extreme value, and afterwards it falls again. Its motor may leave the
-// flank of the screw where the axis is still e below the extreme, and must be at the other flank where the axis is e
-// below the extreme again. In between, the axis stands somewhere in this range, or follows the motor in it. So it is
-// off the path by at most e, however the motor moves. On this window of the path, a BacklashRamp is added to the
-// position of the motor: the window becomes cubics of s, with the motor's position as the axis' value. The planner
-// keeps the motor within the limits of the axis, and a hold or a brake stops on these cubics as on every other segment.
+// On a window of the path around the turning point, a BacklashRamp is added to the position of the motor: the window
+// becomes cubics of s, with the motor's position as the axis' value. The planner keeps the motor within the limits of
+// the axis, and a hold or a brake stops on these cubics as on every other segment.
+//
+// Where does the axis go? It rises with the motor until the motor turns, and stands until the motor has passed the
+// backlash and comes to the other flank of the screw. Then it falls with the motor. The window begins and ends where
+// the path is by a certain depth below the extreme value of the axis. If this depth is the permitted deviation e, the
+// axis stays in this range, so it is off the path by less than e, however the motor moves. A ramp is slow at its ends,
+// so a greater depth is possible. The greatest one with which the axis, followed as above, stays within e is best: a
+// long window needs the least acceleration.
 //
 // Where there is no such window, because the path stops there, has no tolerance, or two axes reverse together, the
 // segment that takes up the backlash at a stop remains. Private to path/.
@@ -36,13 +40,14 @@ class BacklashOverlap final : public Source<PathItem> {
     double last_end = 0;         // s where the window ends at the latest
 
     double length() const { return starts.back(); }
+    double at(double s, Axis axis) const;
     std::size_t segment_at(double s) const;
   };
   struct Reversal {
     Axis axis = Axis::x;
     double lead = 0;  // of the motor at the start of the window
     double extreme = 0;
-    double room = 0;  // by which the axis may be off the path
+    double room = 0;  // the permitted deviation
     double reach = 0;
     bool on_arcs = false;
     AxisSet downs;
@@ -62,7 +67,13 @@ class BacklashOverlap final : public Source<PathItem> {
   double room_on(const Segment& segment, Axis axis, bool on_arcs) const;
   bool is_usable(const Segment& segment, const Reversal& reversal) const;
   Run run_around(const Reversal& reversal) const;
-  static Window window_of(const Run& run, const Reversal& reversal);
+  static Window window_of(const Run& run, const Reversal& reversal, double depth);
+  // How far the axis is off the path, at most and at the end of the window.
+  struct AxisWay {
+    double deviation = 0;
+    double at_end = 0;
+  };
+  static AxisWay way_on(const Run& run, const Window& window, const BacklashRamp& ramp, const Reversal& reversal);
   BacklashRamp best_ramp(const Run& run, const Window& window, const Reversal& reversal) const;
   void rewrite(Run& run, const Window& window, const BacklashRamp& ramp, const Reversal& reversal);
   void add_piece(const Segment& whole, double start, double from, double to, const BacklashRamp& ramp,
