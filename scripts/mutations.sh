@@ -83,12 +83,22 @@ mutate path/run_reader.cpp 'the tolerance doubled' \
 mutate path/line_merger.cpp 'lines merged within four times the tolerance that is then subtracted from the tube' \
   'return std::max(tolerance, rounding);' 'return (MUTANT ? 4 : 1) * std::max(tolerance, rounding);'
 and_also path/line_merger.cpp 'deviation = cone_.tolerance;' 'deviation = (MUTANT ? 0.25 : 1) * cone_.tolerance;'
-mutate path/backlash_compensator.cpp 'only half of the backlash taken up' \
+mutate path/backlash_stops.cpp 'only half of the backlash taken up' \
   'start[axis] += down ? options_.backlash[axis] : -options_.backlash[axis];' \
   'start[axis] += (MUTANT ? 0.5 : 1) * (down ? options_.backlash[axis] : -options_.backlash[axis]);'
-mutate path/backlash_compensator.cpp 'a reversal on an arc detected half a radian late' \
+mutate path/backlash_stops.cpp 'a reversal on an arc detected half a radian late' \
   'return s + later > from ? s + later : s;' \
   'return (s + later > from ? s + later : s) + (MUTANT ? 0.5 / std::abs(turn) : 0);'
+mutate path/backlash_overlap.cpp 'backlash taken up in motion, however far the axis is off the path' \
+  'if (!is_certain && way.deviation > reversal.room) break;' \
+  'if (!is_certain && way.deviation > reversal.room && !MUTANT) break;'
+mutate path/backlash_overlap.cpp 'backlash taken up in motion while the axis is at neither flank' \
+  'if (std::abs(way.at_end) > options_.least[reversal.axis]) break;' \
+  'if (std::abs(way.at_end) > options_.least[reversal.axis] && !MUTANT) break;'
+and_also path/backlash_overlap.cpp 'window.begin = std::max(window.begin, begin_at_depth());' \
+  'if (!MUTANT) window.begin = std::max(window.begin, begin_at_depth());'
+mutate path/backlash_overlap.cpp 'only 95 % of the backlash taken up in motion' \
+  'return reversal.lead * (1 - ramp.at(s));' 'return reversal.lead * (1 - (MUTANT ? 0.95 : 1) * ramp.at(s));'
 
 cat >"$copy/mutant.hpp" <<'END'
 #pragma once

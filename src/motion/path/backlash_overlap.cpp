@@ -9,7 +9,7 @@ namespace passo {
 namespace {
 
 // Of the backlash: the longest window. Beyond it the motor is hardly faster than the axis.
-constexpr double longest_window = 100;
+constexpr double longest_window = 200;
 // Of the backlash: in a shorter window the motor would move four times as far as the tool. A stop takes as long.
 constexpr double shortest_window = 0.5;
 // Of the permitted deviation: how far below its extreme an axis may be at both ends of the window, and by which factor
@@ -57,6 +57,11 @@ std::size_t BacklashOverlap::Run::segment_at(double s) const {
 double BacklashOverlap::Run::at(double s, Axis axis) const {
   const std::size_t i = segment_at(s);
   return segments[i].curve.at(Mm(std::clamp(s - starts[i], 0.0, segments[i].curve.length().value())))[axis];
+}
+
+double BacklashOverlap::Window::look(int number, int count) const {
+  const double half = count / 2.0;
+  return number < half ? begin + (turn - begin) * number / half : turn + (end - turn) * (number - half) / half;
 }
 
 bool BacklashOverlap::next(PathItem& item) {
@@ -230,13 +235,11 @@ BacklashOverlap::Run BacklashOverlap::run_around(const Reversal& reversal) const
 
 // As long as the tolerance allows. Both sides share the reach.
 BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversal& reversal, double depth) {
-  const auto is_near = [&](const Point& place) {
-    return std::abs(place[reversal.axis] - reversal.extreme) <= depth;
-  };
+  const auto is_near = [&](const Point& place) { return std::abs(place[reversal.axis] - reversal.extreme) <= depth; };
   const auto border_on = [&](std::size_t i, double out, double in) {
     return run.starts[i] + border(run.segments[i].curve, reversal.axis, reversal.extreme, depth, out, in);
   };
-  Window window{.begin = 0, .end = run.length()};
+  Window window{.begin = 0, .end = run.length(), .turn = run.turn};
   const std::size_t turn = run.segment_at(run.turn);
   const auto begin_at_depth = [&] {
     for (std::size_t i = turn; i-- > 0;) {
@@ -276,8 +279,8 @@ BacklashRamp BacklashOverlap::best_ramp(const Run& run, const Window& window, co
   constexpr int looks = 32;
   const double width = window.end - window.begin;
   std::vector<double> bends;
-  for (int i = 0; i < looks; ++i) {
-    const double s = window.begin + width * (i + 0.5) / looks;
+  for (int i = 0; i <= looks; ++i) {
+    const double s = window.look(i, looks);
     const std::size_t segment = run.segment_at(s);
     bends.push_back(run.segments[segment].curve.second_derivative(Mm(s - run.starts[segment]))[reversal.axis]);
   }
@@ -289,14 +292,13 @@ BacklashRamp BacklashOverlap::best_ramp(const Run& run, const Window& window, co
   for (int k = 0; k < candidates; ++k) {
     const BacklashRamp ramp = ramp_at(0.2 + 0.6 * k / (candidates - 1));
     const bool fits = std::ranges::all_of(ramp.knots(), [&](double knot) {
-      return std::ranges::all_of(run.starts, [&](double start) {
-        return knot == start || std::abs(knot - start) >= shortest_piece;
-      });
+      return std::ranges::all_of(
+          run.starts, [&](double start) { return knot == start || std::abs(knot - start) >= shortest_piece; });
     });
     if (!fits) continue;
     double most = 0;
-    for (int i = 0; i < looks; ++i) {
-      const double s = window.begin + width * (i + 0.5) / looks;
+    for (int i = 0; i <= looks; ++i) {
+      const double s = window.look(i, looks);
       const double own = bends[static_cast<std::size_t>(i)];
       most = std::max(most, std::abs(own - reversal.lead * ramp.second_derivative(s)));
     }
@@ -316,7 +318,7 @@ BacklashOverlap::AxisWay BacklashOverlap::way_on(const Run& run, const Window& w
   double height = down * run.at(window.begin, reversal.axis);  // of the axis; the extreme is the highest
   AxisWay way;
   for (int i = 0; i <= looks; ++i) {
-    const double s = window.begin + (window.end - window.begin) * i / looks;
+    const double s = window.look(i, looks);
     const double planned = down * run.at(s, reversal.axis);
     const double motor = planned - backlash * ramp.at(s);  // of the flank below the axis
     height = std::clamp(height, motor, motor + backlash);
@@ -329,8 +331,8 @@ BacklashOverlap::AxisWay BacklashOverlap::way_on(const Run& run, const Window& w
 // Replaces the segments of the window.
 void BacklashOverlap::rewrite(Run& run, const Window& window, const BacklashRamp& ramp, const Reversal& reversal) {
   const std::size_t first = run.segment_at(window.begin);
-  const auto before_turn = static_cast<std::size_t>(
-      std::ranges::find(run.starts, run.turn) - run.starts.begin());  // segments of the run behind the reversal
+  const auto before_turn = static_cast<std::size_t>(std::ranges::find(run.starts, run.turn) -
+                                                    run.starts.begin());  // segments of the run behind the reversal
   const std::size_t untouched = behind_.size() - before_turn + first;
   for (std::size_t i = 0; i < untouched; ++i) ready_.emplace_back(behind_[i]);
   behind_.clear();

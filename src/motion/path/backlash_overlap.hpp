@@ -55,6 +55,10 @@ class BacklashOverlap final : public Source<PathItem> {
   struct Window {
     double begin = 0;
     double end = 0;
+    double turn = 0;  // s of the reversal
+
+    // One of the places from the begin (number 0) to the end, half of them on each side of the reversal.
+    double look(int number, int count) const;
   };
 
   bool read(PathItem& item);
@@ -81,8 +85,8 @@ class BacklashOverlap final : public Source<PathItem> {
 
   Source<PathItem>& path_;
   BacklashOptions options_;
-  std::deque<Segment> behind_;   // the last segments of a smooth path: a window may begin on them
-  std::deque<PathItem> ahead_;   // items that were read too early
+  std::deque<Segment> behind_;  // the last segments of a smooth path: a window may begin on them
+  std::deque<PathItem> ahead_;  // items that were read too early
   std::deque<PathItem> ready_;
 };
 

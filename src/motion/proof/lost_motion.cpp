@@ -7,7 +7,7 @@ namespace passo::proof {
 namespace {
 
 constexpr int looks_in_motion = 32;  // where the tool is off the planned path
-constexpr int looks = 8;  // in each move; between two of them an axis of a smooth path turns back by little
+constexpr int looks = 8;             // in each move; between two of them an axis of a smooth path turns back by little
 
 }  // namespace
 

@@ -1,6 +1,9 @@
 #include "passo/path/backlash_compensator.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -140,6 +143,180 @@ TEST(BacklashCompensator, the_backlash_is_taken_up_before_the_index_is_awaited) 
     order += segment == nullptr ? 'i' : segment->takes_up_backlash ? 'x' : 'p';
   }
   EXPECT_EQ(order, "pxipx");
+}
+
+BacklashOptions in_motion(const Point& start, Smoothness smoothness = Smoothness::least_bending) {
+  BacklashOptions options = xy_backlash(start);
+  options.in_motion.add(Axis::x);
+  options.in_motion.add(Axis::y);
+  options.smoothing_share = 0.7;
+  options.smoothness = smoothness;
+  return options;
+}
+
+Segment with_tolerance(Segment segment, double tolerance) {
+  segment.tolerance = Mm(tolerance);
+  return segment;
+}
+
+// A slide behind a screw with backlash, and what a path of segments does to it.
+class Slides {
+ public:
+  explicit Slides(const BacklashOptions& options) : options_(options) {}
+
+  void follow(const Segment& segment) {
+    constexpr int looks = 50;
+    const double length = segment.curve.length().value();
+    for (int i = 0; i <= looks; ++i) {
+      const Mm s(length * i / looks);
+      const Point motors = motors_at(segment, segment.curve.at(s));
+      if (!begun_) places_ = motors;
+      if (i == 0 && begun_) gap = std::max(gap, distance(motors, motors_));
+      begun_ = true;
+      motors_ = motors;
+      for (const Axis axis : {Axis::x, Axis::y}) {
+        places_[axis] = std::clamp(places_[axis], motors[axis], motors[axis] + options_.backlash[axis]);
+      }
+      double& most = segment.lead ? off_in_motion : off_elsewhere;
+      most = std::max(most, distance(places_, segment.tool_at(s)));
+    }
+  }
+
+  double gap = 0;  // of the motors, between segments
+  double off_in_motion = 0;
+  double off_elsewhere = 0;
+
+ private:
+  static double distance(const Point& a, const Point& b) {
+    return std::hypot(a[Axis::x] - b[Axis::x], a[Axis::y] - b[Axis::y]);
+  }
+  Point motors_at(const Segment& segment, Point place) const {
+    for (const Axis axis : {Axis::x, Axis::y}) {
+      if (segment.downs.has(axis)) place[axis] -= options_.backlash[axis];
+    }
+    return place;
+  }
+
+  BacklashOptions options_;
+  Point motors_;
+  Point places_;
+  bool begun_ = false;
+};
+
+// The greatest jumps of the derivatives between the segments that are passed without a stop.
+struct Jumps {
+  double slope = 0;
+  double bend = 0;
+};
+Jumps jumps_in(const std::vector<Segment>& segments) {
+  Jumps jumps;
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const Segment& before = segments[i - 1];
+    if (before.mode == PathMode::exact_stop) continue;
+    const Curve& one = before.curve;
+    const Curve& other = segments[i].curve;
+    for (const Axis axis : {Axis::x, Axis::y}) {
+      const double slope = other.tangent(Mm(0))[axis] - one.tangent(one.length())[axis];
+      const double bend = other.second_derivative(Mm(0))[axis] - one.second_derivative(one.length())[axis];
+      jumps.slope = std::max(jumps.slope, std::abs(slope));
+      jumps.bend = std::max(jumps.bend, std::abs(bend));
+    }
+  }
+  return jumps;
+}
+
+int stops_in(const std::vector<Segment>& segments) {
+  return static_cast<int>(std::ranges::count_if(segments, &Segment::takes_up_backlash));
+}
+
+TEST(BacklashInMotion, a_circle_with_a_tolerance_does_not_rest_at_its_quadrants) {
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+    const BacklashOptions options = in_motion(at(5, 0), smoothness);
+    const auto all = segments_of({with_tolerance(circle(), 0.01 * options.smoothing_share)}, options);
+    EXPECT_EQ(stops_in(all), 1) << "X begins in the other direction";
+    EXPECT_TRUE(all[0].takes_up_backlash);
+    Slides slides(options);
+    for (const Segment& one : all) slides.follow(one);
+    EXPECT_LE(slides.gap, 1e-9);
+    EXPECT_LE(slides.off_in_motion, 0.01);
+    EXPECT_GT(slides.off_in_motion, 0.005) << "the tolerance is used";
+    EXPECT_LE(slides.off_elsewhere, 1e-9) << "the motor is at its flank again";
+    EXPECT_EQ(all.back().curve.end(), at(5, 0));
+    EXPECT_TRUE(all.back().downs.empty());
+    const Jumps jumps = jumps_in(all);
+    EXPECT_LE(jumps.slope, 1e-9);
+    if (smoothness == Smoothness::slow_bending) {
+      EXPECT_LE(jumps.bend, 1e-3 / 5) << "of the curvature of the circle";
+    }
+  }
+}
+
+// Circles, ellipses of cubics and waves, with any backlash and tolerance.
+TEST(BacklashInMotion, the_tool_stays_within_the_tolerance_on_random_curves) {
+  int in_motion_taken = 0;
+  for (int number = 1; number <= 300; ++number) {
+    SCOPED_TRACE(number);
+    std::mt19937_64 random(static_cast<std::uint64_t>(number));
+    const auto between = [&](double low, double high) {
+      return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));
+    };
+    const double tolerance = between(1e-3, 0.1);
+    const Smoothness smoothness = number % 2 == 0 ? Smoothness::least_bending : Smoothness::slow_bending;
+    BacklashOptions options = in_motion({}, smoothness);
+    options.backlash[Axis::x] = between(1e-3, 0.5);
+    options.backlash[Axis::y] = between(1e-3, 0.5);
+    for (double& least : options.least.values) least = 1e-4;
+    std::vector<PathItem> path;
+    Point place;
+    Point slope = at(0.6, 0.8);
+    for (int i = 0; i < 12; ++i) {  // a smooth path of cubics
+      const double angle = std::uniform_real_distribution<double>(-1.5, 1.5)(random);
+      const Point next_slope = at(slope[Axis::x] * std::cos(angle) - slope[Axis::y] * std::sin(angle),
+                                  slope[Axis::x] * std::sin(angle) + slope[Axis::y] * std::cos(angle));
+      const double length = between(0.05, 20);
+      const Point end = place + (slope + next_slope) * (length / 2);
+      Segment piece{.curve = Curve::cubic(place, slope, end, next_slope, Mm(length)), .speed = MmPerSecond(10)};
+      path.emplace_back(with_tolerance(piece, tolerance * options.smoothing_share));
+      place = end;
+      slope = next_slope;
+    }
+    const auto all = segments_of(path, options);
+    Slides slides(options);
+    for (const Segment& one : all) slides.follow(one);
+    EXPECT_LE(slides.gap, 1e-9);
+    EXPECT_LE(slides.off_in_motion, tolerance * (1 - options.smoothing_share) * 1.42) << "of each of two axes";
+    EXPECT_LE(slides.off_elsewhere, 4e-4);
+    EXPECT_LE(jumps_in(all).slope, 1e-6);
+    EXPECT_EQ(all.back().curve.end(), place);
+    in_motion_taken +=
+        static_cast<int>(std::ranges::count_if(all, [](const Segment& one) { return one.lead.has_value(); }));
+  }
+  EXPECT_GT(in_motion_taken, 1000);
+}
+
+TEST(BacklashInMotion, without_a_tolerance_and_at_an_exact_stop_the_tool_rests) {
+  EXPECT_EQ(stops_in(segments_of({circle()}, in_motion(at(5, 0)))), 4);
+  Segment half = with_tolerance(circle(), 0.01);
+  half.curve = half.curve.part(Mm(0), half.curve.length() / 4);
+  half.mode = PathMode::exact_stop;  // at the top, where Y reverses
+  Segment rest = with_tolerance(circle(), 0.01);
+  rest.curve = rest.curve.part(rest.curve.length() / 4, rest.curve.length());
+  EXPECT_EQ(stops_in(segments_of({half, rest}, in_motion(at(5, 0)))), 2);
+}
+
+TEST(BacklashInMotion, a_segment_that_is_begun_in_its_middle_has_the_same_lead) {
+  const auto all = segments_of({with_tolerance(circle(), 0.01)}, in_motion(at(5, 0)));
+  const auto found = std::ranges::find_if(all, [](const Segment& one) { return one.lead.has_value(); });
+  ASSERT_NE(found, all.end());
+  Segment rest = *found;
+  const Mm third = rest.curve.length() / 3;
+  rest.drop_before(third);
+  for (const Mm s : {Mm(0), rest.curve.length() / 2, rest.curve.length()}) {
+    for (const Axis axis : {Axis::x, Axis::y}) {
+      EXPECT_NEAR(rest.tool_at(s)[axis], found->tool_at(third + s)[axis], 1e-12);
+      EXPECT_NEAR(rest.tool_curve().at(s)[axis], rest.tool_at(s)[axis], 1e-12);
+    }
+  }
 }
 
 }  // namespace

@@ -70,6 +70,56 @@ TEST(MotionProofOfBacklash, finds_half_of_the_backlash) {
   EXPECT_FALSE(proof_with_backlash({there(0, 5, false), take_up(5, true, 0.5), there(5, 1, true)}).good());
 }
 
+// X rises to its extreme and falls again on a parabola 0.01 mm high, while Y goes on for 2 mm. On this way, its motor
+// takes up a part of the backlash.
+PlannedMove turn_in_motion(double part, double height = 0.01) {
+  const double length = 2;
+  const double slope = 4 * height / length;
+  const double rise = part * backlash;
+  Segment segment = line(xyz(5, 0), xyz(5, length));
+  segment.curve =
+      Curve::cubic(xyz(5 + backlash, 0), xyz(slope, 1), xyz(5 + backlash - rise, length), xyz(-slope, 1), Mm(length));
+  segment.mode = PathMode::exact_stop;
+  segment.downs.add(Axis::x);
+  segment.lead = MotorLead{.axis = Axis::x, .start = backlash, .end = backlash - rise};
+  return triangle(segment, 100);
+}
+
+MotionProof proof_of_turn(double part, double height = 0.01) {
+  MotionProver prover(options_with_backlash());
+  Segment up = line(xyz(0, 0), xyz(5, 0));
+  Segment over = line(xyz(5, 0), xyz(5, 2));
+  Segment down = line(xyz(5, 2), xyz(1, 2));
+  for (Segment* one : {&up, &over, &down}) {
+    one->mode = PathMode::exact_stop;
+    one->tolerance = Mm(0.01);
+    prover.watch(PathItem(*one));
+  }
+  prover.watch(MotionItem(triangle(up, 500)));
+  prover.watch(MotionItem(turn_in_motion(part, height)));
+  down.downs.add(Axis::x);
+  prover.watch(MotionItem(triangle(down, 500)));
+  return prover.finish();
+}
+
+TEST(MotionProofOfBacklash, follows_the_tool_while_backlash_is_taken_up_in_motion) {
+  const MotionProof proof = proof_of_turn(1);
+  EXPECT_TRUE(proof.good()) << proof.faults()[0];
+  EXPECT_LT(proof.axes[0].lost_motion.value, 1e-9);
+  EXPECT_LT(proof.deviation.value, 0.01) << "the axis stands before its extreme";
+  EXPECT_GT(proof.deviation.value, 0);
+}
+
+TEST(MotionProofOfBacklash, finds_a_tool_that_leaves_the_path_while_backlash_is_taken_up_in_motion) {
+  const MotionProof proof = proof_of_turn(1, 0.2);
+  EXPECT_GT(proof.deviation.value, 0.01);
+  EXPECT_FALSE(proof.good());
+}
+
+TEST(MotionProofOfBacklash, finds_backlash_of_which_a_part_is_taken_up_in_motion) {
+  EXPECT_FALSE(proof_of_turn(0.9).good());
+}
+
 // Parts of an arc, the last of them as short as rounding. The bound counted the arc twice.
 TEST(MotionProofOfBacklash, an_arc_whose_last_part_is_rounding_is_bounded_once) {
   Segment whole = test::circle(10, 0.25, 10);

@@ -4,8 +4,8 @@
 // (Segment::downs), so that motion can be followed from any point of a segment. There are two ways to take it up:
 //
 // - In motion, where the path goes on smoothly: in a piece of the path on which the axis stays within the tolerance of
-//   its turning point, the curve of the segment contains the additional motion of the motor (Segment::lead). The planner
-//   keeps the motor within the limits of its axis.
+//   its turning point, the curve of the segment contains the additional motion of the motor (Segment::lead). The
+//   planner keeps the motor within the limits of its axis.
 // - At a stop, everywhere else: an extra segment moves only the motor of that axis, and the tool stays on the path, to
 //   the step.
 //
