@@ -92,11 +92,6 @@ mutate path/backlash_stops.cpp 'a reversal on an arc detected half a radian late
 mutate path/backlash_overlap.cpp 'backlash taken up in motion, however far the axis is off the path' \
   'if (!is_certain && way.deviation > reversal.room) break;' \
   'if (!is_certain && way.deviation > reversal.room && !MUTANT) break;'
-mutate path/backlash_overlap.cpp 'backlash taken up in motion while the axis is at neither flank' \
-  'if (std::abs(way.at_end) > options_.least[reversal.axis]) break;' \
-  'if (std::abs(way.at_end) > options_.least[reversal.axis] && !MUTANT) break;'
-and_also path/backlash_overlap.cpp 'window.begin = std::max(window.begin, begin_at_depth());' \
-  'if (!MUTANT) window.begin = std::max(window.begin, begin_at_depth());'
 mutate path/backlash_overlap.cpp 'only 95 % of the backlash taken up in motion' \
   'return reversal.lead * (1 - ramp.at(s));' 'return reversal.lead * (1 - (MUTANT ? 0.95 : 1) * ramp.at(s));'
 

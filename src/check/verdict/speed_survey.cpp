@@ -39,7 +39,7 @@ void SpeedSurvey::watch(const PlannedMove& move) {
   if (same_line && std::exchange(only_takes_up_, false)) {  // the line itself begins
     only_takes_up_ = takes_up;
     part_.rapid = segment.rapid;
-    part_.turns = only_turns(segment.curve);
+    part_.turns = only_turns(segment.curve, segment.surface);
     part_.programmed = segment.speed;
     if (!part_.rapid) part_.lost = part_.time;
   } else if (!same_line || (segment.rapid != part_.rapid && !takes_up)) {
@@ -48,7 +48,7 @@ void SpeedSurvey::watch(const PlannedMove& move) {
     highest_look_ = MmPerSecond(0);
     part_ = {.line = segment.source.line,
              .rapid = segment.rapid,
-             .turns = only_turns(segment.curve),
+             .turns = only_turns(segment.curve, segment.surface),
              .programmed = segment.speed};
     only_takes_up_ = takes_up;
   }

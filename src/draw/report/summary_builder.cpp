@@ -85,7 +85,7 @@ class SummaryBuilder::Implementation {
     if (segment.rapid) return;
     work.cutting.add(box.low, box.high);
     ToolSummary& tool = tool_of(path_tool_);
-    widen(only_turns(segment.curve) ? tool.turn_feed : tool.feed, segment.speed.value());
+    widen(only_turns(segment.curve, segment.surface) ? tool.turn_feed : tool.feed, segment.speed.value());
     tool.depth = std::min(tool.depth.value_or(box.low[Axis::z]), box.low[Axis::z]);
   }
 
@@ -95,7 +95,7 @@ class SummaryBuilder::Implementation {
     const Mm way = move.to - move.from();
     ToolSummary& tool = tool_of(motion_tool_);
     (segment.rapid ? tool.rapid_time : tool.cutting_time) += move.duration();
-    if (only_turns(segment.curve)) {
+    if (only_turns(segment.curve, segment.surface)) {
       (segment.rapid ? sum_.rapid_turn : sum_.cutting_turn) += way.value();
       if (!segment.rapid) tool.cutting_turn += way.value();
     } else {

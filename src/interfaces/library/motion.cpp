@@ -44,7 +44,7 @@ void MotionRecording::add(const passo::PlannedMove& move) {
   content.phases.insert(content.phases.end(), move.begin(), move.end());
   content.duration += move.duration().value();
   content.has_backlash = content.has_backlash || move.segment.takes_up_backlash || move.segment.lead;
-  if (!move.segment.takes_up_backlash && !passo::only_turns(move.segment.curve))
+  if (!move.segment.takes_up_backlash && !passo::only_turns(move.segment.curve, move.segment.surface))
     content.length += (move.to - move.from()).value();
   goes_on_ = move.to < move.segment.curve.length();
 }

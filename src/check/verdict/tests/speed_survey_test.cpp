@@ -167,5 +167,18 @@ TEST(SpeedSurvey, knows_a_line_that_only_turns) {
   EXPECT_TRUE(report.fastest[0].turns);
 }
 
+TEST(SpeedSurvey, gives_the_speed_of_a_surface_in_millimetres) {
+  Point quarter;
+  quarter[Axis::a] = 90;
+  SurfaceScale surface;
+  surface[Axis::a] = 0.5;  // mm per degree
+  PlannedMove move = motion_along(Curve::line(Point(), quarter, surface), 3, 10,
+                                  {Phase{.duration = Seconds(4.5), .velocity = MmPerSecond(10)}});
+  move.segment.surface = surface;
+  const SpeedReport report = report_of({move});
+  ASSERT_FALSE(report.fastest.empty());
+  EXPECT_FALSE(report.fastest[0].turns);
+}
+
 }  // namespace
 }  // namespace passo
