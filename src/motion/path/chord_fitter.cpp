@@ -17,7 +17,7 @@ constexpr std::size_t few = 20;
 // Of the tolerance: a misfit below this is no worse than none.
 constexpr double no_misfit = 0.02;
 // A fit is longer than the best one if its error is at most so many times the least.
-constexpr double hopeless = 2;
+constexpr double hopeless = 1.05;
 // A chord's distance is measured at so many places that this share of the tolerance is not noticed between them.
 constexpr double close_enough = 0.02;
 constexpr double most_parts = 64;
@@ -70,6 +70,12 @@ double turn_seen(double turn, double before, double after, double tolerance) {
 
 Point unit(const Point& way) {
   return way * (1 / length_of(way));
+}
+
+bool moves_more_than_xyz(const Point& way) {
+  double sum = 0;
+  for (std::size_t i = 3; i < axis_count; ++i) sum += std::abs(way.values[i]);
+  return sum > 0;
 }
 
 // How far s goes on along a heading.
@@ -274,12 +280,15 @@ void ChordFitter::add_chord(std::uint64_t number) {
   const Ahead& chord = ahead_[number];
   const Point& start = segment_at(ahead_.first())->curve.start();
   const Point way = way_of(number);
-  for (std::size_t i = 3; i < axis_count; ++i) wide_ = wide_ || way.values[i] != 0;
+  wide_ = wide_ || moves_more_than_xyz(way);
   const double around = look_around * tolerance_;
   heading_ = heading_ * (around / (around + length_of(way))) + way;
   const double length = counted_along(heading_, way, segment_at(number)->surface);
-  if (!vertices_.empty()) add_to_sums(vertices_.back(), (last_chord_ + length) / 2);
-  const double s = vertices_.empty() ? length : vertices_.back().s + length;
+  double s = length;
+  if (!vertices_.empty()) {
+    add_to_sums(vertices_.back(), (last_chord_ + length) / 2);
+    s += vertices_.back().s;
+  }
   vertices_.push_back({.s = s, .way = chord.end - start, .deviation = chord.deviation});
   last_chord_ = length;
 }
@@ -290,7 +299,7 @@ void ChordFitter::add_what_is_behind() {
   Vertex after;
   for (std::size_t i = behind_.size(); i-- > 0 && -after.s < overlap_;) {
     const Point way = behind_[i] - start;
-    for (std::size_t k = 3; k < axis_count; ++k) wide_ = wide_ || way.values[k] != 0;
+    wide_ = wide_ || moves_more_than_xyz(way);
     const double length = counted_along(first_heading_, after.way - way, surface);
     if (after.s < 0) add_to_sums(after, length / 2);
     after = {.s = after.s - length, .way = way};
@@ -361,32 +370,35 @@ void ChordFitter::add_chords(std::size_t count) {
 
 // The three normal equations, in u = s / length, by Gauss's elimination.
 ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
-  const double length = vertices_.back().s;
-  Sums sums = sums_;
-  sums.add<axis_count>(vertices_.back(), last_chord_ / 2);
+  const Vertex& last = vertices_.back();
   const double end_weight = end_is_free ? 0 : pinning;
+  Sums sums = sums_;
+  wide_ ? sums.add<axis_count>(last, last_chord_ / 2) : sums.add<3>(last, last_chord_ / 2);
   std::array<double, 5> powers{};
-  Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
-  double scale = 1 / length;
+  std::array<double, 3> scales{};
+  double scale = 1 / last.s;
   for (std::size_t i = 0; i < powers.size(); ++i) {
-    scale /= length;
-    if (i < 3) fit.parts[i] = sums.moments[i] * scale + vertices_.back().way * end_weight;
-    powers[i] = sums.powers[i] * (scale / length) + end_weight;
+    scale /= last.s;
+    if (i < scales.size()) scales[i] = scale;
+    powers[i] = sums.powers[i] * (scale / last.s) + end_weight;
   }
-  std::array<std::array<double, 3>, 3> rows{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) rows[i][k] = powers[i + k];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t below = i + 1; below < 3; ++below) {
-      const double times = rows[below][i] / rows[i][i];
-      for (std::size_t k = i; k < 3; ++k) rows[below][k] -= times * rows[i][k];
-      fit.parts[below] = fit.parts[below] - fit.parts[i] * times;
-    }
-  }
-  for (std::size_t i = 3; i-- > 0;) {
-    for (std::size_t k = i + 1; k < 3; ++k) fit.parts[i] = fit.parts[i] - fit.parts[k] * rows[i][k];
-    fit.parts[i] = fit.parts[i] * (1 / rows[i][i]);
+  const double by_first = powers[1] / powers[0];
+  const double by_first2 = powers[2] / powers[0];
+  const double middle = powers[2] - by_first * powers[1];
+  const double beside = powers[3] - by_first * powers[2];
+  const double by_middle = beside / middle;
+  const double corner = powers[4] - by_first2 * powers[2] - by_middle * beside;
+  Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
+  for (std::size_t i = 0; i < (wide_ ? axis_count : 3); ++i) {
+    const double end = last.way.values[i] * end_weight;
+    const double first = sums.moments[0].values[i] * scales[0] + end;
+    const double second = sums.moments[1].values[i] * scales[1] + end - by_first * first;
+    const double third = sums.moments[2].values[i] * scales[2] + end - by_first2 * first - by_middle * second;
+    const double cube = third / corner;
+    const double square = (second - beside * cube) / middle;
+    fit.parts[2].values[i] = cube;
+    fit.parts[1].values[i] = square;
+    fit.parts[0].values[i] = (first - powers[1] * square - powers[2] * cube) / powers[0];
   }
   return fit;
 }
@@ -495,6 +507,7 @@ void ChordFitter::cut_in(Fit& fit) const {
   const double to = cut_to * fit.window;
   double nearest = far;
   double end = 1;
+  Point way;  // to the chord's point there
   Vertex before;
   for (std::size_t i = 0; before.s < to; before = vertices_[i++]) {
     const Vertex& vertex = vertices_[i];
@@ -511,17 +524,17 @@ void ChordFitter::cut_in(Fit& fit) const {
     if (share > 1 - least_rest) share = 1;
     const double off = product(miss, miss) + share * (2 * product(miss, change) + share * square);
     if (off >= nearest) continue;
-    const Point way = before.way + (vertex.way - before.way) * share;
+    way = before.way + (vertex.way - before.way) * share;
     end = (before.s + chord * share) / fit.window;
-    for (int k = 0; k < 2; ++k) {
-      const Point along = fit.slope_at(end);
-      end += dot(way - fit.way_at(end), along) / dot(along, along);
-    }
     nearest = off;
     fit.count = share < 1 ? i : i + 1;
     fit.share = share < 1 ? share : 0;
-    fit.moved = distance(fit.way_at(end), way);
   }
+  for (int k = 0; k < 2; ++k) {
+    const Point along = fit.slope_at(end);
+    end += dot(way - fit.way_at(end), along) / dot(along, along);
+  }
+  fit.moved = distance(fit.way_at(end), way);
   double power = 1;
   for (Point& part : fit.parts) part = part * (power *= end);
   fit.length *= end;
