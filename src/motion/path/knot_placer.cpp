@@ -27,6 +27,9 @@ constexpr double cluster_tube = 0.5;
 
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
 constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
+// Where the legs have no room for the first of those. By search for the least time of stairs and polygons with legs of
+// five to ten tolerances.
+constexpr std::array knots_for_short_legs = {0.79, 1.29, 1.6};
 // A node swings if the axis that limits the speed goes back by less than this in it.
 constexpr double most_reversal = 0.7;
 // With limits of jerk it swings then too, up to this change of the tangent. By trial.
@@ -123,7 +126,9 @@ const KnotPlacer::Spacing KnotPlacer::slow_apart = in_company_from(swinging_slow
 const KnotPlacer::Spacing KnotPlacer::swinging_twice =
     in_company_from(swinging_gently, two_swings_apart_from, slow_apart);
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
-const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .closer = &inside};
+const KnotPlacer::Spacing KnotPlacer::on_short_legs = {.corner_width = 4, .knots = knots_for_short_legs};
+const KnotPlacer::Spacing KnotPlacer::swinging = {
+    .corner_width = 7, .knots = knots_for_swinging, .closer = &on_short_legs};
 
 KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
     : reader_(reader), bends_slowly_(smoothness == Smoothness::slow_bending) {}

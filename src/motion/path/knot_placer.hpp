@@ -92,6 +92,7 @@ class KnotPlacer {
   static const Spacing slow_company;
   static const Spacing slow_apart;
   static const Spacing swinging_twice;
+  static const Spacing on_short_legs;
   static const Spacing swinging;
   static const Spacing inside;
   struct Node {
