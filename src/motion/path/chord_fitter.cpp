@@ -16,8 +16,10 @@ constexpr double share_for_few = 0.5;
 constexpr std::size_t few = 20;
 // Of the tolerance: a misfit below this is no worse than none.
 constexpr double no_misfit = 0.02;
-// A fit is longer than the best one if its error is at most so many times the least.
+// The search for a longer fit ends where the error is more than so many times the least. On a coarse grid, where the
+// chords are far from the cubic, the errors of longer windows go up and down.
 constexpr double hopeless = 1.05;
+constexpr double hopeless_if_rounded = 4;
 // A chord's distance is measured at so many places that this share of the tolerance is not noticed between them.
 constexpr double close_enough = 0.02;
 constexpr double most_parts = 64;
@@ -338,7 +340,8 @@ ChordFitter::Fit ChordFitter::best_fit() {
       continue;
     }
     if (!is_near && !is_all && best.count == 0 && overlap_ > 0 && vertices_.size() < patience) continue;
-    if (!is_near || longer.error > hopeless * best.error) break;
+    const bool is_rounded = best.deviation > share_for_few * tolerance_;
+    if (!is_near || longer.error > (is_rounded ? hopeless_if_rounded : hopeless) * best.error) break;
     const bool leaves_tube = vertices_.size() >= few || longer.deviation <= share_for_few * tolerance_;
     if (leaves_tube && longer.error <= best.error) best = longer;
     if (is_all) break;
