@@ -61,10 +61,12 @@ constexpr double gentle_below = 0.6;
 constexpr std::array knots_for_two_swings = {0.63, 1.51, 2.3, 3.65, 5.6, 7.7, 8.57, 11.25};
 constexpr std::array change_weights_of_two_swings = {2.15, 1.68, 0.78, 0.35, 0.545, 0.515, 0.405};
 constexpr double two_swings_apart_from = 20;
+constexpr std::array knots_for_swinging_gently = {0.88, 1.5, 2.3, 3.2, 4.5, 6.4, 7.75, 8.8};
+constexpr std::array change_weights_of_gentle = {1.75, 1.53, 0.95, 0.52, 0.46, 0.48, 0.42};
+constexpr double one_swing_apart_from = 12;
 constexpr std::array knots_for_company = {0.573, 2.24, 3.2, 4.4, 10.5};
 constexpr std::array change_weights_of_company = {1.51, 1.32, 0.45, 0.4};
 constexpr double company_apart_from = 6;
-constexpr double slow_apart_from = 12;
 constexpr std::array knots_for_close_company = {1.02, 2.23, 4.14, 4.8, 7.15};
 constexpr std::array change_weights_of_close_company = {0.97, 0.87, 1.06, 1.01};
 // Where the room is a little too small for the second, third or fourth knot of such a corner, all its knots come
@@ -113,16 +115,24 @@ const KnotPlacer::Spacing KnotPlacer::gentle_company = {.corner_width = 7,
                                                         .in_company = &gentle_close_company,
                                                         .comes_closer = true,
                                                         .change_weights = change_weights_of_company};
+const KnotPlacer::Spacing KnotPlacer::gentle_apart = {.corner_width = 7,
+                                                      .knots = knots_for_swinging_gently,
+                                                      .quickening = 0.18,
+                                                      .sharp_from = 0.41,
+                                                      .apart_from = one_swing_apart_from,
+                                                      .in_company = &gentle_company,
+                                                      .comes_closer = true,
+                                                      .change_weights = change_weights_of_gentle};
 const KnotPlacer::Spacing KnotPlacer::swinging_gently = {.corner_width = 7,
                                                          .knots = knots_for_two_swings,
                                                          .quickening = 0.3,
                                                          .sharp_from = 0.41,
                                                          .apart_from = two_swings_apart_from,
-                                                         .in_company = &gentle_company,
+                                                         .in_company = &gentle_apart,
                                                          .comes_closer = true,
                                                          .change_weights = change_weights_of_two_swings};
 const KnotPlacer::Spacing KnotPlacer::slow_company = in_company_from(gentle_company, company_apart_from, swinging_slowly);
-const KnotPlacer::Spacing KnotPlacer::slow_apart = in_company_from(swinging_slowly, slow_apart_from, slow_company);
+const KnotPlacer::Spacing KnotPlacer::slow_apart = in_company_from(swinging_slowly, one_swing_apart_from, slow_company);
 const KnotPlacer::Spacing KnotPlacer::swinging_twice =
     in_company_from(swinging_gently, two_swings_apart_from, slow_apart);
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};

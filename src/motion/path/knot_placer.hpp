@@ -88,6 +88,7 @@ class KnotPlacer {
   static const Spacing swinging_slowly;
   static const Spacing gentle_close_company;
   static const Spacing gentle_company;
+  static const Spacing gentle_apart;
   static const Spacing swinging_gently;
   static const Spacing slow_company;
   static const Spacing slow_apart;
