@@ -64,8 +64,8 @@ constexpr double first_share = 0.5;
 // The weight of an end that must be met, among weights whose sum is 1.
 constexpr double pinning = 1e6;
 
-// Where a vertex is off by h, it is seen as a turn of up to h (1/a + 1/b) between chords of the lengths a and b, and twice
-// that where its neighbours are off to the other side. Returns h in tolerances.
+// Where a vertex is off by h, it is seen as a turn of up to h (1/a + 1/b) between chords of the lengths a and b, and
+// twice that where its neighbours are off to the other side. Returns h in tolerances.
 double turn_seen(double turn, double before, double after, double tolerance) {
   return turn * before * after / (2 * tolerance * (before + after));
 }
@@ -176,7 +176,7 @@ void ChordFitter::split_arc(std::uint64_t number) {
     if (part > 0) std::get<Segment>(ahead.item).curve = whole.curve.part(Mm(length * part / parts), Mm(length));
     ahead.is_chord = true;
     ahead.is_inside = part + 1 < parts;
-    ahead.end = whole.curve.at(Mm(length * (part + 1) / parts));
+    ahead.end = ahead.is_inside ? whole.curve.at(Mm(length * (part + 1) / parts)) : whole.curve.end();
     ahead.deviation = beside;
     ahead.moved = 0;
   }
@@ -407,7 +407,8 @@ ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
 }
 
 template <std::size_t axes>
-inline std::array<double, axes> ChordFitter::Fit::miss_at(double u, const Point& way, std::array<double, axes>& slope) const {
+inline std::array<double, axes> ChordFitter::Fit::miss_at(double u, const Point& way,
+                                                          std::array<double, axes>& slope) const {
   std::array<double, axes> miss;
   for (std::size_t i = 0; i < axes; ++i) {
     const double first = parts[0].values[i];

@@ -131,7 +131,8 @@ const KnotPlacer::Spacing KnotPlacer::swinging_gently = {.corner_width = 7,
                                                          .in_company = &gentle_apart,
                                                          .comes_closer = true,
                                                          .change_weights = change_weights_of_two_swings};
-const KnotPlacer::Spacing KnotPlacer::slow_company = in_company_from(gentle_company, company_apart_from, swinging_slowly);
+const KnotPlacer::Spacing KnotPlacer::slow_company =
+    in_company_from(gentle_company, company_apart_from, swinging_slowly);
 const KnotPlacer::Spacing KnotPlacer::slow_apart = in_company_from(swinging_slowly, one_swing_apart_from, slow_company);
 const KnotPlacer::Spacing KnotPlacer::swinging_twice =
     in_company_from(swinging_gently, two_swings_apart_from, slow_apart);
