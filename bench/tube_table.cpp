@@ -223,10 +223,10 @@ void print_bounds() {
 }
 
 void print_corners() {
-  std::printf("\n%-22s %10s %10s %8s   %10s %10s %8s\n", "", "optimum, s", "ours, s", "ratio", "with jerk", "ours, s",
+  std::printf("\n%-24s %10s %10s %8s   %10s %10s %8s\n", "", "optimum, s", "ours, s", "ratio", "with jerk", "ours, s",
               "ratio");
   const auto print = [](const char* name, const std::vector<bench::Place>& corners, int samples) {
-    std::printf("%-22s", name);
+    std::printf("%-24s", name);
     for (const double limit : {0.0, jerk}) {
       const double best = bench::find_optimum(corners, {.tolerance = tolerance, .jerk = limit}, samples);
       if (limit == 0) corners_done.push_back({name, corners, best});
@@ -236,14 +236,31 @@ void print_corners() {
     std::printf("\n");
     std::fflush(stdout);
   };
-  const auto stairs = [](double leg) {
-    std::vector<bench::Place> corners;
-    for (int i = 0; i <= 8; ++i) corners.push_back({leg * ((i + 1) / 2), leg * (i / 2)});
+  // Legs that turn to and fro by an angle.
+  const auto stairs = [](double leg, double turn = std::numbers::pi / 2) {
+    std::vector<bench::Place> corners{{0, 0}};
+    for (int i = 0; i < 8; ++i) {
+      const double heading = i % 2 == 0 ? 0 : turn;
+      corners.push_back({corners.back().x + leg * std::cos(heading), corners.back().y + leg * std::sin(heading)});
+    }
+    return corners;
+  };
+  const auto polygon = [](double leg, double heading) {
+    std::vector<bench::Place> corners{{0, 0}};
+    for (int i = 0; i < 8; ++i, heading += std::numbers::pi / 4) {
+      corners.push_back({corners.back().x + leg * std::cos(heading), corners.back().y + leg * std::sin(heading)});
+    }
     return corners;
   };
   print("90 degrees, legs 1 mm", stairs(1), 600);
   print("90 degrees, legs 5 mm", stairs(5), 250);
   print("90 degrees, legs 20 mm", stairs(20), 400);
+  print("45 degrees, legs 3 mm", stairs(3, std::numbers::pi / 4), 300);
+  print("octagon, sides 3 mm", polygon(3, 0), 300);
+  print("the same, turned by 20", polygon(3, std::numbers::pi / 9), 300);
+  print("90 degrees, legs 0.1 mm", stairs(0.1), 300);
+  print("90 degrees, legs 0.05 mm", stairs(0.05), 300);
+  print("octagon, sides 0.1 mm", polygon(0.1, 0), 300);
   const auto zigzag = [](double x, double y) {
     std::vector<bench::Place> corners;
     for (int i = 0; i <= 8; ++i) corners.push_back({x * i, i % 2 == 0 ? 0 : y});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passo/base/lanes.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {
@@ -15,8 +16,10 @@ constexpr double share_for_few = 0.5;
 constexpr std::size_t few = 20;
 // Of the tolerance: a misfit below this is no worse than none.
 constexpr double no_misfit = 0.02;
-// A fit is longer than the best one if its error is at most so many times the least.
-constexpr double hopeless = 4;
+// The search for a longer fit ends where the error is more than so many times the least. On a coarse grid, where the
+// chords are far from the cubic, the errors of longer windows go up and down.
+constexpr double hopeless = 1.05;
+constexpr double hopeless_if_rounded = 4;
 // A chord's distance is measured at so many places that this share of the tolerance is not noticed between them.
 constexpr double close_enough = 0.02;
 constexpr double most_parts = 64;
@@ -46,6 +49,14 @@ constexpr std::size_t most_behind = 128;
 constexpr double clearance = 15;
 constexpr double far = 1e9;
 
+// A row of so many lines and arcs, each of at most so many tolerances, is a curve in pieces: the next arc is split.
+constexpr int row_of_a_curve = 2;
+constexpr double short_piece = 128;
+// In tolerances: the distance of a part of an arc from its chord; and how far two centres are apart that are rounded
+// from the same one.
+constexpr double part_beside_chord = 0.05;
+constexpr double same_center = 0.25;
+
 // The next window is so many times as long as the last one. The first is so much of that of the fit before.
 constexpr double growth = 1.4;
 constexpr double first_share = 0.5;
@@ -53,22 +64,54 @@ constexpr double first_share = 0.5;
 // The weight of an end that must be met, among weights whose sum is 1.
 constexpr double pinning = 1e6;
 
+// Where a vertex is off by h, it is seen as a turn of up to h (1/a + 1/b) between chords of the lengths a and b, and
+// twice that where its neighbours are off to the other side. Returns h in tolerances.
+double turn_seen(double turn, double before, double after, double tolerance) {
+  return turn * before * after / (2 * tolerance * (before + after));
+}
+
 Point unit(const Point& way) {
   return way * (1 / length_of(way));
+}
+
+bool moves_more_than_xyz(const Point& way) {
+  double sum = 0;
+  for (std::size_t i = 3; i < axis_count; ++i) sum += std::abs(way.values[i]);
+  return sum > 0;
 }
 
 // How far s goes on along a heading.
 double counted_along(const Point& heading, const Point& way, const SurfaceScale& surface) {
   const CountedGroup group = counted_group(heading, surface);
+  if (group == CountedGroup::xyz && !surface.counts_any()) {
+    double product = 0;
+    for (std::size_t i = 0; i < 3; ++i) product += heading.values[i] * way.values[i];
+    return std::max(0.0, product / length_in(heading, group));
+  }
   const double product = (square_in(heading + way, group, surface) - square_in(heading - way, group, surface)) / 4;
   return std::max(0.0, product / length_in(heading, group, surface));
 }
 
-// Legendre's polynomials of the degrees 4 to 7, at x from -1 to 1.
-std::array<double, 4> next_polynomials(double x) {
-  const double y = x * x;
-  return {(3 + y * (35 * y - 30)) / 8, x * (15 + y * (63 * y - 70)) / 8, (y * (105 + y * (231 * y - 315)) - 5) / 16,
-          x * (y * (315 + y * (429 * y - 693)) - 35) / 16};
+// Legendre's polynomials of the degrees 4 and 6, and of the degrees 5 and 7, at x from -1 to 1.
+struct NextPolynomials {
+  TwoLanes even;
+  TwoLanes odd;
+
+  explicit NextPolynomials(double x) {
+    const TwoLanes y(x * x);
+    even = TwoLanes(3. / 8, -5. / 16) +
+           y * (TwoLanes(-30. / 8, 105. / 16) + y * (TwoLanes(35. / 8, -315. / 16) + y * TwoLanes(0, 231. / 16)));
+    odd = TwoLanes(15. / 8, -35. / 16) +
+          y * (TwoLanes(-70. / 8, 315. / 16) + y * (TwoLanes(63. / 8, -693. / 16) + y * TwoLanes(0, 429. / 16)));
+    odd = odd * x;
+  }
+};
+
+template <std::size_t axes>
+double product(const std::array<double, axes>& a, const std::array<double, axes>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < axes; ++i) sum += a[i] * b[i];
+  return sum;
 }
 
 }  // namespace
@@ -76,27 +119,95 @@ std::array<double, 4> next_polynomials(double x) {
 bool ChordFitter::has(std::uint64_t number) {
   while (number >= ahead_.end() && !at_end_) {
     Ahead& next = ahead_.append();
-    next.moved = 0;
     at_end_ = !merger_.next(next.item, next.deviation);
-    if (at_end_) ahead_.drop_back();
+    at_end_ ? ahead_.drop_back() : read_in(ahead_.end() - 1);
   }
   return number < ahead_.end();
 }
 
-bool ChordFitter::may_begin(const Segment& segment) const {
-  return segment.curve.shape() == Curve::Shape::line && segment.mode == PathMode::continuous &&
-         segment.lock == SpindleLock::none && mode_before_ != PathMode::exact_path;
+void ChordFitter::read_in(std::uint64_t number) {
+  Ahead& next = ahead_[number];
+  next.moved = 0;
+  next.is_chord = false;
+  next.is_inside = false;
+  const Segment* const segment = segment_at(number);
+  if (segment == nullptr) {
+    row_ = 0;
+    return;
+  }
+  next.end = segment->curve.end();
+  next.is_chord = segment->curve.shape() == Curve::Shape::line;
+  if (is_in_row(*segment)) split_arc(number);
 }
 
-// Whether the next line may be a chord of the same curve. Where a vertex is off by h, it is seen as a turn of up to h
-// (1/a + 1/b) between chords of the lengths a and b, and twice that where its neighbours are off to the other side.
+// An arc is split if it comes in a row of short lines and arcs that turn only by rounding where they meet: then it is a
+// piece of a curve, and its ends and its centre are rounded. Another arc about the same centre is a piece of a circle.
+bool ChordFitter::is_in_row(const Segment& segment) {
+  const Curve& curve = segment.curve;
+  const double length = curve.length().value();
+  const double tolerance = segment.tolerance.value();
+  const bool is_arc = curve.shape() == Curve::Shape::arc;
+  bool goes_on = segment.mode == PathMode::continuous && length <= short_piece * tolerance;
+  bool is_new_circle = is_arc;
+  if (is_arc && goes_on && row_ > 0) {
+    const double turn = distance(last_tangent_, curve.tangent(Mm(0)));
+    goes_on = turn_seen(turn, last_length_, length, tolerance) <= sure_share;
+    const Curve::ArcData& arc = curve.arc_data();
+    const double apart = std::hypot(arc.first_center - last_center_[0], arc.second_center - last_center_[1]);
+    is_new_circle = apart > same_center * tolerance;
+  }
+  const bool is_piece = goes_on && row_ >= row_of_a_curve && is_new_circle;
+  row_ = goes_on ? row_ + 1 : 0;
+  last_length_ = length;
+  if (goes_on) last_tangent_ = curve.tangent(curve.length());
+  last_center_ = {is_arc ? curve.arc_data().first_center : far, is_arc ? curve.arc_data().second_center : far};
+  return is_piece;
+}
+
+// Each part stands for its chord. What is fitted ends with a part; what is not stays an arc up to the arc's own end.
+void ChordFitter::split_arc(std::uint64_t number) {
+  const Segment whole = *segment_at(number);
+  const double length = whole.curve.length().value();
+  const double beside = part_beside_chord * whole.tolerance.value();
+  const double parts = std::min(most_parts, std::ceil(length * std::sqrt(whole.curve.curvature() / (8 * beside))));
+  for (double part = 0; part < parts; ++part) {
+    Ahead& ahead = part == 0 ? ahead_[number] : ahead_.append();
+    ahead.item = whole;
+    if (part > 0) std::get<Segment>(ahead.item).curve = whole.curve.part(Mm(length * part / parts), Mm(length));
+    ahead.is_chord = true;
+    ahead.is_inside = part + 1 < parts;
+    ahead.end = ahead.is_inside ? whole.curve.at(Mm(length * (part + 1) / parts)) : whole.curve.end();
+    ahead.deviation = beside;
+    ahead.moved = 0;
+  }
+}
+
+// How the path goes on after a chord.
+PathMode ChordFitter::mode_after(std::uint64_t number) const {
+  return ahead_[number].is_inside ? PathMode::continuous : segment_at(number)->mode;
+}
+
+bool ChordFitter::may_begin(const Segment& segment) const {
+  return ahead_.front().is_chord && segment.mode == PathMode::continuous && segment.lock == SpindleLock::none &&
+         mode_before_ != PathMode::exact_path;
+}
+
 bool ChordFitter::goes_on_after(std::uint64_t number) {
+  const bool is_known = number < known_to_ && ahead_[number].moved == 0;
+  if (!is_known && !continues_after(number)) return false;
+  known_to_ = std::max(known_to_, number + 1);
+  return true;
+}
+
+// Whether the next line may be a chord of the same curve.
+bool ChordFitter::continues_after(std::uint64_t number) {
   if (!has(number + 1)) return false;
+  if (ahead_[number].is_inside) return true;
+  if (!ahead_[number + 1].is_chord) return false;
   const Segment* const line = segment_at(number);
-  const Segment* const next = segment_at(number + 1);
-  if (next == nullptr || next->curve.shape() != Curve::Shape::line || !are_alike(*line, *next)) return false;
-  const Point in = line->curve.end() - line->curve.start();
-  const Point out = next->curve.end() - next->curve.start();
+  if (!are_alike(*line, *segment_at(number + 1))) return false;
+  const Point in = way_of(number);
+  const Point out = way_of(number + 1);
   const double before = length_of(in);
   const double after = length_of(out);
   if (dot(in, out) < sharpest * before * after) return false;
@@ -104,7 +215,7 @@ bool ChordFitter::goes_on_after(std::uint64_t number) {
   const bool is_step = std::min(before, after) <= short_chord * tolerance_;
   if (!is_step && counted_group(in, surface) != counted_group(out, surface)) return false;
   const double turn = distance(in * (1 / before), out * (1 / after));
-  const double seen = turn * before * after / (2 * tolerance_ * (before + after));
+  const double seen = turn_seen(turn, before, after, tolerance_);
   return seen <= sure_share || (seen <= 1 && turns_by_noise(number));
 }
 
@@ -122,7 +233,7 @@ bool ChordFitter::turns_by_noise(std::uint64_t number) {
 
 // The way to the end of a line from about a distance before it, as far as the lines are known.
 Point ChordFitter::way_back(std::uint64_t number, double distance) const {
-  const Point& end = segment_at(number)->curve.end();
+  const Point& end = ahead_[number].end;
   Point way;
   for (std::uint64_t i = number + 1; i-- > ahead_.first();) {
     way = end - segment_at(i)->curve.start();
@@ -139,18 +250,18 @@ Point ChordFitter::way_ahead(std::uint64_t number, double distance) {
   const Point start = segment_at(number)->curve.start();
   const std::uint64_t most = number + most_behind;
   Point way;
-  for (std::uint64_t i = number; i < most && has(i) && segment_at(i) != nullptr; ++i) {
-    if (segment_at(i)->curve.shape() != Curve::Shape::line) break;
-    way = segment_at(i)->curve.end() - start;
-    if (dot(way, way) >= distance * distance || segment_at(i)->mode == PathMode::exact_stop) break;
+  for (std::uint64_t i = number; i < most && has(i) && ahead_[i].is_chord; ++i) {
+    way = ahead_[i].end - start;
+    if (dot(way, way) >= distance * distance || mode_after(i) == PathMode::exact_stop) break;
   }
   return way;
 }
 
+template <std::size_t axes>
 void ChordFitter::Sums::add(const Vertex& vertex, double weight) {
   double power = vertex.s * weight;
   for (Point& moment : moments) {
-    moment = moment + vertex.way * power;
+    for (std::size_t i = 0; i < axes; ++i) moment.values[i] += vertex.way.values[i] * power;
     power *= vertex.s;
   }
   power = vertex.s * vertex.s * weight;
@@ -160,20 +271,27 @@ void ChordFitter::Sums::add(const Vertex& vertex, double weight) {
   }
 }
 
+void ChordFitter::add_to_sums(const Vertex& vertex, double weight) {
+  wide_ ? sums_.add<axis_count>(vertex, weight) : sums_.add<3>(vertex, weight);
+}
+
 // Of stairs along a grid only what goes along the curve counts for s: else s would go on faster than the curve by
 // up to 1.41, and by another factor where the curve has another direction. The weights in the sums are those of the
 // trapezoidal rule over s: half the chord's length belongs to each of its ends.
 void ChordFitter::add_chord(std::uint64_t number) {
-  const Curve& chord = segment_at(number)->curve;
+  const Ahead& chord = ahead_[number];
   const Point& start = segment_at(ahead_.first())->curve.start();
-  const Point way = chord.end() - chord.start();
-  for (std::size_t i = 3; i < axis_count; ++i) wide_ = wide_ || way.values[i] != 0;
+  const Point way = way_of(number);
+  wide_ = wide_ || moves_more_than_xyz(way);
   const double around = look_around * tolerance_;
-  heading_ = heading_ * (around / (around + chord.length().value())) + way;
+  heading_ = heading_ * (around / (around + length_of(way))) + way;
   const double length = counted_along(heading_, way, segment_at(number)->surface);
-  if (!vertices_.empty()) sums_.add(vertices_.back(), (last_chord_ + length) / 2);
-  const double s = vertices_.empty() ? length : vertices_.back().s + length;
-  vertices_.push_back({.s = s, .way = chord.end() - start, .deviation = ahead_[number].deviation});
+  double s = length;
+  if (!vertices_.empty()) {
+    add_to_sums(vertices_.back(), (last_chord_ + length) / 2);
+    s += vertices_.back().s;
+  }
+  vertices_.push_back({.s = s, .way = chord.end - start, .deviation = chord.deviation});
   last_chord_ = length;
 }
 
@@ -183,10 +301,11 @@ void ChordFitter::add_what_is_behind() {
   Vertex after;
   for (std::size_t i = behind_.size(); i-- > 0 && -after.s < overlap_;) {
     const Point way = behind_[i] - start;
+    wide_ = wide_ || moves_more_than_xyz(way);
     const double length = counted_along(first_heading_, after.way - way, surface);
-    if (after.s < 0) sums_.add(after, length / 2);
+    if (after.s < 0) add_to_sums(after, length / 2);
     after = {.s = after.s - length, .way = way};
-    sums_.add(after, length / 2);
+    add_to_sums(after, length / 2);
   }
 }
 
@@ -221,7 +340,8 @@ ChordFitter::Fit ChordFitter::best_fit() {
       continue;
     }
     if (!is_near && !is_all && best.count == 0 && overlap_ > 0 && vertices_.size() < patience) continue;
-    if (!is_near || longer.error > hopeless * best.error) break;
+    const bool is_rounded = best.deviation > share_for_few * tolerance_;
+    if (!is_near || longer.error > (is_rounded ? hopeless_if_rounded : hopeless) * best.error) break;
     const bool leaves_tube = vertices_.size() >= few || longer.deviation <= share_for_few * tolerance_;
     if (leaves_tube && longer.error <= best.error) best = longer;
     if (is_all) break;
@@ -232,7 +352,7 @@ ChordFitter::Fit ChordFitter::best_fit() {
 
 bool ChordFitter::comes_to_a_corner() {
   const std::uint64_t last = ahead_.first() + vertices_.size() - 1;
-  return segment_at(last)->mode != PathMode::exact_stop && has(last + 1) && segment_at(last + 1) != nullptr;
+  return mode_after(last) != PathMode::exact_stop && has(last + 1) && segment_at(last + 1) != nullptr;
 }
 
 void ChordFitter::stay_clear_of_the_end() {
@@ -253,169 +373,172 @@ void ChordFitter::add_chords(std::size_t count) {
 
 // The three normal equations, in u = s / length, by Gauss's elimination.
 ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
-  const double length = vertices_.back().s;
-  Sums sums = sums_;
-  sums.add(vertices_.back(), last_chord_ / 2);
+  const Vertex& last = vertices_.back();
   const double end_weight = end_is_free ? 0 : pinning;
+  Sums sums = sums_;
+  wide_ ? sums.add<axis_count>(last, last_chord_ / 2) : sums.add<3>(last, last_chord_ / 2);
   std::array<double, 5> powers{};
-  Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
-  double scale = 1 / length;
+  std::array<double, 3> scales{};
+  double scale = 1 / last.s;
   for (std::size_t i = 0; i < powers.size(); ++i) {
-    scale /= length;
-    if (i < 3) fit.parts[i] = sums.moments[i] * scale + vertices_.back().way * end_weight;
-    powers[i] = sums.powers[i] * (scale / length) + end_weight;
+    scale /= last.s;
+    if (i < scales.size()) scales[i] = scale;
+    powers[i] = sums.powers[i] * (scale / last.s) + end_weight;
   }
-  std::array<std::array<double, 3>, 3> rows{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) rows[i][k] = powers[i + k];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t below = i + 1; below < 3; ++below) {
-      const double times = rows[below][i] / rows[i][i];
-      for (std::size_t k = i; k < 3; ++k) rows[below][k] -= times * rows[i][k];
-      fit.parts[below] = fit.parts[below] - fit.parts[i] * times;
-    }
-  }
-  for (std::size_t i = 3; i-- > 0;) {
-    for (std::size_t k = i + 1; k < 3; ++k) fit.parts[i] = fit.parts[i] - fit.parts[k] * rows[i][k];
-    fit.parts[i] = fit.parts[i] * (1 / rows[i][i]);
+  const double by_first = powers[1] / powers[0];
+  const double by_first2 = powers[2] / powers[0];
+  const double middle = powers[2] - by_first * powers[1];
+  const double beside = powers[3] - by_first * powers[2];
+  const double by_middle = beside / middle;
+  const double corner = powers[4] - by_first2 * powers[2] - by_middle * beside;
+  Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
+  for (std::size_t i = 0; i < (wide_ ? axis_count : 3); ++i) {
+    const double end = last.way.values[i] * end_weight;
+    const double first = sums.moments[0].values[i] * scales[0] + end;
+    const double second = sums.moments[1].values[i] * scales[1] + end - by_first * first;
+    const double third = sums.moments[2].values[i] * scales[2] + end - by_first2 * first - by_middle * second;
+    const double cube = third / corner;
+    const double square = (second - beside * cube) / middle;
+    fit.parts[2].values[i] = cube;
+    fit.parts[1].values[i] = square;
+    fit.parts[0].values[i] = (first - powers[1] * square - powers[2] * cube) / powers[0];
   }
   return fit;
 }
 
-Point ChordFitter::Fit::miss_at(double u, const Point& way, Point& direction) const {
-  direction = unit(slope_at(u));
-  const Point residual = way - way_at(u);
-  return residual - direction * dot(residual, direction);
+template <std::size_t axes>
+inline std::array<double, axes> ChordFitter::Fit::miss_at(double u, const Point& way,
+                                                          std::array<double, axes>& slope) const {
+  std::array<double, axes> miss;
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double first = parts[0].values[i];
+    const double second = parts[1].values[i];
+    const double third = parts[2].values[i];
+    slope[i] = first + (2 * second + 3 * third * u) * u;
+    miss[i] = way.values[i] - (first + (second + third * u) * u) * u;
+  }
+  const double along = product(miss, slope) / product(slope, slope);
+  for (std::size_t i = 0; i < axes; ++i) miss[i] -= slope[i] * along;
+  return miss;
+}
+
+// Returns the distance of the farthest of some places between two vertices.
+template <std::size_t axes>
+double ChordFitter::farthest_inside(const Fit& fit, const Vertex& before, const Vertex& vertex, double parts) const {
+  double square = 0;
+  for (double part = 1; part < parts; ++part) {
+    const double to = part / parts;
+    const Point way = before.way + (vertex.way - before.way) * to;
+    std::array<double, axes> slope;
+    const auto miss = fit.miss_at<axes>((before.s + (vertex.s - before.s) * to) / vertices_.back().s, way, slope);
+    square = std::max(square, product(miss, miss));
+  }
+  return std::sqrt(square);
 }
 
 // Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and, where that may matter,
 // in the chords, and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a
 // chord goes back along it counts as distance.
 template <std::size_t axes>
-bool ChordFitter::passes_in(Fit& fit) const {
-  using Way = std::array<double, axes>;
+[[gnu::flatten]] bool ChordFitter::passes_in(Fit& fit) const {
   const double whole = vertices_.back().s;
+  const double per_whole = 1 / whole;
   const double bend =
       2 * std::max(length_of(fit.parts[1]), length_of(fit.parts[1] + fit.parts[2] * 3)) / (whole * whole);
-  const auto product = [](const Way& a, const Way& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < axes; ++i) sum += a[i] * b[i];
-    return sum;
-  };
-  const auto miss_at = [&](double u, const Point& way, Way& direction) {
-    Way miss;
-    for (std::size_t i = 0; i < axes; ++i) {
-      const double first = fit.parts[0].values[i];
-      const double second = fit.parts[1].values[i];
-      const double third = fit.parts[2].values[i];
-      direction[i] = first + (2 * second + 3 * third * u) * u;
-      miss[i] = way.values[i] - (first + (second + third * u) * u) * u;
-    }
-    const double square = product(direction, direction);
-    const double along = product(miss, direction) / square;
-    for (std::size_t i = 0; i < axes; ++i) miss[i] -= direction[i] * along;
-    return miss;
-  };
   const double most = share_of_tolerance * tolerance_;
   const double until = fit.end_is_free ? cut_to * whole : whole;
-  Vertex before;
+  const Vertex start;
+  const Vertex* before = &start;
   double off_before = ahead_.front().moved;
   double back = 0;
-  Way miss_before{};
-  std::array<double, 4> share_before{};
-  std::array<Way, 4> misfit{};
-  for (const Vertex& vertex : vertices_) {
-    Way direction;
-    const Way miss = miss_at(vertex.s / whole, vertex.way, direction);
+  std::array<TwoLanes, axes> even{};
+  std::array<TwoLanes, axes> odd{};
+  for (const Vertex* vertex = vertices_.data(); vertex <= &vertices_.back(); before = vertex++) {
+    std::array<double, axes> slope;
+    const double u = vertex->s * per_whole;
+    const auto miss = fit.miss_at<axes>(u, vertex->way, slope);
+    const NextPolynomials polynomials(2 * u - 1);
+    const double weight = ((vertex == &vertices_.back() ? vertex : vertex + 1)->s - before->s) / 2;
+    for (std::size_t i = 0; i < axes; ++i) {
+      even[i] += polynomials.even * (miss[i] * weight);
+      odd[i] += polynomials.odd * (miss[i] * weight);
+    }
+    if (before->s >= until) continue;
     const double off = std::sqrt(product(miss, miss));
-    const double chord = vertex.s - before.s;
-    const std::array<double, 4> share = next_polynomials(2 * vertex.s / whole - 1);
-    for (std::size_t i = 0; i < misfit.size(); ++i) {
-      const double first = share_before[i] * chord / 2;
-      const double last = share[i] * chord / 2;
-      for (std::size_t k = 0; k < axes; ++k) misfit[i][k] += miss_before[k] * first + miss[k] * last;
-    }
-    if (before.s < until) {
-      double forward = 0;
-      for (std::size_t i = 0; i < axes; ++i) forward += (vertex.way.values[i] - before.way.values[i]) * direction[i];
-      if (back > 0 || forward < 0) {
-        back = std::max(0.0, back - forward / std::sqrt(product(direction, direction)));
-      }
-      double between = chord * chord * bend / 8;
-      double deviation = std::max(off, off_before) + back;
-      if (deviation + between + vertex.deviation > most / 2) {
-        const double parts = std::min(most_parts, std::ceil(std::sqrt(between / (close_enough * tolerance_))));
-        for (double part = 1; part < parts; ++part) {
-          const double to = part / parts;
-          const Point way = before.way + (vertex.way - before.way) * to;
-          const Way inner = miss_at((before.s + chord * to) / whole, way, direction);
-          deviation = std::max(deviation, std::sqrt(product(inner, inner)) + back);
-        }
-        between /= std::max(1.0, parts * parts);
-      }
-      deviation += between + vertex.deviation;
-      if (deviation > most) return false;
-      fit.deviation = std::max(fit.deviation, deviation);
-    }
-    before = vertex;
+    double forward = 0;
+    for (std::size_t i = 0; i < axes; ++i) forward += (vertex->way.values[i] - before->way.values[i]) * slope[i];
+    if (back > 0 || forward < 0) back = std::max(0.0, back - forward / std::sqrt(product(slope, slope)));
+    const double chord = vertex->s - before->s;
+    double between = chord * chord * bend / 8;
+    double deviation = std::max(off, off_before) + back;
     off_before = off;
-    miss_before = miss;
-    share_before = share;
+    if (deviation + between + vertex->deviation > most / 2) {
+      const double parts = std::min(most_parts, std::ceil(std::sqrt(between / (close_enough * tolerance_))));
+      deviation = std::max(deviation, farthest_inside<axes>(fit, *before, *vertex, parts) + back);
+      between /= std::max(1.0, parts * parts);
+    }
+    deviation += between + vertex->deviation;
+    if (deviation > most) return false;
+    fit.deviation = std::max(fit.deviation, deviation);
   }
-  double square = 0;
-  double weight = 9;  // 2 k + 1
-  for (const Way& part : misfit) {
-    square += weight * product(part, part);
-    weight += 2;
+  TwoLanes even_square;
+  TwoLanes odd_square;
+  for (std::size_t i = 0; i < axes; ++i) {
+    even_square += even[i] * even[i];
+    odd_square += odd[i] * odd[i];
   }
-  fit.error = std::max(std::sqrt(square) / whole, no_misfit * tolerance_) / std::sqrt(whole);
+  const double square = (even_square * TwoLanes(9, 13) + odd_square * TwoLanes(11, 15)).sum();  // times 2 k + 1
+  fit.error = std::max(std::sqrt(square) * per_whole, no_misfit * tolerance_) / std::sqrt(whole);
   fit.window = whole;
 
   // The cubic's parameter counts its length where it is fastest, so that |dP/ds| is at most 1
   // and the feed need not be reduced anywhere.
   const SurfaceScale& surface = segment_at(ahead_.first())->surface;
   const CountedGroup group = counted_group(vertices_.back().way, surface);
-  fit.length = 0;
+  double longest = 0;
   for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    fit.length = std::max(fit.length, length_in(fit.slope_at(u), group, surface));
+    longest = std::max(longest, square_in(fit.slope_at(u), group, surface));
   }
+  fit.length = std::sqrt(longest);
   return fit.length >= least_length * whole;
 }
 
 // Ends the cubic where it comes nearest to the chords.
-void ChordFitter::cut(Fit& fit) const {
+template <std::size_t axes>
+void ChordFitter::cut_in(Fit& fit) const {
   constexpr double least_rest = 1e-3;  // of a chord: a shorter rest is no chord
   const double from = cut_from * fit.window;
   const double to = cut_to * fit.window;
   double nearest = far;
   double end = 1;
+  Point way;  // to the chord's point there
   Vertex before;
   for (std::size_t i = 0; before.s < to; before = vertices_[i++]) {
     const Vertex& vertex = vertices_[i];
     if (vertex.s <= from) continue;
-    Point direction;
-    const Point miss = fit.miss_at(before.s / fit.window, before.way, direction);
-    const Point change = fit.miss_at(vertex.s / fit.window, vertex.way, direction) - miss;
+    std::array<double, axes> slope;
+    const auto miss = fit.miss_at<axes>(before.s / fit.window, before.way, slope);
+    auto change = fit.miss_at<axes>(vertex.s / fit.window, vertex.way, slope);
+    for (std::size_t k = 0; k < axes; ++k) change[k] -= miss[k];
     const double chord = vertex.s - before.s;
     const double first = std::max(least_rest, (from - before.s) / chord);
     const double last = std::min(1.0, (to - before.s) / chord);
-    const double square = dot(change, change);
-    double share = square > 0 ? std::max(first, std::min(last, -dot(miss, change) / square)) : last;
+    const double square = product(change, change);
+    double share = square > 0 ? std::max(first, std::min(last, -product(miss, change) / square)) : last;
     if (share > 1 - least_rest) share = 1;
-    const double off = length_of(miss + change * share);
+    const double off = product(miss, miss) + share * (2 * product(miss, change) + share * square);
     if (off >= nearest) continue;
-    const Point way = before.way + (vertex.way - before.way) * share;
+    way = before.way + (vertex.way - before.way) * share;
     end = (before.s + chord * share) / fit.window;
-    for (int k = 0; k < 2; ++k) {
-      const Point slope = fit.slope_at(end);
-      end += dot(way - fit.way_at(end), slope) / dot(slope, slope);
-    }
     nearest = off;
     fit.count = share < 1 ? i : i + 1;
     fit.share = share < 1 ? share : 0;
-    fit.moved = distance(fit.way_at(end), way);
   }
+  for (int k = 0; k < 2; ++k) {
+    const Point along = fit.slope_at(end);
+    end += dot(way - fit.way_at(end), along) / dot(along, along);
+  }
+  fit.moved = distance(fit.way_at(end), way);
   double power = 1;
   for (Point& part : fit.parts) part = part * (power *= end);
   fit.length *= end;
@@ -427,29 +550,50 @@ void ChordFitter::remember(std::uint64_t end) {
   if (behind_.size() > 2 * most_behind) behind_.erase(behind_.begin(), behind_.end() - most_behind);
 }
 
+// What a cubic left of a chord. A part of an arc becomes a line.
+void ChordFitter::move_start(std::uint64_t number, const Point& start) {
+  Ahead& ahead = ahead_[number];
+  auto& chord = std::get<Segment>(ahead.item);
+  chord.mode = mode_after(number);
+  ahead.is_inside = false;
+  chord.curve = Curve::line(start, ahead.end, chord.surface);
+}
+
 void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) {
   const std::uint64_t first = ahead_.first();
   const std::uint64_t next = first + fit.count;
   const Point start = segment_at(first)->curve.start();
-  Point end = segment_at(next - 1)->curve.end();
+  Point end = ahead_[next - 1].end;
   const Point free_end = start + fit.way_at(1);
   const double share = 1 / fit.length;
-  const PathMode mode = segment_at(next - 1)->mode;
+  const PathMode mode = mode_after(next - 1);
   remember(next + (fit.share > 0 ? 1 : 0));
   std::swap(item, ahead_[first].item);
   auto& segment = std::get<Segment>(item);
   segment.mode = mode;
+  first_heading_ = unit(fit.slope_at(1)) * (look_around * tolerance_);
   if (fit.end_is_free) {
-    auto& after = std::get<Segment>(ahead_[next].item);
+    move_start(next, free_end);
     ahead_[next].moved = fit.moved;
-    after.curve = Curve::line(free_end, after.curve.end(), after.surface);
     end = free_end;
   }
   segment.curve = Curve::cubic(start, fit.slope_at(0) * share, end, fit.slope_at(1) * share, Mm(fit.length));
   deviation = fit.deviation;
   overlap_ = overlap_share * fit.window;
   last_window_ = fit.window;
-  first_heading_ = unit(fit.slope_at(1)) * (look_around * tolerance_);
+  ahead_.drop_before(next);
+}
+
+// What is not fitted. Of an arc, all that is left of it.
+void ChordFitter::emit_as_is(PathItem& item, double& deviation) {
+  std::uint64_t next = ahead_.first() + 1;
+  while (ahead_[next - 1].is_inside) ++next;
+  const Segment* const segment = segment_at(ahead_.first());
+  if (segment != nullptr) remember(next);
+  const bool is_arc = segment != nullptr && segment->curve.shape() == Curve::Shape::arc;
+  deviation = is_arc ? 0 : ahead_.front().deviation + ahead_.front().moved;
+  std::swap(item, ahead_.front().item);
+  overlap_ = 0;
   ahead_.drop_before(next);
 }
 
@@ -458,10 +602,12 @@ bool ChordFitter::next(PathItem& item, double& deviation) {
   const auto* const ahead = segment_at(ahead_.first());
   bool goes_on = false;
   if (ahead != nullptr && may_begin(*ahead)) {
+    const double tolerance_before = tolerance_;
     tolerance_ = ahead->tolerance.value();
     // After a wider tolerance the line stays apart, as in LineMerger.
     const bool stays_apart = mode_before_ == PathMode::continuous && tolerance_before_ > tolerance_;
     if (mode_before_ == PathMode::continuous) tolerance_ = std::min(tolerance_, tolerance_before_);
+    if (tolerance_ != tolerance_before) known_to_ = 0;
     goes_on = !stays_apart && goes_on_after(ahead_.first());
   }
   const Fit fit = goes_on && since_corner_ >= clearance * tolerance_ ? best_fit() : Fit{};
@@ -469,11 +615,7 @@ bool ChordFitter::next(PathItem& item, double& deviation) {
     emit_cubic(fit, item, deviation);
     since_corner_ = far;
   } else {
-    if (ahead != nullptr) remember(ahead_.first() + 1);
-    overlap_ = 0;
-    std::swap(item, ahead_.front().item);
-    deviation = ahead_.front().deviation + ahead_.front().moved;
-    ahead_.drop_front();
+    emit_as_is(item, deviation);
   }
   const auto* const segment = std::get_if<Segment>(&item);
   mode_before_ = segment != nullptr ? segment->mode : PathMode::exact_stop;

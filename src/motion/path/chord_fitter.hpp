@@ -39,9 +39,12 @@ class ChordFitter {
 
  private:
   struct Ahead {
-    PathItem item;
+    PathItem item;           // of a part of an arc: the arc from the start of the part on
+    bool is_chord = false;   // a line, or a part of an arc
+    bool is_inside = false;  // a part of an arc that is not its last
+    Point end;               // of the chord
     double deviation = 0;
-    double moved = 0;  // displacement of the line's start by a cubic's free end
+    double moved = 0;  // displacement of the chord's start by a cubic's free end
   };
   struct Vertex {
     double s = 0;          // the length of the chords up to here, along their heading
@@ -53,6 +56,7 @@ class ChordFitter {
     std::array<double, 5> powers{};
     std::array<Point, 3> moments{};
 
+    template <std::size_t axes>
     void add(const Vertex& vertex, double weight);
   };
   // The cubic start + parts[0] u + parts[1] u² + parts[2] u³, u from 0 to 1.
@@ -69,15 +73,22 @@ class ChordFitter {
 
     Point way_at(double u) const { return (parts[0] + (parts[1] + parts[2] * u) * u) * u; }
     Point slope_at(double u) const { return parts[0] + (parts[1] * 2 + parts[2] * (3 * u)) * u; }
-    // Of a place beside the cubic: the distance across it.
-    Point miss_at(double u, const Point& way, Point& direction) const;
+    // Returns the vector from the cubic to a place beside it, across the cubic. Sets dP/du.
+    template <std::size_t axes>
+    std::array<double, axes> miss_at(double u, const Point& way, std::array<double, axes>& slope) const;
   };
 
   bool has(std::uint64_t number);
+  void read_in(std::uint64_t number);
+  bool is_in_row(const Segment& segment);
+  void split_arc(std::uint64_t number);
   const Segment* segment_at(std::uint64_t number) const { return std::get_if<Segment>(&ahead_[number].item); }
   bool may_begin(const Segment& segment) const;
   bool goes_on_after(std::uint64_t number);
+  bool continues_after(std::uint64_t number);
   bool turns_by_noise(std::uint64_t number);
+  PathMode mode_after(std::uint64_t number) const;
+  Point way_of(std::uint64_t number) const { return ahead_[number].end - segment_at(number)->curve.start(); }
   Point way_back(std::uint64_t number, double distance) const;
   Point way_ahead(std::uint64_t number, double distance);
   void add_chord(std::uint64_t number);
@@ -90,13 +101,26 @@ class ChordFitter {
   bool passes(Fit& fit) const { return wide_ ? passes_in<axis_count>(fit) : passes_in<3>(fit); }
   template <std::size_t axes>
   bool passes_in(Fit& fit) const;
-  void cut(Fit& fit) const;
+  template <std::size_t axes>
+  double farthest_inside(const Fit& fit, const Vertex& before, const Vertex& vertex, double parts) const;
+  void cut(Fit& fit) const { wide_ ? cut_in<axis_count>(fit) : cut_in<3>(fit); }
+  template <std::size_t axes>
+  void cut_in(Fit& fit) const;
   void remember(std::uint64_t end);
+  void add_to_sums(const Vertex& vertex, double weight);
+  void move_start(std::uint64_t number, const Point& start);
+  void emit_as_is(PathItem& item, double& deviation);
   void emit_cubic(const Fit& fit, PathItem& item, double& deviation);
 
   LineMerger merger_;
   Window<Ahead> ahead_;
   bool at_end_ = false;
+  // Of the items read last: how many are short pieces of a curve. And of the last one: its length, its direction at its
+  // end, and its centre, if it is an arc.
+  int row_ = 0;
+  double last_length_ = 0;
+  Point last_tangent_;
+  std::array<double, 2> last_center_{};
   // The mode of the junction before the next item.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
@@ -107,6 +131,7 @@ class ChordFitter {
   double last_window_ = 0;
   // Of the current chords.
   double tolerance_ = 0;
+  std::uint64_t known_to_ = 0;  // each chord before this one is known to go on into the next one
   Point first_heading_;
   Point heading_;  // the mean direction of the last chords, times its distance
   std::vector<Vertex> vertices_;

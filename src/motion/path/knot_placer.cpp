@@ -27,6 +27,9 @@ constexpr double cluster_tube = 0.5;
 
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
 constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
+// Where the legs have no room for the first of those. By search for the least time of stairs and polygons with legs of
+// five to ten tolerances.
+constexpr std::array knots_for_short_legs = {0.79, 1.29, 1.6};
 // A node swings if the axis that limits the speed goes back by less than this in it.
 constexpr double most_reversal = 0.7;
 // With limits of jerk it swings then too, up to this change of the tangent. By trial.
@@ -51,14 +54,21 @@ constexpr std::array knots_for_slow_bending = {0.48, 1.0, 1.55, 2.3};
 // polygons, random walks, reliefs and chips. The weights even out the jerk of the swings.
 constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.35, 5.1, 8.3};
 constexpr std::array change_weights_of_slow = {0.87, 0.89, 0.81, 0.65};
-// A gentle corner, by its change of the tangent, is passed so fast that the spline swings to both sides before it.
-// Beside other corners it has no room for two swings.
+// A corner that is not sharp is passed so fast that the spline swings to both sides before it. Where another node is
+// nearer than so many widths, there is no room for two swings; where it is nearer still, none for a wide one.
+constexpr double not_sharp = 1.1;
 constexpr double gentle_below = 0.6;
+constexpr std::array knots_for_two_swings = {0.63, 1.51, 2.3, 3.65, 5.6, 7.7, 8.57, 11.25};
+constexpr std::array change_weights_of_two_swings = {2.15, 1.68, 0.78, 0.35, 0.545, 0.515, 0.405};
+constexpr double two_swings_apart_from = 20;
 constexpr std::array knots_for_swinging_gently = {0.88, 1.5, 2.3, 3.2, 4.5, 6.4, 7.75, 8.8};
 constexpr std::array change_weights_of_gentle = {1.75, 1.53, 0.95, 0.52, 0.46, 0.48, 0.42};
-constexpr double gentle_apart_from = 11;
-constexpr std::array knots_for_gentle_company = {1.02, 2.23, 4.14, 4.8, 7.15};
-constexpr std::array change_weights_of_company = {0.97, 0.87, 1.06, 1.01};
+constexpr double one_swing_apart_from = 12;
+constexpr std::array knots_for_company = {0.573, 2.24, 3.2, 4.4, 10.5};
+constexpr std::array change_weights_of_company = {1.51, 1.32, 0.45, 0.4};
+constexpr double company_apart_from = 6;
+constexpr std::array knots_for_close_company = {1.02, 2.23, 4.14, 4.8, 7.15};
+constexpr std::array change_weights_of_close_company = {0.97, 0.87, 1.06, 1.01};
 // Where the room is a little too small for the second, third or fourth knot of such a corner, all its knots come
 // closer, at most to this share. With one knot less the bend could not change slowly: the time of a staircase jumped by
 // 15 % from one length of the stairs to the next. By trial; farther knots are no loss.
@@ -89,23 +99,47 @@ const KnotPlacer::Spacing KnotPlacer::swinging_slowly = {.corner_width = 7,
                                                          .closer = &slow_bending,
                                                          .comes_closer = true,
                                                          .change_weights = change_weights_of_slow};
+const KnotPlacer::Spacing KnotPlacer::gentle_close_company = {.corner_width = 7,
+                                                              .knots = knots_for_close_company,
+                                                              .quickening = 0.25,
+                                                              .sharp_from = 0.33,
+                                                              .closer = &slow_bending,
+                                                              .comes_closer = true,
+                                                              .change_weights = change_weights_of_close_company};
 const KnotPlacer::Spacing KnotPlacer::gentle_company = {.corner_width = 7,
-                                                        .knots = knots_for_gentle_company,
-                                                        .quickening = 0.25,
-                                                        .sharp_from = 0.33,
+                                                        .knots = knots_for_company,
+                                                        .quickening = 0.225,
+                                                        .sharp_from = 0.39,
                                                         .closer = &slow_bending,
+                                                        .apart_from = company_apart_from,
+                                                        .in_company = &gentle_close_company,
                                                         .comes_closer = true,
                                                         .change_weights = change_weights_of_company};
+const KnotPlacer::Spacing KnotPlacer::gentle_apart = {.corner_width = 7,
+                                                      .knots = knots_for_swinging_gently,
+                                                      .quickening = 0.18,
+                                                      .sharp_from = 0.41,
+                                                      .apart_from = one_swing_apart_from,
+                                                      .in_company = &gentle_company,
+                                                      .comes_closer = true,
+                                                      .change_weights = change_weights_of_gentle};
 const KnotPlacer::Spacing KnotPlacer::swinging_gently = {.corner_width = 7,
-                                                         .knots = knots_for_swinging_gently,
-                                                         .quickening = 0.18,
+                                                         .knots = knots_for_two_swings,
+                                                         .quickening = 0.3,
                                                          .sharp_from = 0.41,
-                                                         .apart_from = gentle_apart_from,
-                                                         .in_company = &gentle_company,
+                                                         .apart_from = two_swings_apart_from,
+                                                         .in_company = &gentle_apart,
                                                          .comes_closer = true,
-                                                         .change_weights = change_weights_of_gentle};
+                                                         .change_weights = change_weights_of_two_swings};
+const KnotPlacer::Spacing KnotPlacer::slow_company =
+    in_company_from(gentle_company, company_apart_from, swinging_slowly);
+const KnotPlacer::Spacing KnotPlacer::slow_apart = in_company_from(swinging_slowly, one_swing_apart_from, slow_company);
+const KnotPlacer::Spacing KnotPlacer::swinging_twice =
+    in_company_from(swinging_gently, two_swings_apart_from, slow_apart);
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
-const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .closer = &inside};
+const KnotPlacer::Spacing KnotPlacer::on_short_legs = {.corner_width = 4, .knots = knots_for_short_legs};
+const KnotPlacer::Spacing KnotPlacer::swinging = {
+    .corner_width = 7, .knots = knots_for_swinging, .closer = &on_short_legs};
 
 KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
     : reader_(reader), bends_slowly_(smoothness == Smoothness::slow_bending) {}
@@ -151,7 +185,9 @@ const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const 
   const bool have_room =
       has_room_to_swing(before, before.last_bend, width) && has_room_to_swing(after, after.first_bend, width);
   const bool swings = have_room && !follows_spindle(before, after) && !goes_to_and_fro && !meets_slow_feed;
-  if (bends_slowly_ && swings) return turn < gentle_below ? swinging_gently : swinging_slowly;
+  if (bends_slowly_ && swings) {
+    return turn < gentle_below ? swinging_gently : turn < not_sharp ? swinging_twice : swinging_slowly;
+  }
   if (bends_slowly_) return slow_bending;
   return swings ? swinging : inside;
 }
@@ -281,8 +317,9 @@ KnotPlacer::Places KnotPlacer::places_of(const Node& node, double width, double 
     }
     return places;
   };
-  const bool in_company = nearest < node.spacing->apart_from * node.width;
-  const Places places = within(in_company ? *node.spacing->in_company : *node.spacing, width);
+  const Spacing* fitting = node.spacing;
+  while (nearest < fitting->apart_from * node.width) fitting = fitting->in_company;
+  const Places places = within(*fitting, width);
   const Spacing* const closer = places.spacing->closer;
   if (places.count > 0 || closer == nullptr) return places;
   if (!alone && width < too_far * node.width) return places;

@@ -78,10 +78,22 @@ class KnotPlacer {
     // Weights of the change of the bend, span by span from the node on. Empty: 1.
     std::span<const double> change_weights = {};
   };
+  // The same, but if a node on either side is nearer than so many widths, another one places the knots.
+  static Spacing in_company_from(Spacing spacing, double apart_from, const Spacing& in_company) {
+    spacing.apart_from = apart_from;
+    spacing.in_company = &in_company;
+    return spacing;
+  }
   static const Spacing slow_bending;
   static const Spacing swinging_slowly;
-  static const Spacing swinging_gently;
+  static const Spacing gentle_close_company;
   static const Spacing gentle_company;
+  static const Spacing gentle_apart;
+  static const Spacing swinging_gently;
+  static const Spacing slow_company;
+  static const Spacing slow_apart;
+  static const Spacing swinging_twice;
+  static const Spacing on_short_legs;
   static const Spacing swinging;
   static const Spacing inside;
   struct Node {

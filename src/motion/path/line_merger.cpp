@@ -107,10 +107,10 @@ bool LineMerger::absorbs(const Segment& merged, const Segment& line, const Chord
   const Point own = line.curve.end() - line.curve.start();
   const Point before = end_ - merged.curve.start();
   if (!(dot(own, before) > 0)) return false;
+  if (!cone_.has(chord.direction)) return false;
   const SurfaceScale& surface = merged.surface;
   const CountedGroup group = counted_group(own, surface);
   if (group != counted_group(before, surface) || group != counted_group(chord.travel, surface)) return false;
-  if (!cone_.has(chord.direction)) return false;
   return !(length_in(chord.travel, group, surface) <
            least_share_of_length * (programmed_ + line.curve.length().value()));
 }

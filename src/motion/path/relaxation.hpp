@@ -58,7 +58,7 @@ class Relaxation {
 
  private:
   // Not a power of two, because then the lanes would share the same cache lines.
-  static constexpr std::size_t capacity = 9001;
+  static constexpr std::size_t capacity = 501;
   using Lanes = std::array<double, capacity>;
   struct AxisLanes {
     Lanes control{};

@@ -95,6 +95,52 @@ TEST_F(CoarseChords, short_arcs_bend_as_the_curve_that_they_make_up) {
   }
 }
 
+// A wave in arcs of 0.2 mm that are rounded to 0.001 mm: each begins in the wave's direction, and bends a little more
+// or less than the next one.
+TEST_F(CoarseChords, a_row_of_short_arcs_is_fitted_like_chords) {
+  const auto place = [](double x) { return xyz(std::round(x * 1000) / 1000, std::round(std::sin(x) * 1000) / 1000); };
+  constexpr double step = 0.2;
+  position_ = place(0);
+  for (double x = step; x < 20; x += step) {
+    const Point end = place(x);
+    const double slope = std::cos(x - step);
+    const Point way = end - position_;
+    const double beside = way[Axis::y] - slope * way[Axis::x];
+    const double square = way[Axis::x] * way[Axis::x] + way[Axis::y] * way[Axis::y];
+    const double to_center = square / (2 * beside);  // times the normal (-slope, 1)
+    const double center_x = position_[Axis::x] - slope * to_center;
+    const double center_y = position_[Axis::y] + to_center;
+    const double sweep = std::atan2(end[Axis::y] - center_y, end[Axis::x] - center_x) -
+                         std::atan2(position_[Axis::y] - center_y, position_[Axis::x] - center_x);
+    arc(end[Axis::x], end[Axis::y], center_x, center_y, std::remainder(sweep, 2 * 3.14159265358979));
+  }
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+    expect_good(path_, smoothness);
+    double s = 0;
+    double most = 0;
+    for (const Segment& segment : segments_of(smooth(path_, smoothness))) {
+      s += segment.curve.length().value();
+      if (s < 1 || s > 23) continue;
+      EXPECT_EQ(segment.curve.shape(), Curve::Shape::cubic) << s;
+      most = std::max(most, segment.curve.curvature());
+    }
+    EXPECT_LT(most, 1.1);  // that of the wave is at most 1
+  }
+}
+
+// Pieces of one circle have nothing to even out.
+TEST_F(CoarseChords, short_arcs_of_a_circle_stay_arcs) {
+  constexpr double quarter = 3.14159265358979 / 2;
+  position_ = xyz(0.5, 0);
+  for (int turn = 0; turn < 3; ++turn) {
+    arc(0, 0.5, 0, 0, quarter);
+    arc(-0.5, 0, 0, 0, quarter);
+    arc(0, -0.5, 0, 0, quarter);
+    arc(0.5, 0, 0, 0, quarter);
+  }
+  for (const Segment& segment : smoothed()) EXPECT_EQ(segment.curve.shape(), Curve::Shape::arc);
+}
+
 // As CAM programs write where they drill with G2.
 TEST_F(CoarseChords, circles_of_a_fraction_of_the_tolerance_are_passed_as_a_line) {
   constexpr double turn = 2 * 3.14159265358979;
