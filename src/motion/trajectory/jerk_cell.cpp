@@ -12,9 +12,11 @@ constexpr double cells_a_braking = 128;  // cells in the time that braking takes
 // In seconds. A ramp of some microseconds, to a creeping feed where only an axis that stands has a limit of jerk, needs
 // no cells: it is over in one step of a motor.
 constexpr double shortest_tick = 20e-6;
-constexpr double turn_a_cell = 0.1;      // radians
-constexpr double most_cells = 20'000;    // in one segment
-constexpr double cells_of_cruise = 4;    // about the cells on each side of the middle where the speed is steady
+constexpr double turn_a_cell = 0.1;    // radians
+constexpr double most_cells = 20'000;  // in one segment
+constexpr double cells_of_cruise = 4;  // about the cells on each side of the middle where the speed is steady
+// Of the segment's length. A shorter cell would not lead to another place: doubles are 1e-16 apart.
+constexpr double shortest_part = 1e-13;
 constexpr double fewest_from_rest = 16;  // cells of a segment that begins or ends at rest
 
 }  // namespace
@@ -65,7 +67,8 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
     const double way = std::min(8.0 / 6 * jerk_ * tick_, 2 * acceleration_) * tick_ * tick_;
     shortest_ = std::max(shortest_, way);
   }
-  shortest_ = std::min(shortest_, longest_);
+  longest_ = std::max(longest_, length_ * shortest_part);
+  shortest_ = std::clamp(shortest_, length_ * shortest_part, longest_);
   here_ = derivatives(curve, from_);
 }
 

@@ -158,7 +158,8 @@ class JerkProfile {
     double end_squared = 0;    // and the greatest one left at the end
   };
   Ends ends_;
-  std::size_t planned_ = 0;  // cells for which the states are a plan to a stop
+  std::size_t most_cells_ = 0;  // then they are no longer split
+  std::size_t planned_ = 0;     // cells for which the states are a plan to a stop
   bool fell_back_ = false;
   JerkOptimizer lift_;
 };
