@@ -37,7 +37,7 @@ struct Halt {
   bool is_tail = false;  // the board plays what it holds
   double asked = 0;
   double from = 0;
-  double rested = 0;                // no step came from then on
+  double rested = 0;                // the drive says so: no step came from then on
   std::vector<double> speeds = {};  // of each axis: the highest from `asked` to `from`
   double least = 0;                 // from `from` to rest
 };
@@ -226,9 +226,6 @@ HaltedRun act_at_random(std::uint64_t number, const test::RandomJob& job, test::
   run.faults = faults_of(job.machine, log.steps, run.halts, path, number, tally);
   if (diagnostics.any_error()) run.faults.push_back(render(diagnostics, false));
   if (running.link().error()) run.faults.push_back("the link failed");
-  // From now on to the last step.
-  const test::StepJudge judge(job.machine, log.steps);
-  for (Halt& halt : run.halts) halt.rested = judge.last_step_before(halt.rested);
   return run;
 }
 
