@@ -24,7 +24,8 @@ namespace {
 constexpr double between_trials = 0.003;
 
 // Times the shortest stop. A later one is compared with the soonest that can be planned.
-constexpr double late = 1.3;
+constexpr double late = 1.1;
+constexpr double very_late = 1.5;
 
 // A share of the time to rest. Another stop must be sooner by this factor, or stops of rounding would replace each
 // other at every move.
@@ -64,14 +65,14 @@ class JerkLaw final : public SpeedLaw {
   void path_grew() override { unsuited_ = true; }
 
   bool go_on(PlannedMove& move) override {
-    if (unsuited_ && (now_.speed == 0 || may_try())) adapt();
+    if (unsuited_ && (now_.speed == 0 || may_try(Seconds(between_trials)))) adapt();
     return produce(move);
   }
 
   bool brake(PlannedMove& move) override {
     unsuited_ = true;
     if (now_.speed == 0) return false;
-    if (is_stop_late() && may_try()) stop_sooner();
+    if (is_stop_late() && may_try(pause_in_stop())) stop_sooner();
     return produce(move);
   }
 
@@ -231,11 +232,18 @@ class JerkLaw final : public SpeedLaw {
     return best;
   }
 
-  // Whether enough motion has passed since the last trial.
-  bool may_try() {
-    if (since_trial_ < Seconds(between_trials)) return false;
+  // Whether so much motion has passed since the last trial.
+  bool may_try(Seconds pause) {
+    if (since_trial_ < pause) return false;
     since_trial_ = Seconds(0);
     return true;
+  }
+
+  // A stop that is hardly late is tried again when half of it is over: few times.
+  Seconds pause_in_stop() const {
+    const Seconds left = time_to_rest();
+    return left < very_late * SpeedChange::shortest_stop(path_, now_, axes_) ? std::max(left, Seconds(between_trials))
+                                                                             : Seconds(between_trials);
   }
 
   // How long the present stop still takes. Infinite if there is none.

@@ -9,10 +9,10 @@ namespace passo {
 namespace {
 
 // The first way is that of braking on a straight line. Each further one is so much longer, until a stop is found.
-constexpr double longer = 1.5;
-constexpr int most_ways = 7;
+constexpr double longer = 1.25;
+constexpr int most_ways = 12;
 // The shortest way is then found to within this factor.
-constexpr double near_enough = 1.04;
+constexpr double near_enough = 1.06;
 // A stop passes some 20 to 200 cells.
 constexpr std::size_t most_cells_of_stop = 2000;
 constexpr PlanEffort little{.rounds = 3, .attempts = 2};
