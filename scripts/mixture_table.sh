@@ -69,6 +69,8 @@ column '$1 == "time"' '$7' | spread 'seconds of CPU'
 halt='$1 == "halt" && $7 > 0.02'
 head_of_table 'hold or stop to rest / least possible, if that is more than 20 ms'
 column "$halt" '$6 / $7' | spread 'all'
+column "$halt && \$8 == \"line\"" '$6 / $7' | spread 'on a line'
+column "$halt && \$8 == \"bend\"" '$6 / $7' | spread 'on a bend, where the least time is too low'
 by_mixture "$halt" '$6 / $7'
 
 echo
