@@ -440,7 +440,7 @@ std::size_t JerkProfile::plan(bool closed, double end_squared) {
   ends_.end_squared = closed ? end_squared : 0;
   kept_.assign(states_.begin(), states_.end());
   if (cells_.size() < fewest_cells && planned_ == 0) even_out();
-  most_cells_ = most_splits * cells_.size();
+  effort_.most_cells = most_splits * cells_.size();
   grade();
   const bool fell_back_before = fell_back_;
   fell_back_ = !find_motion();

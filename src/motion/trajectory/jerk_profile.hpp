@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "jerk_cell.hpp"
@@ -34,6 +35,7 @@ namespace passo {
 struct PlanEffort {
   int rounds = 10;   // maximum number of times that cells beyond a limit are optimised again
   int attempts = 6;  // each attempt uses more cells
+  std::size_t most_cells = std::numeric_limits<std::size_t>::max();  // then they are no longer split; set by plan()
 };
 
 class JerkProfile {
@@ -158,8 +160,7 @@ class JerkProfile {
     double end_squared = 0;    // and the greatest one left at the end
   };
   Ends ends_;
-  std::size_t most_cells_ = 0;  // then they are no longer split
-  std::size_t planned_ = 0;     // cells for which the states are a plan to a stop
+  std::size_t planned_ = 0;  // cells for which the states are a plan to a stop
   bool fell_back_ = false;
   JerkOptimizer lift_;
 };

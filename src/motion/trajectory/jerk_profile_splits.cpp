@@ -17,7 +17,7 @@ constexpr double most_unevenness = 2.5;
 // exceed a limit although their share was lowered, with their neighbours. Returns whether there were any. Cells of the
 // plan before stay as they are, because that plan may have to go on. What planning may take bounds the cells.
 bool JerkProfile::split_coarse() {
-  if (cells_.size() > most_cells_) return false;
+  if (cells_.size() > effort_.most_cells) return false;
   std::ranges::sort(exceeded_);  // stretches that were lifted overlap
   const std::vector<double>& x = guess_;
   bool any = false;
