@@ -58,13 +58,34 @@ inline double least_rest_by_jerk(double acceleration_limit, double jerk, AxisSta
   return std::max(a / jerk + braking, 0.0);
 }
 
+// Returns the least time to rest if both are limited and the acceleration may be higher at lower velocities: by short
+// steps of time, the acceleration falls with the jerk down to the limit, follows it, and returns to zero.
+inline double least_rest_by_both(const RestLimits& limits, const AxisState& from, double about) {
+  constexpr int steps = 2000;
+  const double step = about / steps;
+  double velocity = std::abs(from.velocity) - limits.start_stop;
+  double acceleration = from.velocity < 0 ? -from.acceleration : from.acceleration;
+  for (int i = 0; i < 4 * steps; ++i) {
+    const double easing = acceleration < 0 ? acceleration * acceleration / (2 * limits.jerk) : 0;
+    // The velocity that is lost while the acceleration returns to zero, at its mean.
+    if (velocity <= easing) return std::max(i - 1, 0) * step + 2 * velocity / std::max(-acceleration, 1e-300);
+    const double most = limits.acceleration_at(std::max(velocity, 0.0) + limits.start_stop);
+    const double next = std::max(acceleration - limits.jerk * step, std::min(-most, acceleration));
+    velocity += (acceleration + next) / 2 * step;
+    acceleration = acceleration < -most ? -most : next;
+  }
+  return about;
+}
+
 // At the start-stop velocity there is no acceleration any more.
 inline double least_rest(const RestLimits& limits, const AxisState& from) {
   const double by_acceleration = least_rest_by_acceleration(limits, from.velocity);
   if (limits.jerk == 0 || std::abs(from.velocity) <= limits.start_stop) return by_acceleration;
   const AxisState above{.velocity = from.velocity - std::copysign(limits.start_stop, from.velocity),
                         .acceleration = from.acceleration};
-  return std::max(by_acceleration, least_rest_by_jerk(limits.acceleration, limits.jerk, above));
+  const double least = std::max(by_acceleration, least_rest_by_jerk(limits.acceleration, limits.jerk, above));
+  // A hundredth is left for the steps, and for what rounding makes of the state.
+  return std::max(least, 0.99 * least_rest_by_both(limits, from, least));
 }
 
 inline RestLimits rest_limits_of(const AxisDescription& axis) {
@@ -96,8 +117,15 @@ inline RestLimits rest_limits_along(const Point& slope, const std::vector<AxisDe
   return along;
 }
 
+struct LeastRest {
+  double time = 0;
+  // Whether the path is straight until then. On a bend the time may be far below what is possible: each axis is alone
+  // there, but the path binds them together, and bending alone uses up part of the limits.
+  bool is_on_line = false;
+};
+
 // Returns the least time to rest from the end of a move.
-inline double least_rest_after(const PlannedMove& move, const std::vector<AxisDescription>& axes) {
+inline LeastRest least_rest_after(const PlannedMove& move, const std::vector<AxisDescription>& axes) {
   const Phase& last = *std::prev(move.end());
   const AxisState along{.velocity = move.exit_velocity().value(),
                         .acceleration = last.acceleration_at(last.duration).value()};
@@ -113,13 +141,14 @@ inline double least_rest_after(const PlannedMove& move, const std::vector<AxisDe
                           .acceleration = first * along.acceleration + second * along.velocity * along.velocity};
     least = std::max(least, least_rest(rest_limits_of(axis), state));
   }
-  if (curve.shape() != Curve::Shape::line) return least;
+  if (curve.shape() != Curve::Shape::line) return {.time = least, .is_on_line = false};
   const RestLimits limits = rest_limits_along(slope, axes);
   const double together = least_rest(limits, along);
   const double left = (curve.length() - move.to).value();
   const double raised = limits.jerk > 0 ? std::max(along.acceleration, 0.0) / limits.jerk * along.acceleration / 2 : 0;
   // While it stops, it is never faster than this.
-  return (along.velocity + raised) * together < left ? std::max(least, together) : least;
+  const bool is_on_line = (along.velocity + raised) * together < left;
+  return {.time = is_on_line ? std::max(least, together) : least, .is_on_line = is_on_line};
 }
 
 }  // namespace passo::test

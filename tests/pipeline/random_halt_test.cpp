@@ -37,9 +37,9 @@ struct Halt {
   bool is_tail = false;  // the board plays what it holds
   double asked = 0;
   double from = 0;
-  double rested = 0;                // no step came from then on
+  double rested = 0;                // the drive says so: no step came from then on
   std::vector<double> speeds = {};  // of each axis: the highest from `asked` to `from`
-  double least = 0;                 // from `from` to rest
+  test::LeastRest least = {};       // from `from` to rest
 };
 
 // How fast the axes were in the motion given last.
@@ -59,7 +59,7 @@ class LastSpeeds {
     while (given_.size() > most) given_.pop_front();
   }
   // The least time to rest from the end of that motion.
-  double least_rest() const { return least_rest_; }
+  test::LeastRest least_rest() const { return least_rest_; }
   // The highest of each axis in that time. At least at the end of the motion.
   std::vector<double> in_the_last(double time) const {
     std::vector<double> highest(machine_.axes.size(), 0.0);
@@ -78,7 +78,7 @@ class LastSpeeds {
   };
   const MachineDescription& machine_;
   std::deque<Given> given_;
-  double least_rest_ = 0;
+  test::LeastRest least_rest_;
 };
 
 // What all runs together had.
@@ -226,9 +226,6 @@ HaltedRun act_at_random(std::uint64_t number, const test::RandomJob& job, test::
   run.faults = faults_of(job.machine, log.steps, run.halts, path, number, tally);
   if (diagnostics.any_error()) run.faults.push_back(render(diagnostics, false));
   if (running.link().error()) run.faults.push_back("the link failed");
-  // From now on to the last step.
-  const test::StepJudge judge(job.machine, log.steps);
-  for (Halt& halt : run.halts) halt.rested = judge.last_step_before(halt.rested);
   return run;
 }
 
@@ -276,9 +273,10 @@ HaltedRun cut_at_random(std::uint64_t number, test::RandomJob job, test::Random&
 std::string rows_of(std::uint64_t number, const test::RandomJob& job, const HaltedRun& run, const Tally& tally) {
   std::string rows;
   for (const Halt& halt : run.halts) {
-    if (halt.least == 0) continue;  // a lost line
-    rows += fmt::format("halt\t{}\t{}\t{}\t{:.6f}\t{:.6f}\t{:.6f}\n", number, test::mixture_of(job.machine), halt.what,
-                        halt.from, halt.rested - halt.from, halt.least);
+    if (halt.least.time == 0) continue;  // a lost line
+    rows +=
+        fmt::format("halt\t{}\t{}\t{}\t{:.6f}\t{:.6f}\t{:.6f}\t{}\n", number, test::mixture_of(job.machine), halt.what,
+                    halt.from, halt.rested - halt.from, halt.least.time, halt.least.is_on_line ? "line" : "bend");
   }
   return rows + fmt::format("acts\t{}\t{}\t{}\t{}\n", number, test::mixture_of(job.machine), tally.instants(),
                             fmt::join(run.faults, "; "));

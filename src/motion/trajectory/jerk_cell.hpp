@@ -110,6 +110,7 @@ class JerkCutter {
     Point third;
   };
   static Derivatives derivatives(const Curve& curve, double s);
+  bool limits_speed() const;
   double speed_estimate(double s) const;
 
   const std::vector<LimitedAxis>& axes_;

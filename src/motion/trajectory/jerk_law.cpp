@@ -19,15 +19,21 @@
 namespace passo {
 namespace {
 
-// In seconds, between two places from which braking is tried. A braking plan begins so much too late at most.
+// In seconds of motion, between two places from which a change is planned. It bounds the work: a trial takes a few
+// milliseconds at most, and moves may be much shorter. A change begins so much too late at most.
 constexpr double between_trials = 0.003;
 
 // Times the shortest stop. A later one is compared with the soonest that can be planned.
-constexpr double late = 1.3;
+constexpr double late = 1.1;
+constexpr double very_late = 1.5;
 
 // A share of the time to rest. Another stop must be sooner by this factor, or stops of rounding would replace each
 // other at every move.
 constexpr double worth = 0.98;
+// In seconds. Another stop must also be sooner by this. The last part of a stop takes up to twice as long as the
+// shortest one (JerkProfile, next to a stop), on any scale: without this, each move would be replaced by one of half
+// the length, down to the spacing of doubles.
+constexpr double least_gain_of_stop = 0.001;
 
 // Shares of the wanted speed. From each of them a plan that goes on is tried: the first is the best one, and the others
 // help where the path ahead is slower than the feed.
@@ -59,14 +65,14 @@ class JerkLaw final : public SpeedLaw {
   void path_grew() override { unsuited_ = true; }
 
   bool go_on(PlannedMove& move) override {
-    if (unsuited_) adapt();
+    if (unsuited_ && (now_.speed == 0 || may_try(Seconds(between_trials)))) adapt();
     return produce(move);
   }
 
   bool brake(PlannedMove& move) override {
     unsuited_ = true;
     if (now_.speed == 0) return false;
-    stop_sooner();
+    if (is_stop_late() && may_try(pause_in_stop())) stop_sooner();
     return produce(move);
   }
 
@@ -122,6 +128,7 @@ class JerkLaw final : public SpeedLaw {
     if (!pull(move)) return false;
     rest_ = shorten(move, wishes_.longest_move);
     now_ = PathState::behind(move, path_.first());
+    since_trial_ += move.duration();
     if (rest_ || !(has_stopped() || ends_at_stop(move, path_.first()))) return true;
     if (stops_.any()) stopped_ = move.segment.curve.tangent(move.to) * now_.speed;
     now_.speed = now_.acceleration = 0;
@@ -225,13 +232,37 @@ class JerkLaw final : public SpeedLaw {
     return best;
   }
 
-  void stop_sooner() {
+  // Whether so much motion has passed since the last trial.
+  bool may_try(Seconds pause) {
+    if (since_trial_ < pause) return false;
+    since_trial_ = Seconds(0);
+    return true;
+  }
+
+  // A stop that is hardly late is tried again when half of it is over: few times.
+  Seconds pause_in_stop() const {
+    const Seconds left = time_to_rest();
+    return left < very_late * SpeedChange::shortest_stop(path_, now_, axes_) ? std::max(left, Seconds(between_trials))
+                                                                             : Seconds(between_trials);
+  }
+
+  // How long the present stop still takes. Infinite if there is none.
+  Seconds time_to_rest() const {
     const bool stops = change_ && change_->end().speed == 0;
-    const Seconds left = stops ? (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_)
-                               : Seconds(std::numeric_limits<double>::infinity());
-    if (left <= late * SpeedChange::shortest_stop(path_, now_, axes_)) return;
+    if (!stops) return Seconds(std::numeric_limits<double>::infinity());
+    return (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);
+  }
+
+  bool is_stop_late() const {
+    const Seconds shortest = SpeedChange::shortest_stop(path_, now_, axes_);
+    return time_to_rest() > std::max(late * shortest, shortest + Seconds(least_gain_of_stop));
+  }
+
+  void stop_sooner() {
     std::optional<SpeedChange> stop = plan_stop(now_);
-    if (stop && stop->duration_from(0) <= left * worth) lead_off(std::move(stop));
+    const Seconds left = time_to_rest();
+    const Seconds most = std::min(left * worth, left - Seconds(least_gain_of_stop));
+    if (stop && stop->duration_from(0) <= most) lead_off(std::move(stop));
   }
 
   void lead_off(std::optional<SpeedChange> change) {
@@ -265,13 +296,14 @@ class JerkLaw final : public SpeedLaw {
   EmergencyBrake emergency_brake_;
   std::unique_ptr<JerkWindow> window_;
 
-  PathState now_;                      // at the end of the last move given
-  Point stopped_;                      // how fast the axes were when the machine last came to a stop
-  std::optional<PlannedMove> rest_;    // the rest of a move that was too long
-  std::optional<SpeedChange> change_;  // leads to the window's start
-  std::size_t given_pieces_ = 0;       // pieces of the change
-  FeedFactors fastest_;                // the fastest feeds with which any of the present plan was made
-  bool unsuited_ = false;              // the plan does not suit the wishes
+  PathState now_;                        // at the end of the last move given
+  Point stopped_;                        // how fast the axes were when the machine last came to a stop
+  std::optional<PlannedMove> rest_;      // the rest of a move that was too long
+  std::optional<SpeedChange> change_;    // leads to the window's start
+  std::size_t given_pieces_ = 0;         // pieces of the change
+  FeedFactors fastest_;                  // the fastest feeds with which any of the present plan was made
+  bool unsuited_ = false;                // the plan does not suit the wishes
+  Seconds since_trial_{between_trials};  // motion since a change was last tried
 };
 
 }  // namespace

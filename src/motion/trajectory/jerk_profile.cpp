@@ -18,6 +18,7 @@ constexpr double hardest_guessed_braking = 0.9;
 constexpr double guessed_jerk = 0.5;
 constexpr double most_growth = 2.5;  // of the square of a guessed speed, from node to node
 constexpr int most_passes = 40;
+constexpr std::size_t most_splits = 16;  // the window is no longer split when it has so many times its cells
 constexpr double at_cap = 1 - 1e-9;
 constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
@@ -439,6 +440,7 @@ std::size_t JerkProfile::plan(bool closed, double end_squared) {
   ends_.end_squared = closed ? end_squared : 0;
   kept_.assign(states_.begin(), states_.end());
   if (cells_.size() < fewest_cells && planned_ == 0) even_out();
+  effort_.most_cells = most_splits * cells_.size();
   grade();
   const bool fell_back_before = fell_back_;
   fell_back_ = !find_motion();

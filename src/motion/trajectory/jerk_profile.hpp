@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "jerk_cell.hpp"
@@ -34,6 +35,7 @@ namespace passo {
 struct PlanEffort {
   int rounds = 10;   // maximum number of times that cells beyond a limit are optimised again
   int attempts = 6;  // each attempt uses more cells
+  std::size_t most_cells = std::numeric_limits<std::size_t>::max();  // then they are no longer split; set by plan()
 };
 
 class JerkProfile {

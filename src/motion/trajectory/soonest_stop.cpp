@@ -1,5 +1,6 @@
 #include "soonest_stop.hpp"
 
+#include <cmath>
 #include <cstddef>
 
 #include "jerk_window.hpp"
@@ -7,10 +8,11 @@
 namespace passo {
 namespace {
 
-// The first way is that of braking on a straight line. Each further one is so much longer.
+// The first way is that of braking on a straight line. Each further one is so much longer, until a stop is found.
 constexpr double longer = 1.25;
 constexpr int most_ways = 12;
-constexpr double worth_of_longer = 0.98;  // of the time: a stop after a longer way is worth it
+// The shortest way is then found to within this factor.
+constexpr double near_enough = 1.06;
 // A stop passes some 20 to 200 cells.
 constexpr std::size_t most_cells_of_stop = 2000;
 constexpr PlanEffort little{.rounds = 3, .attempts = 2};
@@ -38,13 +40,21 @@ std::optional<SpeedChange> fastest_to_rest_after(double way, PathAhead& path, co
 
 std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const std::vector<LimitedAxis>& axes,
                                         const FeedFactors& feeds) {
-  double way = from.speed / 2 * SpeedChange::shortest_stop(path, from, axes).value();
+  const SpeedChange::Request request{.axes = axes, .feeds = feeds, .exit = 0, .planned = true};
   std::optional<SpeedChange> soonest;
-  for (int i = 0; i < most_ways; ++i, way *= longer) {
-    std::optional<SpeedChange> stop =
-        fastest_to_rest_after(way, path, from, {.axes = axes, .feeds = feeds, .exit = 0, .planned = true});
-    if (soonest && !(stop && stop->duration_from(0) < soonest->duration_from(0) * worth_of_longer)) break;
-    soonest = std::move(stop);
+  const auto try_way = [&](double way) {
+    std::optional<SpeedChange> stop = fastest_to_rest_after(way, path, from, request);
+    if (!stop) return false;
+    if (!soonest || stop->duration_from(0) < soonest->duration_from(0)) soonest = std::move(stop);
+    return true;
+  };
+  double high = from.speed / 2 * SpeedChange::shortest_stop(path, from, axes).value();
+  int ways = 1;
+  while (!try_way(high) && ways++ < most_ways) high *= longer;
+  // Less way takes less time, down to where the limits allow no stop.
+  for (double low = high / longer; soonest && high > low * near_enough;) {
+    const double middle = std::sqrt(low * high);
+    (try_way(middle) ? high : low) = middle;
   }
   return soonest;
 }

@@ -62,6 +62,8 @@ constexpr double shortest_rest = 0.01;
 // Times the unseen jump: the profile accepts as much (most_above_cap, jerk_profile_phases.cpp).
 constexpr double most_unseen_jump = 4;
 
+constexpr int slices_of_speed = 8;  // of a limit that falls with the speed
+
 // Even if all steps were halvings, about 53 would exhaust the digits of a double.
 constexpr int most_steps = 100;
 
@@ -158,11 +160,21 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
 Seconds SpeedChange::shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes) {
   const Segment* const segment = path.at(state.segment);
   if (segment == nullptr) return Seconds(0);
-  const auto [acceleration, jerk] = strength_at(*segment, state, axes);
-  const double rise = acceleration / jerk;
+  const double jerk = strength_at(*segment, state, axes).jerk;
+  // Where the torque falls with the speed, more of it is there on the way to rest: the mean of the slownesses counts.
+  double slowness = 0;
+  for (int i = 0; i < slices_of_speed; ++i) {
+    const PathState slower{.s = state.s, .speed = state.speed * (i + 0.5) / slices_of_speed};
+    slowness += 1 / (slices_of_speed * strength_at(*segment, slower, axes).acceleration);
+  }
+  const double strongest_mean = 1 / slowness;
+  const double rise = strongest_mean / jerk;
+  const double begun = std::clamp(state.acceleration, -strongest_mean, strongest_mean);
+  // Like a stop that began with no acceleration, at a higher speed.
+  const double speed = state.speed + begun * begun / (2 * jerk);
   // Where the acceleration does not rise to the strongest.
-  const bool is_slow = state.speed < acceleration * rise;
-  return Seconds(is_slow ? 2 * std::sqrt(state.speed / jerk) : state.speed / acceleration + rise);
+  const bool is_slow = speed < strongest_mean * rise;
+  return Seconds(std::max((is_slow ? 2 * std::sqrt(speed / jerk) : speed / strongest_mean + rise) + begun / jerk, 0.0));
 }
 
 void SpeedChange::add(double duration, double jerk) {

@@ -52,7 +52,7 @@ class SpeedChange {
   static std::optional<SpeedChange> to_rest(const std::vector<Piece>& pieces, const PathState& end, PathAhead& path,
                                             const Request& request);
 
-  // Returns how long a stop would take without initial acceleration, if the path continued straight.
+  // Returns how long a stop would take if the path continued straight.
   static Seconds shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes);
 
   const std::vector<Piece>& pieces() const { return pieces_; }

@@ -1,5 +1,6 @@
 // Hold, resume and override with limited jerk: at any time, within all limits, without a jump.
 #include <limits>
+#include <numbers>
 
 #include "jerk_kit.hpp"
 #include "kit/in_full.hpp"
@@ -103,6 +104,31 @@ TEST(JerkLimitedHold, at_any_instant_keeps_the_limits_of_axes_with_and_without_j
     }
     plan.expect_good();
     if (HasFailure()) return;
+  }
+}
+
+// The arc ends along X, which has no limit of jerk: only X brakes there, and may do so up to the last moment. The last
+// cell of a stop takes twice as long as that. Each move was replaced by a sooner one of half the length, and what was
+// left at rest was too short to be cut into cells: planning did not end.
+TEST(JerkLimitedHold, near_the_end_of_an_arc_takes_few_moves) {
+  MotionLimits limits = jerk_limits(50, 200, 4'000);
+  limits.jerk[Axis::x] = MmPerSecond3(0);
+  const Segment arc =
+      segment_of(Curve::arc(xyz(0, 0), xyz(10, 10), Axis::x, Axis::y, 10, 0, -std::numbers::pi / 2), 50);
+  const double whole = total_time(test::plan({arc}, limits));
+  for (double before = 0.5; before > 1e-5; before *= 0.7) {
+    SCOPED_TRACE("hold " + std::to_string(before) + " s before the end");
+    LivePlan plan({arc}, limits);
+    ASSERT_TRUE(plan.go_on_until(Seconds(whole - before)));
+    const double at = plan.time();
+    plan.planner().hold();
+    int moves = 0;
+    while (plan.go_on() && !plan.held()) ++moves;
+    EXPECT_LE(moves, (plan.time() - at) / 0.004 + 8);
+    plan.planner().resume();
+    while (plan.go_on()) {
+    }
+    plan.expect_good();
   }
 }
 
