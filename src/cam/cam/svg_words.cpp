@@ -12,6 +12,10 @@ std::optional<DxfTransform> one_svg_transform(std::string_view name, const std::
   const double degree = std::numbers::pi / 180;
   if (name == "matrix" && count == 6) return DxfTransform{v[0], v[2], v[1], v[3], v[4], v[5]};
   if (name == "translate" && (count == 1 || count == 2)) return DxfTransform{.dx = v[0], .dy = v[1]};
+  if (name == "translateX" && count == 1) return DxfTransform{.dx = v[0]};
+  if (name == "translateY" && count == 1) return DxfTransform{.dy = v[0]};
+  if (name == "scaleX" && count == 1) return DxfTransform{.xx = v[0]};
+  if (name == "scaleY" && count == 1) return DxfTransform{.yy = v[0]};
   if (name == "scale" && (count == 1 || count == 2)) return DxfTransform{.xx = v[0], .yy = count == 1 ? v[0] : v[1]};
   if (name == "rotate" && (count == 1 || count == 3)) {
     const double c = std::cos(v[0] * degree);
@@ -39,6 +43,11 @@ std::optional<DxfTransform> svg_transform(std::string_view text) {
       const std::optional<double> value = words.number();
       if (!value || count == values.size()) return std::nullopt;
       values[count++] = *value;
+      // CSS has units, the attribute has none.
+      const std::string_view unit = words.rest().starts_with("px")    ? "px"
+                                    : words.rest().starts_with("deg") ? "deg"
+                                                                      : "";
+      words.drop(unit.size());
     }
     words.drop();
     const std::optional<DxfTransform> one = one_svg_transform(name, values, count);
@@ -48,21 +57,20 @@ std::optional<DxfTransform> svg_transform(std::string_view text) {
   return all;
 }
 
-std::optional<double> svg_length(std::string_view text, double whole) {
+std::optional<double> svg_length(std::string_view text, double whole, double inch) {
   SvgWords words(text);
   const std::optional<double> value = words.number();
   if (!value) return std::nullopt;
-  constexpr double inch = 96;  // pixels
-  constexpr std::array<std::pair<std::string_view, double>, 10> units = {{{"", 1},
-                                                                          {"px", 1},
-                                                                          {"mm", inch / 25.4},
-                                                                          {"cm", inch / 2.54},
-                                                                          {"in", inch},
-                                                                          {"pt", inch / 72},
-                                                                          {"pc", inch / 6},
-                                                                          {"Q", inch / 101.6},
-                                                                          {"em", 16},
-                                                                          {"ex", 8}}};
+  const std::array<std::pair<std::string_view, double>, 10> units = {{{"", 1},
+                                                                      {"px", 1},
+                                                                      {"mm", inch / 25.4},
+                                                                      {"cm", inch / 2.54},
+                                                                      {"in", inch},
+                                                                      {"pt", inch / 72},
+                                                                      {"pc", inch / 6},
+                                                                      {"Q", inch / 101.6},
+                                                                      {"em", 16},
+                                                                      {"ex", 8}}};
   const std::string_view unit = words.rest().substr(0, words.rest().find_last_not_of(" \t\r\n") + 1);
   if (unit == "%") return *value / 100 * whole;
   for (const auto& [name, pixels] : units) {

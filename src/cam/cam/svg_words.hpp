@@ -73,7 +73,9 @@ class SvgWords {
 // Reads a transform list such as "translate(10,20) rotate(45)". Nothing if it is invalid.
 std::optional<DxfTransform> svg_transform(std::string_view text);
 
-// Reads a length and converts it to pixels. `whole`: the length of 100 %.
-std::optional<double> svg_length(std::string_view text, double whole);
+inline constexpr double svg_inch = 96;  // pixels
+
+// Reads a length and converts it to pixels. `whole`: the length of 100 %. `inch`: the pixels of an inch.
+std::optional<double> svg_length(std::string_view text, double whole, double inch = svg_inch);
 
 }  // namespace passo
