@@ -178,7 +178,8 @@ TEST(Svg, what_is_not_displayed_or_no_line_is_left_out_and_told) {
       svg(page("<g style='stroke:red; display : none'><circle r='1'/></g><circle r='1' visibility='hidden'/><text "
                "x='1' y='1'>A</text><image href='a.png'/><clipPath><circle r='1'/></clipPath>"));
   EXPECT_TRUE(read.drawing.holes.empty());
-  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre("ignored: 2 elements that are not displayed, first in line 1",
+  EXPECT_THAT(read.drawing.notes,
+              testing::UnorderedElementsAre("ignored: 2 elements that are not displayed, first in line 1",
                                             "ignored: 1 pictures and foreign objects, first in line 1",
                                             "ignored: 1 texts (convert them to paths), first in line 1"));
 }
@@ -211,7 +212,8 @@ TEST(Svg, style_sheets_hide_by_element_class_id_and_attribute) {
 
 TEST(Svg, style_sheets_follow_the_cascade) {
   const auto is_shown = [](const std::string& css, const std::string& attributes) {
-    const ReadSvg read = svg(page("<style><![CDATA[" + css + "]]></style><circle id='a' class='b' r='1' " + attributes + "/>"));
+    const ReadSvg read =
+        svg(page("<style><![CDATA[" + css + "]]></style><circle id='a' class='b' r='1' " + attributes + "/>"));
     EXPECT_EQ(read.words, "");
     return read.drawing.holes.size() == 1;
   };
@@ -233,9 +235,10 @@ TEST(Svg, rules_that_are_not_read_are_told) {
 }
 
 TEST(Svg, what_is_visible_in_a_hidden_group_is_drawn) {
-  EXPECT_EQ(diameters(svg(page("<g visibility='hidden'><circle r='1'/><g style='visibility:visible'><circle r='2'/></g>"
-                               "</g><g visibility='collapse'><use href='#c'/></g><defs><circle id='c' r='3'/></defs>"))),
-            "2 ");
+  EXPECT_EQ(
+      diameters(svg(page("<g visibility='hidden'><circle r='1'/><g style='visibility:visible'><circle r='2'/></g>"
+                         "</g><g visibility='collapse'><use href='#c'/></g><defs><circle id='c' r='3'/></defs>"))),
+      "2 ");
 }
 
 double area_of(const Drawing& drawing) {
@@ -277,11 +280,13 @@ TEST(Svg, clip_paths_have_rules_units_transforms_and_clips_of_their_own) {
     return std::abs(area_of(svg(page(clip + shape)).drawing));
   };
   const std::string square = "<rect clip-path='url(#c)' x='20' y='20' width='40' height='40'/>";  // 20 x 20 mm
-  EXPECT_NEAR(area("<clipPath id='c'><path clip-rule='evenodd' d='M0 0h100v100h-100zM30 30h20v20h-20z'/></clipPath>", square),
-              400 - 100, 1e-3);
+  EXPECT_NEAR(
+      area("<clipPath id='c'><path clip-rule='evenodd' d='M0 0h100v100h-100zM30 30h20v20h-20z'/></clipPath>", square),
+      400 - 100, 1e-3);
   EXPECT_NEAR(area("<clipPath id='c'><path d='M0 0h100v100h-100zM30 30h20v20h-20z'/></clipPath>", square), 400, 1e-3);
-  EXPECT_NEAR(area("<clipPath id='c' clipPathUnits='objectBoundingBox'><rect width='.5' height='.25'/></clipPath>", square),
-              400 / 8.0, 1e-3);
+  EXPECT_NEAR(
+      area("<clipPath id='c' clipPathUnits='objectBoundingBox'><rect width='.5' height='.25'/></clipPath>", square),
+      400 / 8.0, 1e-3);
   EXPECT_NEAR(area("<clipPath id='c' transform='translate(10,0)'><rect x='30' y='0' width='9' height='100'/><use "
                    "href='#r'/></clipPath><defs><rect id='r' width='20' height='100'/></defs>",
                    square),
@@ -289,22 +294,23 @@ TEST(Svg, clip_paths_have_rules_units_transforms_and_clips_of_their_own) {
   EXPECT_NEAR(area(left_half + "<clipPath id='d' clip-path='url(#c)'><rect y='30' width='200' height='5'/></clipPath>",
                    "<rect clip-path='url(#d)' x='90' y='20' width='40' height='40'/>"),
               5 * 2.5, 1e-3);
-  EXPECT_NEAR(area(left_half, "<g clip-path='url(#c)' transform='translate(-60,0)'><rect x='90' y='20' width='40' "
-                              "height='40'/></g>"),
+  EXPECT_NEAR(area(left_half,
+                   "<g clip-path='url(#c)' transform='translate(-60,0)'><rect x='90' y='20' width='40' "
+                   "height='40'/></g>"),
               5 * 20, 1e-3)
       << "the clip path moves with what it clips";
 }
 
 TEST(Svg, clips_that_are_not_obeyed_are_told_with_their_lines) {
-  const ReadSvg read = svg(page("\n<circle clip-path='circle(50%)' r='1'/>\n<circle clip-path='url(#no)' r='1'/>\n<circle "
-                                "mask='url(#m)' r='1'/><line x2='3' style='marker-end:url(#arrow)'/>"));
+  const ReadSvg read =
+      svg(page("\n<circle clip-path='circle(50%)' r='1'/>\n<circle clip-path='url(#no)' r='1'/>\n<circle "
+               "mask='url(#m)' r='1'/><line x2='3' style='marker-end:url(#arrow)'/>"));
   EXPECT_EQ(read.drawing.holes.size(), 3U);
-  EXPECT_THAT(read.drawing.notes,
-              testing::UnorderedElementsAre(
-                  "ignored: 1 clip paths by CSS shapes: what they hide is drawn, first in line 2",
-                  "ignored: 1 clip paths that the drawing does not have, first in line 3",
-                  "ignored: 1 masks: what they hide is drawn, first in line 4",
-                  "ignored: 1 markers of lines, first in line 4"));
+  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre(
+                                      "ignored: 1 clip paths by CSS shapes: what they hide is drawn, first in line 2",
+                                      "ignored: 1 clip paths that the drawing does not have, first in line 3",
+                                      "ignored: 1 masks: what they hide is drawn, first in line 4",
+                                      "ignored: 1 markers of lines, first in line 4"));
   EXPECT_THAT(svg(page("<clipPath id='c' clip-path='url(#c)'><rect width='1' height='1'/></clipPath><rect "
                        "clip-path='url(#c)' width='1' height='1'/>"))
                   .words,
@@ -313,7 +319,8 @@ TEST(Svg, clips_that_are_not_obeyed_are_told_with_their_lines) {
 
 TEST(Svg, a_nested_view_shows_nothing_beside_itself) {
   const std::string inside = "<circle cx='20' cy='10' r='5'/>";
-  EXPECT_NEAR(std::abs(area_of(svg(page("<svg width='20' height='20'>" + inside + "</svg>")).drawing)), M_PI * 6.25 / 2, 0.01);
+  EXPECT_NEAR(std::abs(area_of(svg(page("<svg width='20' height='20'>" + inside + "</svg>")).drawing)), M_PI * 6.25 / 2,
+              0.01);
   EXPECT_EQ(svg(page("<svg width='20' height='20' overflow='visible'>" + inside + "</svg>")).drawing.holes.size(), 1U);
 }
 
@@ -330,7 +337,8 @@ TEST(Svg, old_inkscape_has_90_pixels_in_an_inch) {
   EXPECT_NEAR(width("inkscape:version='0.48' width='200' height='100' viewBox='0 0 100 50'"), 50.8, 1e-5);
   EXPECT_NEAR(width("inkscape:version='0.92.3' width='960' height='960'"), 25.4 * 90 / 96, 1e-5);
   EXPECT_NEAR(width("inkscape:version='1.2 (dc2aeda)' width='960' height='960'"), 25.4 * 90 / 96, 1e-5);
-  EXPECT_NEAR(width("ns0:version='0.47 r1' xmlns:ns0='http://www.inkscape.org/namespaces/inkscape' width='9'"), 25.4, 1e-5);
+  EXPECT_NEAR(width("ns0:version='0.47 r1' xmlns:ns0='http://www.inkscape.org/namespaces/inkscape' width='9'"), 25.4,
+              1e-5);
 }
 
 TEST(Svg, layers_are_chosen_by_their_names) {

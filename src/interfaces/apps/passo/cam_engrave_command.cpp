@@ -163,11 +163,14 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
   if (findings.any_error()) return exit_bad_program;
   const double width = to_mm(options.cut.cutter).value();
   const double depth = -to_mm(options.cut.depth).value();
-  const std::string words = size_words(part) + fmt::format("{} and {}, {:.4g} mm deep, {:.4g} mm wide\n",
-                                                           counted(plan.outline.outsides, "closed line"),
-                                                           counted(plan.lines, "open line"), depth, width);
-  const nlohmann::ordered_json json = {
-      {"closed", plan.outline.outsides}, {"open", plan.lines}, {"deepest_mm", depth}, {"width_mm", width}};
+  const std::string words =
+      size_words(part) + fmt::format("{} and {}, {:.4g} mm deep, {:.4g} mm wide\n",
+                                     counted(plan.outline.outsides, "closed line"), open_lines(plan), depth, width);
+  const nlohmann::ordered_json json = {{"closed", plan.outline.outsides},
+                                       {"open", plan.lines},
+                                       {"dots", plan.dots},
+                                       {"deepest_mm", depth},
+                                       {"width_mm", width}};
   return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)},
                  progress.part(0.8, 1));
 }
