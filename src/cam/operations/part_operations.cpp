@@ -59,8 +59,10 @@ std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
       {"font",
        &a.font,
        file,
-       "outline font (.ttf, .otf) or single-line font (.lff, .jhf); simplex is a built-in single-line font",
-       {.choices = {"simplex"}}},
+       "outline font: a file (.ttf, .otf), or an installed family, e.g. \"DejaVu Sans:bold\"; or a single-line font: a "
+       "file "
+       "(.lff, .jhf), or simplex, which is built in",
+       {.choices = {"simplex"}, .names = "an installed font"}},
       {"height", &a.height, length, "height of a capital letter"},
       {"text-align",
        &a.text_align,
