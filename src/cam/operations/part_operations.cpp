@@ -59,9 +59,8 @@ std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
       {"font",
        &a.font,
        file,
-       "outline font: a file (.ttf, .otf), or an installed family, e.g. \"DejaVu Sans:bold\"; or a single-line font: a "
-       "file "
-       "(.lff, .jhf), or simplex, which is built in",
+       "font: a file (.ttf, .otf, .lff, .jhf), an installed family, e.g. \"DejaVu Sans:bold\", or simplex, a built-in "
+       "single-line font",
        {.choices = {"simplex"}, .names = "an installed font"}},
       {"height", &a.height, length, "height of a capital letter"},
       {"text-align",
