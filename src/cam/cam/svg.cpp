@@ -229,7 +229,16 @@ bool SvgExpansion::transform(const SvgElement& element, Place& place) {
            "matrix, translate, scale, rotate, skewX or skewY, with their numbers");
     return false;
   }
-  place.transform = place.transform.after(*own);
+  const std::string_view origin = element.property("transform-origin");
+  const std::string_view box = element.property("transform-box");
+  std::optional<std::array<double, 2>> about = {{0, 0}};
+  if (!origin.empty()) about = svg_transform_origin(origin, place.view.width, place.view.height, inch_);
+  if (!about || !(box.empty() || is_css_word(box, "view-box"))) {
+    leave_out("origins of transforms", element);
+    about = {{0, 0}};
+  }
+  const auto [x, y] = *about;
+  place.transform = place.transform.after({.dx = x, .dy = y}).after(*own).after({.dx = -x, .dy = -y});
   return true;
 }
 

@@ -206,10 +206,28 @@ bool matches_attribute(const CssCompound::Attribute& attribute, const SvgElement
 }  // namespace
 
 bool is_drawn_property(std::string_view property) {
-  constexpr std::string_view all[] = {
-      "display",    "visibility", "clip-path", "clip-rule", "mask", "marker", "marker-start",
-      "marker-mid", "marker-end", "overflow",  "transform", "x",    "y",      "width",
-      "height",     "cx",         "cy",        "r",         "rx",   "ry"};
+  constexpr std::string_view all[] = {"display",
+                                      "visibility",
+                                      "clip-path",
+                                      "clip-rule",
+                                      "mask",
+                                      "marker",
+                                      "marker-start",
+                                      "marker-mid",
+                                      "marker-end",
+                                      "overflow",
+                                      "transform",
+                                      "transform-origin",
+                                      "transform-box",
+                                      "x",
+                                      "y",
+                                      "width",
+                                      "height",
+                                      "cx",
+                                      "cy",
+                                      "r",
+                                      "rx",
+                                      "ry"};
   return std::ranges::find(all, property) != std::end(all);
 }
 

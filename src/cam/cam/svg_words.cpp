@@ -1,8 +1,11 @@
 #include "svg_words.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <utility>
+
+#include "passo/base/trimmed.hpp"
 
 namespace passo {
 namespace {
@@ -77,6 +80,30 @@ std::optional<double> svg_length(std::string_view text, double whole, double inc
     if (name == unit) return *value * pixels;
   }
   return std::nullopt;
+}
+
+std::optional<std::array<double, 2>> svg_transform_origin(std::string_view text, double width, double height,
+                                                          double inch) {
+  constexpr std::string_view blanks = " \t\r\n\f";
+  constexpr std::array<std::pair<std::string_view, double>, 5> sides = {
+      {{"left", 0}, {"top", 0}, {"center", 0.5}, {"right", 1}, {"bottom", 1}}};
+  std::array<double, 2> origin = {width / 2, height / 2};
+  const std::array<double, 2> whole = {width, height};
+  std::size_t read = 0;
+  for (text = trimmed(text, blanks); !text.empty() && read < origin.size(); text = trimmed(text, blanks)) {
+    const std::string_view word = text.substr(0, text.find_first_of(blanks));
+    text.remove_prefix(word.size());
+    const auto* const side = std::ranges::find(sides, word, &std::pair<std::string_view, double>::first);
+    const bool is_upright = word == "top" || word == "bottom";
+    const bool is_across = word == "left" || word == "right";
+    const std::size_t axis = is_upright ? 1 : is_across ? 0 : read;
+    const std::optional<double> length =
+        side != sides.end() ? std::optional(side->second * whole.at(axis)) : svg_length(word, whole.at(axis), inch);
+    if (!length) return std::nullopt;
+    origin.at(axis) = *length;
+    ++read;
+  }
+  return origin;
 }
 
 }  // namespace passo

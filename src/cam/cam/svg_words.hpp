@@ -1,6 +1,7 @@
 // SvgWords: reads the numbers in SVG attributes. Private to cam/.
 #pragma once
 
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -72,6 +73,10 @@ class SvgWords {
 
 // Reads a transform list such as "translate(10,20) rotate(45)". Nothing if it is invalid.
 std::optional<DxfTransform> svg_transform(std::string_view text);
+
+// Reads transform-origin: one or two lengths, percentages or sides such as "left". Nothing if it is invalid.
+std::optional<std::array<double, 2>> svg_transform_origin(std::string_view text, double width, double height,
+                                                          double inch);
 
 inline constexpr double svg_inch = 96;  // pixels
 

@@ -241,6 +241,21 @@ TEST(Svg, what_is_visible_in_a_hidden_group_is_drawn) {
       "2 ");
 }
 
+TEST(Svg, a_transform_has_an_origin) {
+  const auto x_of = [](const std::string& attributes) {
+    const ReadSvg read = svg(page("<circle cx='20' cy='10' r='4' " + attributes + "/>"));
+    EXPECT_EQ(read.words, "");
+    return to_mm(read.drawing.holes.at(0).at.x).value();
+  };
+  EXPECT_NEAR(x_of("transform='scale(2)'"), 20, 1e-6);
+  EXPECT_NEAR(x_of("transform='scale(2)' transform-origin='20 10'"), 10, 1e-6);
+  EXPECT_NEAR(x_of("style='transform:scale(2);transform-origin:right 10px'"), 2 * 10 - 100, 1e-6);
+  EXPECT_NEAR(x_of("style='transform:scale(2);transform-origin:top left'"), 20, 1e-6);
+  EXPECT_NEAR(x_of("transform='rotate(180)' transform-origin='50% 50%'"), 90, 1e-6);
+  EXPECT_THAT(svg(page("<circle r='4' transform='scale(2)' style='transform-box:fill-box'/>")).drawing.notes,
+              testing::ElementsAre(HasSubstr("ignored: 1 origins of transforms")));
+}
+
 double area_of(const Drawing& drawing) {
   double area = 0;
   for (const DrawnPath& path : drawing.paths) {
