@@ -90,6 +90,13 @@ class SvgExpansion {
     std::uint32_t line = 0;  // of the first one
   };
 
+  struct UsedClip {
+    std::uint32_t path = 0;  // the element <clipPath>
+    DxfTransform transform = {};
+    std::shared_ptr<const SvgClip> outer = nullptr;
+    std::shared_ptr<const SvgClip> clip = nullptr;
+  };
+
   const SvgDocument& document_;
   const SvgOptions& options_;
   Diagnostics& diagnostics_;
@@ -98,7 +105,8 @@ class SvgExpansion {
   SvgFigureReader reader_;
   std::map<std::string, LeftOut> left_out_;
   SvgFigure* collected_ = nullptr;  // collects what is drawn in a clip path, or for its bounds; otherwise null
-  RegionBudget clip_budget_;
+  RegionBudget clip_budget_{3};
+  UsedClip last_clip_;
   std::size_t work_ = 0;
 };
 
@@ -369,8 +377,19 @@ void SvgExpansion::clip(std::uint32_t index, Place& place) {
            "clip paths that do not contain themselves");
     return;
   }
-  const std::optional<Region> area = clip_area(element, document_.elements[found->second], place);
-  if (area) clip(*area, element, place);
+  // Some programs clip each element with the same path, so the last clip is kept.
+  const SvgElement& clip_path = document_.elements[found->second];
+  const bool depends_on_place_only = clip_path.attribute("clipPathUnits") != "objectBoundingBox";
+  if (depends_on_place_only && last_clip_.clip && last_clip_.path == found->second &&
+      last_clip_.transform == place.transform && last_clip_.outer == place.clip) {
+    place.clip = last_clip_.clip;
+    return;
+  }
+  const std::shared_ptr<const SvgClip> outer = place.clip;
+  const std::optional<Region> area = clip_area(element, clip_path, place);
+  if (!area) return;
+  clip(*area, element, place);
+  if (depends_on_place_only) last_clip_ = {found->second, place.transform, outer, place.clip};
 }
 
 void SvgExpansion::clip(const Region& area, const SvgElement& element, Place& place) {

@@ -146,7 +146,9 @@ ClippedFigure clipped(SvgFigure figure, const SvgClip& clip, RegionBudget& budge
   const DrawnBox box = box_around(rings, lines);
   if (!clip.bounds || !meet(box, *clip.bounds)) return {{}, true};
   if (clip.is_rectangle && is_in(box, *clip.bounds)) return {std::move(figure), true};
-  if (!affords(budget, rings, clip.wide.rings) || !affords(budget, lines, clip.wide.rings)) return {{}, false};
+  std::vector<DrawnRing> drawn = rings;
+  drawn.insert(drawn.end(), lines.begin(), lines.end());
+  if (!affords(budget, drawn, clip.wide.rings)) return {{}, false};
   SvgFigure inside;
   const Region area = filled_together(std::move(rings), FillRule::even_odd);
   const bool is_whole = subtracted(area, clip.wide).empty();
