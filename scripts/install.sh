@@ -31,7 +31,7 @@ build_packages=(
   libboost-dev               # HTTP and WebSocket of passo serve
   libmosquitto-dev           # status of passo serve for an MQTT broker
   libpolyclipping-dev        # unions and offsets of copper in passo cam
-  libfreetype-dev libharfbuzz-dev  # letters in passo cam engrave
+  libfreetype-dev libharfbuzz-dev libfontconfig-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
   libyaml-cpp-dev            # FluidNC configurations in passo machine --from
   libminizip-dev             # zip archives of board files

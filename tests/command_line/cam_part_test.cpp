@@ -82,10 +82,18 @@ TEST_F(CamPart, lines_of_letters_and_plots_are_followed) {
   EXPECT_EQ(letters.code, 0) << letters.err;
   EXPECT_THAT(letters.out, HasSubstr("0.2 mm deep, 0.2309 mm wide\n"));
   EXPECT_THAT(passo("check " + path("l.ngc") + on_router).out, HasSubstr("no errors"));
+  const Outcome bold = passo("cam engrave --text A --font 'dejavu sans:bold' -o " + path("b.ngc"));
+  EXPECT_EQ(bold.code, 0) << bold.err;
+  EXPECT_THAT(bold.err, HasSubstr("--font dejavu sans:bold: DejaVu Sans Bold, /"));
+  EXPECT_THAT(passo("cam engrave --text A --font 'Dejavu Sanz'").err, HasSubstr("a family such as DejaVu Sans"));
   const std::string plot = write("p.plt", "IN;SP1;PU400,400;PD800,400;");
   const Outcome lines = passo("cam engrave " + plot + " --on-line --depth -0.5 --spindle 0");
   EXPECT_EQ(lines.code, 0) << lines.err;
   EXPECT_THAT(lines.out, HasSubstr("G0 X10 Y10\nG0 Z0.5\nF60\nG1 Z-0.5\nF200\nG1 X20 Y10\nG0 Z2\n"));
+  const std::string dots = write("dots.plt", "IN;SP1;PU400,400;PD;PU;");
+  EXPECT_THAT(passo("cam engrave " + dots + " --on-line --depth -0.5 --spindle 0").out,
+              HasSubstr("G0 X10 Y10\nG0 Z0.5\nF60\nG1 Z-0.5\nG0 Z2\n"));
+  EXPECT_THAT(passo("cam drill " + dots + " --drill 1 -o " + path("d.ngc")).out, HasSubstr("1 hole"));
   EXPECT_THAT(passo("cam engrave --text A --arc 90,0").err, HasSubstr("--arc also needs --around R"));
   EXPECT_THAT(passo("cam engrave --text A --arc 90 --around 9").err, HasSubstr("--arc: expected FROM,TO"));
 }

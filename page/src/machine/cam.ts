@@ -51,6 +51,7 @@ export interface CamOption {
   'x-for'?: 'experts' | 'programs';
   'x-of-job'?: boolean;
   'x-of-machine'?: boolean;
+  'x-names'?: string; // of a file: what else a value may name
   enum?: string[];
   examples?: string[];
   default?: string | number;

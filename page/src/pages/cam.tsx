@@ -71,8 +71,24 @@ function OneField({ form, field }: { form: Form; field: Field }) {
       </label>
     );
   }
-  const files = field.kind === 'file' ? (cam.value?.files ?? []).map((name) => [name, name] as const) : [];
+  const files = field.kind === 'choice' ? [] : (cam.value?.files ?? []).map((name) => [name, name] as const);
   const choices = [...field.choices.map(([one, title]) => [one, say(title)] as const), ...files];
+  if (field.kind === 'name') {
+    const list = `cam-${form.job}-${field.option}`;
+    return (
+      <label class="form-field">
+        <span class="dim">{say(field.title)}</span>
+        <input type="text" list={list} value={words} placeholder={field.without !== null ? say(field.without) : ''} onChange={(event) => set(form, field.option, event.currentTarget.value.trim())} />
+        <datalist id={list}>
+          {choices.map(([one, title]) => (
+            <option key={one} value={one}>
+              {title}
+            </option>
+          ))}
+        </datalist>
+      </label>
+    );
+  }
   return (
     <label class="form-field">
       <span class="dim">{say(field.title)}</span>

@@ -9,7 +9,7 @@ import { operations, type CamOperation, type CamOption } from '../machine/cam';
 export interface Field {
   option: string;
   title: Key;
-  kind: 'text' | 'flag' | 'choice' | 'file';
+  kind: 'text' | 'flag' | 'choice' | 'file' | 'name'; // name: a file, or a name that may be typed
   usual: string;
   isLength: boolean; // or several, with commas between
   ofMachine: boolean; // the machine file may say otherwise
@@ -40,7 +40,7 @@ function wordsOf(job: string, name: string): Key {
 const kinds: Partial<Record<string, Field['kind']>> = { flag: 'flag', choice: 'choice', place: 'choice', file: 'file' };
 
 function fieldOf(job: string, option: string, row: CamOption): Field {
-  const kind = kinds[row['x-kind']] ?? 'text';
+  const kind = row['x-names'] === undefined ? (kinds[row['x-kind']] ?? 'text') : 'name';
   const usual = row.default === undefined ? '' : String(row.default);
   const all = row.enum ?? row.examples ?? [];
   const words = (name: string): Key => wordsOf(job, `${option}.${name}`);
@@ -53,7 +53,7 @@ function fieldOf(job: string, option: string, row: CamOption): Field {
     ofMachine: row['x-of-machine'] === true,
     ofJob: row['x-of-job'] === true,
     choices: all.filter((one) => one !== usual).map((one) => [one, words(one)] as const),
-    without: kind === 'choice' || kind === 'file' ? words(usual === '' ? 'none' : usual) : null,
+    without: kind === 'choice' || kind === 'file' || kind === 'name' ? words(usual === '' ? 'none' : usual) : null,
   };
 }
 

@@ -43,7 +43,7 @@ export function ask(form: Form | undefined): void {
   // Letters need no drawing, and have none.
   const hasText = form.withoutFiles !== undefined && options[form.withoutFiles] !== undefined;
   // What a field names is no drawing: a board's edge, a font.
-  const named = fieldsOf(form).filter((field) => field.kind === 'file').map((field) => options[field.option]);
+  const named = fieldsOf(form).filter((field) => field.kind === 'file' || field.kind === 'name').map((field) => options[field.option]);
   const files = hasText ? [] : picked.value.filter((one) => !named.includes(one)).slice(0, form.most);
   if (files.length === 0 && !hasText) return;
   if (form.parts.length === 0) return order({ job: form.job, files, options });

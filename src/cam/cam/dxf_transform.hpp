@@ -15,6 +15,7 @@ struct DxfTransform {
   double dx = 0;
   double dy = 0;
 
+  friend bool operator==(const DxfTransform&, const DxfTransform&) = default;
   double x(double px, double py) const { return xx * px + xy * py + dx; }
   double y(double px, double py) const { return yx * px + yy * py + dy; }
   bool is_mirrored() const { return xx * yy - xy * yx < 0; }

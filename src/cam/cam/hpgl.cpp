@@ -17,7 +17,7 @@ constexpr double units_of_cm = 400;
 // What moves no pen: speed, force, widths of pens, fills, questions to the plotter.
 constexpr std::string_view silent_orders =
     "VS FS AS AP AF AH PG RP NR PW WU PT FT PC NP CR MC MG PP TR LA UL SB RF TD CF PS SV KY GC GM GP EC EN ES IM IR OA "
-    "OC OD OE OF OG OH OI OK OL OO OP OS OT OW BP QL IW CS CA SS SA SD AD FI FN ";
+    "OC OD OE OF OG OH OI OK OL OO OP OS OT OW BP QL IW UC CS CA SS SA SD AD FI FN ";
 
 }  // namespace
 
@@ -78,7 +78,7 @@ Drawing HpglPlotter::plot() {
     pen_.set_line(line_);
     if (!carry_out(*command)) break;
   }
-  pen_.end_path();
+  pen_.raise();
   DrawingBuilder& builder = pen_.builder();
   for (const auto& [what, count] : left_out_) builder.note(fmt::format("ignored: {} {}", count, what));
   if (!pen_.has_drawn() && !diagnostics_.any_error()) {
@@ -120,6 +120,7 @@ bool HpglPlotter::carry_out(const HpglCommand& command) {
   if (carry_out_text(command)) return !diagnostics_.any_error();
   const auto order = std::ranges::find_if(orders, [&](const Order& one) { return command.is(one.name); });
   if (order == orders.end()) {
+    if (command.is("UC")) leave_out("characters that the plot draws itself");
     if (command.is("IW")) leave_out("clipping windows");
     if (command.is("CS") || command.is("CA") || command.is("SD") || command.is("AD")) leave_out("choices of letters");
     if (!knows(command)) leave_out(fmt::format("unknown commands {}", command.name()));

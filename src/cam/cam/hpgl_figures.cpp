@@ -30,6 +30,7 @@ void HpglPlotter::go(HpglSpot to) {
   } else if (is_down_) {
     pen_.line_to(to);
   } else {
+    pen_.raise();
     pen_.move_to(to);
   }
   labels_.line_start = to;

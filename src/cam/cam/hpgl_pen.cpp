@@ -24,7 +24,7 @@ HpglPen::HpglPen(const std::string& file, const HpglOptions& options, Diagnostic
 }
 
 void HpglPen::select_pen(std::uint32_t number) {
-  end_path();
+  raise();
   has_pen_ = number > 0;
   if (!has_pen_) return;
   const std::string name = fmt::format("pen {}", number);
@@ -68,7 +68,27 @@ void HpglPen::end_path() {
   }
   path.layer = layer_;
   path.line = line_;
+  if (path.points.size() > 1) {
+    last_ = path.is_closed ? path.points.front().at : path.points.back().at;
+    has_last_ = true;
+  }
   builder_.add_path(std::move(path));
+}
+
+void HpglPen::lower() {
+  if (draws() && path_.points.empty() && dashes_.empty()) put(at_);
+}
+
+void HpglPen::raise() {
+  if (path_.points.size() == 1) {
+    // A dot at the end of a line would be there already.
+    const DrawnPoint at = path_.points.front().at;
+    if (!(has_last_ && last_ == at)) builder_.add_hole({at, {}, layer_, line_, true});
+    last_ = at;
+    has_last_ = true;
+    path_ = {};
+  }
+  end_path();
 }
 
 void HpglPen::move_to(HpglSpot to) {

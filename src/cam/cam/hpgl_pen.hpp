@@ -32,6 +32,10 @@ class HpglPen {
   // Sets the line of the file with the current command.
   void set_line(std::uint32_t line) { line_ = line; }
 
+  // Lowers the pen where it is. Raised again without a line, it leaves a dot.
+  void lower();
+  // Ends the line; of a pen that was lowered and did not move, the dot.
+  void raise();
   void move_to(HpglSpot to);
   void line_to(HpglSpot to);
   // Draws an arc about the centre; the sweep is in radians, positive counterclockwise.
@@ -62,6 +66,8 @@ class HpglPen {
   std::vector<double> dashes_;
   std::size_t dash_ = 0;  // index of the current dash or gap; even: dash
   double dash_used_ = 0;  // used length of the current dash or gap
+  DrawnPoint last_ = {};  // where the last line or dot ended
+  bool has_last_ = false;
   std::uint32_t layer_ = 0;
   std::uint32_t line_ = 0;
   bool has_pen_ = true;

@@ -60,8 +60,16 @@ class HpglPlotter {
   std::optional<double> packed_number(bool is_base_32, double unit);
   void label(std::string_view text);
 
-  void pen_up(const Numbers& n) { is_down_ = false, go_along(n); }
-  void pen_down(const Numbers& n) { is_down_ = true, go_along(n); }
+  void pen_up(const Numbers& n) {
+    if (is_down_ && !is_polygon_) pen_.raise();
+    is_down_ = false;
+    go_along(n);
+  }
+  void pen_down(const Numbers& n) {
+    if (!is_polygon_) pen_.lower();
+    is_down_ = true;
+    go_along(n);
+  }
   void absolute(const Numbers& n) { is_relative_ = false, go_along(n); }
   void relative(const Numbers& n) { is_relative_ = true, go_along(n); }
   void select_pen(const Numbers& n) {

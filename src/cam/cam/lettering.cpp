@@ -91,7 +91,8 @@ bool Letterer::open(std::string_view font) {
   const bool has_library = FT_Init_FreeType(&library) == 0;
   library_.reset(library);
   const auto* const bytes = reinterpret_cast<const FT_Byte*>(font.data());
-  if (!has_library || FT_New_Memory_Face(library, bytes, static_cast<FT_Long>(font.size()), 0, &face) != 0) {
+  if (!has_library ||
+      FT_New_Memory_Face(library, bytes, static_cast<FT_Long>(font.size()), lettering_.face, &face) != 0) {
     return refuse("engrave.no-font", "this font format is not supported",
                   "an outline font (.ttf, .otf) or a single-line font (.lff, .jhf)");
   }
@@ -102,8 +103,10 @@ bool Letterer::open(std::string_view font) {
   }
   const HarfBuzzThing<hb_blob_t> blob(
       hb_blob_create(font.data(), static_cast<unsigned>(font.size()), HB_MEMORY_MODE_READONLY, nullptr, nullptr));
-  const HarfBuzzThing<hb_face_t> shapes(hb_face_create(blob.get(), 0));
+  const HarfBuzzThing<hb_face_t> shapes(hb_face_create(blob.get(), static_cast<unsigned>(lettering_.face) & 0xFFFFU));
   shaper_.reset(hb_font_create(shapes.get()));
+  const unsigned instance = static_cast<unsigned>(lettering_.face) >> 16U;
+  if (instance > 0) hb_font_set_var_named_instance(shaper_.get(), instance - 1);
   hb_font_set_scale(shaper_.get(), face->units_per_EM, face->units_per_EM);
   scale_ = lettering_.height.value() / capital_height();
   return true;

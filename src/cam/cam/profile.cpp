@@ -45,6 +45,7 @@ class ProfilePlanner {
   void follow_sides();
   void cut_beside(const Region& stays, bool openings_only);
   void follow_lines();
+  void add_run(MillRun run);
   void cut_on(const std::vector<PathPoint>& points, bool is_closed);
   void find_unreached();
 
@@ -149,7 +150,8 @@ void ProfilePlanner::follow_lines() {
     }
     first = end;
   }
-  plan_.lines = lines_.size();
+  plan_.dots = static_cast<std::size_t>(std::ranges::count(lines_, std::size_t{1}, &std::vector<PathPoint>::size));
+  plan_.lines = lines_.size() - plan_.dots;
   if (plan_.outline.mill.tools.empty()) {
     diagnostics_.add({.code = "profile.no-line",
                       .file = "",
@@ -169,7 +171,17 @@ std::vector<PathPoint> with_arcs_found(const std::vector<PathPoint>& points) {
   return with_arcs(places, {});
 }
 
+void ProfilePlanner::add_run(MillRun run) {
+  std::vector<MillTool>& tools = plan_.outline.mill.tools;
+  if (tools.empty()) tools.push_back({options_.cut.cutter, options_.cut.words, {}});
+  tools.front().runs.push_back(std::move(run));
+}
+
 void ProfilePlanner::cut_on(const std::vector<PathPoint>& points, bool is_closed) {
+  if (points.size() == 1) {
+    const MillPoint bottom{points.front().at, 0, options_.cut.depth};
+    return add_run({bottom, bottom});
+  }
   std::vector<PathPoint> row = points;
   if (is_closed) row.push_back({points.front().at, 0});
   row = with_arcs_found(row);
@@ -212,9 +224,7 @@ void ProfilePlanner::cut_on(const std::vector<PathPoint>& points, bool is_closed
     z = next;
   }
   if (run.size() < 2) return;
-  std::vector<MillTool>& tools = plan_.outline.mill.tools;
-  if (tools.empty()) tools.push_back({cut.cutter, cut.words, {}});
-  tools.front().runs.push_back(std::move(run));
+  add_run(std::move(run));
   if (is_closed) ++plan_.outline.outsides;
 }
 

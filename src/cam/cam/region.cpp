@@ -216,6 +216,19 @@ Region filled(std::vector<DrawnRing> rings) {
   return combined(clipper::ctUnion, paths_of(rings), {});
 }
 
+Region filled_together(std::vector<DrawnRing> rings, FillRule rule) {
+  std::erase_if(rings, [](const DrawnRing& ring) { return ring.size() < 3; });
+  const clipper::Paths paths = paths_of(rings);
+  const clipper::PolyFillType fill = rule == FillRule::even_odd ? clipper::pftEvenOdd : clipper::pftNonZero;
+  return by_groups(paths, {1}, [&](const std::vector<std::size_t>& group) {
+    clipper::Clipper clip;
+    for (const std::size_t i : group) clip.AddPath(paths[i], clipper::ptSubject, true);
+    clipper::Paths found;
+    clip.Execute(clipper::ctUnion, found, fill, fill);
+    return found;
+  });
+}
+
 Region united(const Region& a, const Region& b) {
   return combined(clipper::ctUnion, paths_of(a.rings), paths_of(b.rings));
 }

@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
-#include <numbers>
+#include <memory>
 
-#include "curve_chords.hpp"
-#include "drawing_builder.hpp"
-#include "svg_document.hpp"
-#include "svg_path.hpp"
+#include "svg_clip.hpp"
+#include "svg_figure.hpp"
+#include "svg_style.hpp"
 #include "svg_words.hpp"
-#include "text_lines.hpp"
 #include <fmt/format.h>
+
+#include "passo/base/trimmed.hpp"
 
 namespace passo {
 namespace {
@@ -20,96 +21,94 @@ namespace {
 constexpr int deepest_svg_use = 40;
 constexpr std::size_t most_svg_work = 2'000'000;  // elements looked at while uses are expanded
 
-struct SvgView {
-  double width = 0;  // pixels; what 100 % is
-  double height = 0;
-};
-
-// What of the view box lies where in a viewport of this size. `aspect`: preserveAspectRatio.
-DxfTransform into_viewport(const std::array<double, 4>& box, const SvgView& port, std::string_view aspect) {
-  double sx = port.width / box[2];
-  double sy = port.height / box[3];
-  double dx = 0;
-  double dy = 0;
-  if (!aspect.starts_with("none")) {
-    const bool slices = aspect.find("slice") != std::string_view::npos;
-    const double s = slices ? std::max(sx, sy) : std::min(sx, sy);
-    const auto share = [&](const char* least, const char* most) {
-      return aspect.find(least) != std::string_view::npos  ? 0.0
-             : aspect.find(most) != std::string_view::npos ? 1.0
-                                                           : 0.5;
-    };
-    sx = sy = s;
-    dx = (port.width - s * box[2]) * share("xMin", "xMax");
-    dy = (port.height - s * box[3]) * share("YMin", "YMax");
-  }
-  return {.xx = sx, .yy = sy, .dx = dx - sx * box[0], .dy = dy - sy * box[1]};
+// Inkscape's pixel was 1/90 inch until version 0.91.
+double inch_of(const SvgDocument& document) {
+  constexpr double of_old_inkscape = 90;
+  const std::string& version = document.inkscape_version;
+  int minor = 0;
+  if (!version.starts_with("0.")) return svg_inch;
+  const auto [end, fault] = std::from_chars(version.data() + 2, version.data() + version.size(), minor);
+  constexpr int first_with_96 = 92;
+  return fault == std::errc() && minor < first_with_96 ? of_old_inkscape : svg_inch;
 }
 
 class SvgExpansion {
  public:
   SvgExpansion(const std::string& name, const SvgDocument& document, const SvgOptions& options,
                Diagnostics& diagnostics)
-      : name_(name), document_(document), options_(options), diagnostics_(diagnostics), builder_(name, diagnostics) {}
+      : document_(document),
+        options_(options),
+        diagnostics_(diagnostics),
+        builder_(name, diagnostics),
+        inch_(inch_of(document)),
+        reader_(name, options.tolerance, inch_, builder_, diagnostics) {}
 
   Drawing expand();
 
  private:
-  struct Place {
-    DxfTransform transform = {};
-    SvgView view = {};
-    std::uint32_t layer = 0;
+  struct Place : SvgSpace {
     bool is_chosen = true;  // the layer is read
+    bool is_visible = true;
     int uses = 0;
+    std::shared_ptr<const SvgClip> clip = nullptr;  // null: everything is drawn
   };
 
+  void expand_root(const SvgElement& root);
   void add(std::uint32_t index, const Place& outer);
   void add_children(const SvgElement& element, const Place& place);
   void add_use(const SvgElement& element, const Place& place);
   bool into_svg(const SvgElement& element, const SvgElement& sized, Place& place);
   void enter_layer(const SvgElement& element, Place& place);
+  bool is_displayed(const SvgElement& element, Place& place);
+  bool transform(const SvgElement& element, Place& place);
   void draw(const SvgElement& element, const Place& place);
-  bool draw_shape(const SvgElement& element, const Place& place);
-  void draw_rect(const SvgElement& element, const Place& place);
-  void draw_ellipse(const SvgElement& element, const Place& place, SvgSpot middle, double rx, double ry);
-  void draw_points(const SvgElement& element, const Place& place);
-  void draw_path(const SvgElement& element, const Place& place);
-  void draw_subpath(const SvgElement& element, const Place& place, const SvgSubpath& subpath);
+  void put(SvgFigure figure, const SvgElement& element, const Place& place);
 
-  double length(const SvgElement& element, std::string_view attribute, double whole, double otherwise = 0);
-  bool put(DrawnPath& path, const SvgElement& element, const Place& place, SvgSpot spot, double bulge = 0);
-  void put_arc(DrawnPath& path, const SvgElement& element, const Place& place, const SvgArc& arc);
-  void put_curve(DrawnPath& path, const SvgElement& element, const Place& place, SvgSpot from, const SvgPiece& piece);
-  void refuse(const SvgElement& element, std::string code, std::string message, std::string expected);
-  static SourceLocation place_of(const SvgElement& element) { return {element.line, element.line == 0 ? 0U : 1U, 1}; }
+  void clip(std::uint32_t index, Place& place);
+  void clip(const Region& area, const SvgElement& element, Place& place);
+  std::optional<Region> clip_area(const SvgElement& element, const SvgElement& clip_path, const Place& place);
+  std::optional<DrawnBox> box_of_content(const SvgElement& element, const Place& place);
+  void note_what_is_left_out();
 
-  const std::string& name_;
+  double length(const SvgElement& element, std::string_view attribute, double whole, double otherwise = 0) {
+    return reader_.length(element, attribute, whole, otherwise);
+  }
+  void refuse(const SvgElement& element, std::string code, std::string message, std::string expected) {
+    reader_.refuse(element, std::move(code), std::move(message), std::move(expected));
+  }
+  void refuse_clip(const SvgElement& element) {
+    refuse(element, "svg.too-large", "the lines of clip paths and of what they clip cross too often",
+           "a simpler clip path");
+  }
+  void leave_out(const char* what, const SvgElement& element) {
+    LeftOut& left_out = left_out_[what];
+    if (++left_out.count == 1) left_out.line = element.line;
+  }
+
+  struct LeftOut {
+    std::size_t count = 0;
+    std::uint32_t line = 0;  // of the first one
+  };
+
+  struct UsedClip {
+    std::uint32_t path = 0;  // the element <clipPath>
+    DxfTransform transform = {};
+    std::shared_ptr<const SvgClip> outer = nullptr;
+    std::shared_ptr<const SvgClip> clip = nullptr;
+  };
+
   const SvgDocument& document_;
   const SvgOptions& options_;
   Diagnostics& diagnostics_;
   DrawingBuilder builder_;
-  std::map<std::string, std::size_t> left_out_;
+  double inch_;
+  SvgFigureReader reader_;
+  std::map<std::string, LeftOut> left_out_;
+  SvgFigure* collected_ = nullptr;  // collects what is drawn in a clip path, or for its bounds; otherwise null
+  RegionBudget clip_budget_{3};
+  UsedClip last_clip_;
   std::size_t work_ = 0;
 };
-
-void SvgExpansion::refuse(const SvgElement& element, std::string code, std::string message, std::string expected) {
-  diagnostics_.add({.code = std::move(code),
-                    .file = name_,
-                    .place = place_of(element),
-                    .message = std::move(message),
-                    .expected = std::move(expected),
-                    .text = ""});
-}
-
-double SvgExpansion::length(const SvgElement& element, std::string_view attribute, double whole, double otherwise) {
-  const std::string_view text = element.attribute(attribute);
-  if (text.empty() || text == "auto") return otherwise;
-  const std::optional<double> value = svg_length(text, whole);
-  if (value) return *value;
-  refuse(element, "svg.length", fmt::format("'{}' is not a valid length ({})", text.substr(0, 40), attribute),
-         "a number, with or without px, mm, cm, in, pt, pc or %");
-  return otherwise;
-}
 
 // The inside of an svg or of a symbol: its place, its view box. `sized`: the element that tells the size, itself or the
 // use. False: nothing of it is seen.
@@ -123,6 +122,11 @@ bool SvgExpansion::into_svg(const SvgElement& element, const SvgElement& sized, 
     port.height = length(sized, "height", place.view.height, port.height);
   }
   place.transform = place.transform.after(DxfTransform{.dx = x, .dy = y});
+  const std::string_view overflow = element.property("overflow");
+  const bool shows_all = is_css_word(overflow, "visible") || is_css_word(overflow, "auto");
+  if (!shows_all && port.width > 0 && port.height > 0) {
+    clip(area_of_view(port, place.transform), element, place);
+  }
   std::array<double, 4> box{};
   SvgWords words(element.attribute("viewBox"));
   std::size_t count = 0;
@@ -136,8 +140,33 @@ bool SvgExpansion::into_svg(const SvgElement& element, const SvgElement& sized, 
 }
 
 Drawing SvgExpansion::expand() {
-  const SvgElement& root = document_.elements.front();
-  const double pixel = 25.4 / 96 * options_.scale;
+  if (inch_ != svg_inch) {
+    builder_.note(
+        fmt::format("Inkscape {} wrote this drawing: a pixel is 1/{:g} inch", document_.inkscape_version, inch_));
+  }
+  expand_root(document_.elements.front());
+  note_what_is_left_out();
+  for (const std::string& layer : options_.layers) {
+    if (std::ranges::find(builder_.drawing().layers, layer) == builder_.drawing().layers.end()) {
+      builder_.note(fmt::format("there is no layer '{}'", layer));
+    }
+  }
+  return builder_.take();
+}
+
+void SvgExpansion::note_what_is_left_out() {
+  for (const auto& [what, left_out] : left_out_) {
+    const std::string line = left_out.line == 0 ? "" : fmt::format(", first in line {}", left_out.line);
+    builder_.note(fmt::format("ignored: {} {}{}", left_out.count, what, line));
+  }
+  if (document_.skipped_rules > 0) {
+    builder_.note(fmt::format("ignored: {} style rules with other selectors, for other media or in other files",
+                              document_.skipped_rules));
+  }
+}
+
+void SvgExpansion::expand_root(const SvgElement& root) {
+  const double pixel = 25.4 / inch_ * options_.scale;
   SvgView page{};
   SvgWords words(root.attribute("viewBox"));
   std::array<double, 4> box{};
@@ -149,26 +178,22 @@ Drawing SvgExpansion::expand() {
   const bool has_page = page.width > 0 && page.height > 0;
   if (!has_page) {
     page = {300, 150};
-    builder_.note("the drawing has no size: its unit is read as a pixel (1/96 inch), and its zero is X0 Y0");
+    builder_.note(fmt::format(
+        "the drawing has no size: its unit is read as a pixel (1/{:g} inch), and its zero is X0 Y0", inch_));
   }
-  Place place{.transform = {.xx = pixel, .yy = -pixel, .dy = has_page ? pixel * page.height : 0},
-              .view = page,
-              .layer = builder_.layer(""),
-              .is_chosen = options_.layers.empty()};
+  Place place;
+  place.transform = {.xx = pixel, .yy = -pixel, .dy = has_page ? pixel * page.height : 0};
+  place.view = page;
+  place.layer = builder_.layer("");
+  place.is_chosen = options_.layers.empty();
   // The size of the page is that of the view box where the root says none.
   if (box[2] > 0 && box[3] > 0) {
     place.transform = place.transform.after(into_viewport(box, page, root.attribute("preserveAspectRatio")));
     place.view = {box[2], box[3]};
   }
-  if (const auto own = svg_transform(root.attribute("transform"))) place.transform = place.transform.after(*own);
+  if (!is_displayed(root, place) || !transform(root, place)) return;
+  clip(0, place);
   add_children(root, place);
-  for (const auto& [what, count] : left_out_) builder_.note(fmt::format("ignored: {} {}", count, what));
-  for (const std::string& layer : options_.layers) {
-    if (std::ranges::find(builder_.drawing().layers, layer) == builder_.drawing().layers.end()) {
-      builder_.note(fmt::format("there is no layer '{}'", layer));
-    }
-  }
-  return builder_.take();
 }
 
 void SvgExpansion::add_children(const SvgElement& element, const Place& place) {
@@ -187,6 +212,44 @@ void SvgExpansion::enter_layer(const SvgElement& element, Place& place) {
   if (!options_.layers.empty()) place.is_chosen = std::ranges::find(options_.layers, name) != options_.layers.end();
 }
 
+// Whether the element and its children may be seen.
+bool SvgExpansion::is_displayed(const SvgElement& element, Place& place) {
+  if (is_css_word(element.property("display"), "none")) {
+    leave_out("elements that are not displayed", element);
+    return false;
+  }
+  // Children of a hidden element may be visible.
+  const std::string_view visibility = element.property("visibility");
+  if (is_css_word(visibility, "hidden") || is_css_word(visibility, "collapse")) {
+    place.is_visible = false;
+  } else if (is_css_word(visibility, "visible") || is_css_word(visibility, "initial")) {
+    place.is_visible = true;
+  }
+  return true;
+}
+
+bool SvgExpansion::transform(const SvgElement& element, Place& place) {
+  const std::string_view text = element.property("transform");
+  if (text.empty()) return true;
+  const std::optional<DxfTransform> own = svg_transform(text);
+  if (!own) {
+    refuse(element, "svg.transform", fmt::format("'{}' is not a valid transform", text.substr(0, 60)),
+           "matrix, translate, scale, rotate, skewX or skewY, with their numbers");
+    return false;
+  }
+  const std::string_view origin = element.property("transform-origin");
+  const std::string_view box = element.property("transform-box");
+  std::optional<std::array<double, 2>> about = {{0, 0}};
+  if (!origin.empty()) about = svg_transform_origin(origin, place.view.width, place.view.height, inch_);
+  if (!about || !(box.empty() || is_css_word(box, "view-box"))) {
+    leave_out("origins of transforms", element);
+    about = {{0, 0}};
+  }
+  const auto [x, y] = *about;
+  place.transform = place.transform.after({.dx = x, .dy = y}).after(*own).after({.dx = -x, .dy = -y});
+  return true;
+}
+
 void SvgExpansion::add(std::uint32_t index, const Place& outer) {
   if (builder_.is_full() || diagnostics_.full()) return;
   const SvgElement& element = document_.elements[index];
@@ -197,21 +260,9 @@ void SvgExpansion::add(std::uint32_t index, const Place& outer) {
     }
     return;
   }
-  if (element.property("display") == "none") {
-    ++left_out_["elements that are not displayed"];
-    return;
-  }
   Place place = outer;
-  const std::string_view transform = element.attribute("transform");
-  if (!transform.empty()) {
-    const std::optional<DxfTransform> own = svg_transform(transform);
-    if (!own) {
-      refuse(element, "svg.transform", fmt::format("'{}' is not a valid transform", transform.substr(0, 60)),
-             "matrix, translate, scale, rotate, skewX or skewY, with their numbers");
-      return;
-    }
-    place.transform = place.transform.after(*own);
-  }
+  if (!is_displayed(element, place) || !transform(element, place)) return;
+  clip(index, place);
   if (element.name == "g" || element.name == "a" || element.name == "switch") {
     enter_layer(element, place);
     add_children(element, place);
@@ -243,8 +294,10 @@ void SvgExpansion::add_use(const SvgElement& element, const Place& outer) {
   const DxfTransform moved{.dx = length(element, "x", place.view.width), .dy = length(element, "y", place.view.height)};
   place.transform = place.transform.after(moved);
   const SvgElement& used = document_.elements[found->second];
-  if (used.name == "symbol") {
-    if (used.property("display") != "none" && into_svg(used, element, place)) add_children(used, place);
+  if (used.name == "symbol" || used.name == "svg") {
+    if (!is_displayed(used, place) || !transform(used, place)) return;
+    clip(found->second, place);
+    if (into_svg(used, element, place)) add_children(used, place);
   } else {
     add(found->second, place);
   }
@@ -252,186 +305,166 @@ void SvgExpansion::add_use(const SvgElement& element, const Place& outer) {
 
 void SvgExpansion::draw(const SvgElement& element, const Place& place) {
   if (!place.is_chosen) return;
-  const std::string_view visibility = element.property("visibility");
-  if (visibility == "hidden" || visibility == "collapse") {
-    ++left_out_["elements that are not displayed"];
-    return;
+  const std::string& name = element.name;
+  const bool is_text = name == "text" || name == "flowRoot";
+  const bool is_picture = name == "image" || name == "foreignObject";
+  const bool is_shape = SvgFigureReader::is_shape(name);
+  if (!place.is_visible && (is_text || is_picture || is_shape)) {
+    leave_out("elements that are not displayed", element);
+  } else if (is_text) {
+    leave_out("texts (convert them to paths)", element);
+  } else if (is_picture) {
+    leave_out("pictures and foreign objects", element);
+  } else if (is_shape) {
+    for (const char* const end : {"marker", "marker-start", "marker-mid", "marker-end"}) {
+      const std::string_view marker = element.property(end);
+      if (!marker.empty() && !is_css_word(marker, "none")) leave_out("markers of lines", element);
+    }
+    SvgFigure figure;
+    reader_.read(element, place, figure);
+    put(std::move(figure), element, place);
   }
-  if (draw_shape(element, place)) return;
-  if (element.name == "text") ++left_out_["texts (convert them to paths)"];
-  if (element.name == "image" || element.name == "foreignObject") ++left_out_["pictures and foreign objects"];
 }
 
-bool SvgExpansion::draw_shape(const SvgElement& element, const Place& place) {
-  const std::string& name = element.name;
-  const double diagonal = std::hypot(place.view.width, place.view.height) / std::numbers::sqrt2;
-  const auto x = [&](const char* attribute) { return length(element, attribute, place.view.width); };
-  const auto y = [&](const char* attribute) { return length(element, attribute, place.view.height); };
-  if (name == "path") {
-    draw_path(element, place);
-  } else if (name == "rect") {
-    draw_rect(element, place);
-  } else if (name == "circle") {
-    const double radius = length(element, "r", diagonal);
-    draw_ellipse(element, place, {x("cx"), y("cy")}, radius, radius);
-  } else if (name == "ellipse") {
-    const double rx = length(element, "rx", place.view.width, -1);
-    const double ry = length(element, "ry", place.view.height, rx);
-    draw_ellipse(element, place, {x("cx"), y("cy")}, rx < 0 ? ry : rx, ry);
-  } else if (name == "line") {
-    DrawnPath path{.layer = place.layer, .line = element.line};
-    if (put(path, element, place, {x("x1"), y("y1")}) && put(path, element, place, {x("x2"), y("y2")})) {
+// Adds the part of the figure that the clip shows to the drawing, or to the figure that is collected.
+void SvgExpansion::put(SvgFigure figure, const SvgElement& element, const Place& place) {
+  if (figure.paths.empty() && figure.holes.empty()) return;
+  if (place.clip) {
+    const std::size_t points_before = figure.holes.size();
+    ClippedFigure inside = clipped(std::move(figure), *place.clip, clip_budget_);
+    if (!inside.is_affordable) {
+      refuse_clip(element);
+      return;
+    }
+    figure = std::move(inside.figure);
+    std::size_t points = figure.holes.size();
+    for (const DrawnPath& path : figure.paths) points += path.points.size();
+    if (points == 0) leave_out("elements outside of their clip path", element);
+    if (points > points_before && !builder_.has_room_for(points, SvgFigureReader::place_of(element), "")) return;
+  }
+  for (DrawnPath& path : figure.paths) {
+    if (collected_ != nullptr) {
+      collected_->paths.push_back(std::move(path));
+    } else {
       builder_.add_path(std::move(path));
     }
-  } else if (name == "polyline" || name == "polygon") {
-    draw_points(element, place);
-  } else {
-    return false;
   }
-  return true;
-}
-
-bool SvgExpansion::put(DrawnPath& path, const SvgElement& element, const Place& place, SvgSpot spot, double bulge) {
-  if (!builder_.has_room_for(1, place_of(element), "")) return false;
-  const auto at = builder_.point(Mm(place.transform.x(spot.x, spot.y)), Mm(place.transform.y(spot.x, spot.y)),
-                                 place_of(element), "");
-  if (at) path.points.push_back({*at, bulge});
-  return at.has_value();
-}
-
-// From the end of the path on. A circle that is not stretched stays one.
-void SvgExpansion::put_arc(DrawnPath& path, const SvgElement& element, const Place& place, const SvgArc& arc) {
-  const double a = std::hypot(arc.major.x, arc.major.y);
-  const double b = std::hypot(arc.minor.x, arc.minor.y);
-  const double scale = place.transform.uniform_scale();
-  const bool is_circle = std::abs(a - b) <= 1e-9 * (a + b) && scale > 0;
-  const double largest = std::max(a, b) * place.transform.largest_scale();
-  const double share = std::clamp(options_.tolerance.value() / std::max(largest, 1e-9), 1e-9, 0.5);
-  const double most = is_circle ? std::numbers::pi * 1.0001 : 2 * std::acos(1 - share);
-  const auto parts = static_cast<std::size_t>(std::max(1.0, std::ceil(std::abs(arc.sweep) / most)));
-  // Seen with Y up a positive angle of SVG turns clockwise; a mirroring turns it once more.
-  double bulge = 0;
-  if (is_circle)
-    bulge = std::tan(arc.sweep / static_cast<double>(parts) / 4) * (place.transform.is_mirrored() ? -1 : 1);
-  if (!builder_.has_room_for(parts, place_of(element), "")) return;
-  for (std::size_t i = 1; i <= parts; ++i) {
-    if (!path.points.empty()) path.points.back().bulge = bulge;
-    if (!put(path, element, place, arc.at(arc.start + arc.sweep * static_cast<double>(i) / static_cast<double>(parts))))
-      return;
-  }
-}
-
-void SvgExpansion::put_curve(DrawnPath& path, const SvgElement& element, const Place& place, SvgSpot from,
-                             const SvgPiece& piece) {
-  std::vector<SvgSpot> points = {from};
-  points.insert(points.end(), piece.control.begin(), piece.control.end());
-  points.push_back(piece.end);
-  const auto take = [&](double x, double y) { return put(path, element, place, {x, y}); };
-  const double scale = place.transform.largest_scale();
-  if (for_chords(std::span<const SvgSpot>(points), scale, options_.tolerance.value(), take)) return;
-  refuse(element, "svg.path", "this curve is too large", "curves of at most a few metres");
-}
-
-void SvgExpansion::draw_ellipse(const SvgElement& element, const Place& place, SvgSpot middle, double rx, double ry) {
-  if (!(rx > 0 && ry > 0)) return;
-  const double scale = place.transform.uniform_scale();
-  if (rx == ry && scale > 0) {
-    const auto at = builder_.point(Mm(place.transform.x(middle.x, middle.y)), Mm(place.transform.y(middle.x, middle.y)),
-                                   place_of(element), "");
-    const auto diameter = builder_.length(Mm(2 * rx * scale), place_of(element), "");
-    if (at && diameter && builder_.has_room_for(1, place_of(element), "")) {
-      builder_.add_hole({*at, *diameter, place.layer, element.line});
-    }
-    return;
-  }
-  DrawnPath path{.is_closed = true, .layer = place.layer, .line = element.line};
-  put_arc(path, element, place, {middle, {rx, 0}, {0, ry}, 0, 2 * std::numbers::pi});
-  builder_.add_path(std::move(path));
-}
-
-void SvgExpansion::draw_rect(const SvgElement& element, const Place& place) {
-  const double x = length(element, "x", place.view.width);
-  const double y = length(element, "y", place.view.height);
-  const double width = length(element, "width", place.view.width);
-  const double height = length(element, "height", place.view.height);
-  if (!(width > 0 && height > 0)) return;
-  double rx = length(element, "rx", place.view.width, -1);
-  double ry = length(element, "ry", place.view.height, -1);
-  if (rx < 0) rx = ry;
-  if (ry < 0) ry = rx;
-  rx = std::clamp(rx, 0.0, width / 2);
-  ry = std::clamp(ry, 0.0, height / 2);
-  DrawnPath path{.is_closed = true, .layer = place.layer, .line = element.line};
-  const bool is_round = rx > 0 && ry > 0;
-  // Each corner: where its arc's centre is, and at which angle the arc begins.
-  const std::array<SvgSpot, 4> corners = {{{x + width, y}, {x + width, y + height}, {x, y + height}, {x, y}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!is_round) {
-      put(path, element, place, corners[i]);
-      continue;
-    }
-    const double start = (static_cast<double>(i) - 1) * std::numbers::pi / 2;
-    const SvgSpot centre{corners[i].x + (i == 0 || i == 1 ? -rx : rx), corners[i].y + (i == 0 || i == 3 ? ry : -ry)};
-    const SvgArc arc{centre, {rx, 0}, {0, ry}, start, std::numbers::pi / 2};
-    put(path, element, place, arc.at(start));
-    put_arc(path, element, place, arc);
-  }
-  // The sides between two arcs may have no length.
-  std::vector<PathPoint> points;
-  for (std::size_t i = 0; i < path.points.size(); ++i) {
-    const bool is_again =
-        path.points[i].at == path.points[(i + 1) % path.points.size()].at && path.points[i].bulge == 0;
-    if (!is_again) points.push_back(path.points[i]);
-  }
-  path.points = std::move(points);
-  builder_.add_path(std::move(path));
-}
-
-void SvgExpansion::draw_points(const SvgElement& element, const Place& place) {
-  DrawnPath path{.is_closed = element.name == "polygon", .layer = place.layer, .line = element.line};
-  SvgWords words(element.attribute("points"));
-  while (!words.at_end()) {
-    const std::optional<double> x = words.number();
-    const std::optional<double> y = x ? words.number() : std::nullopt;
-    if (!y) {
-      refuse(element, "svg.path", "these points are not pairs of numbers", "x,y x,y ...");
-      return;
-    }
-    if (!put(path, element, place, {*x, *y})) return;
-  }
-  builder_.add_path(std::move(path));
-}
-
-void SvgExpansion::draw_path(const SvgElement& element, const Place& place) {
-  const std::string_view data = element.attribute("d");
-  std::vector<SvgSubpath> subpaths;
-  if (const auto flaw = read_svg_path(data, most_drawn, subpaths)) {
-    const std::size_t from = flaw->place < 20 ? 0 : flaw->place - 20;
-    refuse(element, "svg.path",
-           fmt::format("the path data is wrong at character {}: '{}'", flaw->place + 1, data.substr(from, 40)),
-           flaw->expected);
-    return;
-  }
-  for (const SvgSubpath& subpath : subpaths) draw_subpath(element, place, subpath);
-}
-
-void SvgExpansion::draw_subpath(const SvgElement& element, const Place& place, const SvgSubpath& subpath) {
-  DrawnPath path{.is_closed = subpath.is_closed, .layer = place.layer, .line = element.line};
-  if (!put(path, element, place, subpath.start)) return;
-  SvgSpot at = subpath.start;
-  for (const SvgPiece& piece : subpath.pieces) {
-    if (piece.arc) {
-      put_arc(path, element, place, *piece.arc);
-    } else if (!piece.control.empty()) {
-      put_curve(path, element, place, at, piece);
+  for (const DrawnHole& hole : figure.holes) {
+    if (collected_ != nullptr) {
+      collected_->holes.push_back(hole);
     } else {
-      put(path, element, place, piece.end);
+      builder_.add_hole(hole);
     }
-    at = piece.end;
   }
-  if (path.is_closed && path.points.size() > 2 && path.points.back().at == path.points.front().at)
-    path.points.pop_back();
-  builder_.add_path(std::move(path));
+}
+
+// Restricts the place to what the clip path of the element shows.
+void SvgExpansion::clip(std::uint32_t index, Place& place) {
+  const SvgElement& element = document_.elements[index];
+  const std::string_view mask = element.property("mask");
+  if (!mask.empty() && !is_css_word(mask, "none")) leave_out("masks: what they hide is drawn", element);
+  const std::string_view value = element.property("clip-path");
+  if (value.empty() || is_css_word(value, "none")) return;
+  const std::optional<std::string> id = svg_link(value);
+  const auto found = id ? document_.ids.find(*id) : document_.ids.end();
+  if (found == document_.ids.end() || document_.elements[found->second].name != "clipPath") {
+    leave_out(id ? "clip paths that the drawing does not have" : "clip paths by CSS shapes: what they hide is drawn",
+              element);
+    return;
+  }
+  if (place.uses >= deepest_svg_use) {
+    refuse(element, "svg.nested-too-deep", fmt::format("clip paths are nested more than {} deep", deepest_svg_use),
+           "clip paths that do not contain themselves");
+    return;
+  }
+  // Some programs clip each element with the same path, so the last clip is kept.
+  const SvgElement& clip_path = document_.elements[found->second];
+  const bool depends_on_place_only = clip_path.attribute("clipPathUnits") != "objectBoundingBox";
+  if (depends_on_place_only && last_clip_.clip && last_clip_.path == found->second &&
+      last_clip_.transform == place.transform && last_clip_.outer == place.clip) {
+    place.clip = last_clip_.clip;
+    return;
+  }
+  const std::shared_ptr<const SvgClip> outer = place.clip;
+  const std::optional<Region> area = clip_area(element, clip_path, place);
+  if (!area) return;
+  clip(*area, element, place);
+  if (depends_on_place_only) last_clip_ = {found->second, place.transform, outer, place.clip};
+}
+
+void SvgExpansion::clip(const Region& area, const SvgElement& element, Place& place) {
+  std::shared_ptr<const SvgClip> clip = clip_within(area, place.clip, clip_budget_);
+  if (clip == nullptr) {
+    refuse_clip(element);
+    return;
+  }
+  place.clip = std::move(clip);
+}
+
+// The area of a clip path that this element has. Nothing: it is not known.
+std::optional<Region> SvgExpansion::clip_area(const SvgElement& element, const SvgElement& clip_path,
+                                              const Place& place) {
+  Place inside = place;
+  inside.is_chosen = inside.is_visible = true;
+  inside.clip = nullptr;
+  ++inside.uses;
+  if (clip_path.attribute("clipPathUnits") == "objectBoundingBox") {
+    const std::optional<DrawnBox> box = box_of_content(element, place);
+    if (!box) return Region{};
+    const auto mm = [](Nanometres length) { return to_mm(length).value(); };
+    inside.transform = inside.transform.after({.xx = mm(box->most.x - box->least.x),
+                                               .yy = mm(box->most.y - box->least.y),
+                                               .dx = mm(box->least.x),
+                                               .dy = mm(box->least.y)});
+    inside.view = {1, 1};
+  }
+  if (!transform(clip_path, inside)) return std::nullopt;
+  clip(static_cast<std::uint32_t>(&clip_path - document_.elements.data()), inside);
+  std::vector<Region> areas;
+  SvgFigure* const outer = collected_;
+  for (const std::uint32_t child : clip_path.children) {
+    SvgFigure figure;
+    collected_ = &figure;
+    add(child, inside);
+    const SvgElement& drawn = document_.elements[child];
+    std::string_view rule = drawn.property("clip-rule");
+    if (rule.empty()) rule = clip_path.property("clip-rule");
+    std::optional<Region> area =
+        area_of(figure, is_css_word(rule, "evenodd") ? FillRule::even_odd : FillRule::nonzero, clip_budget_);
+    if (!area) {
+      refuse_clip(drawn);
+      break;
+    }
+    areas.push_back(std::move(*area));
+  }
+  collected_ = outer;
+  if (areas.size() == 1) return std::move(areas.front());
+  if (!clip_budget_.affords(areas)) {
+    refuse_clip(clip_path);
+    return std::nullopt;
+  }
+  return united(areas);
+}
+
+// The bounds of what the element draws, in its own coordinates: a pixel is a millimetre here.
+std::optional<DrawnBox> SvgExpansion::box_of_content(const SvgElement& element, const Place& place) {
+  Place own = place;
+  own.transform = {};
+  own.is_chosen = own.is_visible = true;
+  own.clip = nullptr;
+  ++own.uses;
+  SvgFigure figure;
+  SvgFigure* const outer = collected_;
+  collected_ = &figure;
+  if (element.name == "use") {
+    add_use(element, own);
+  } else if (SvgFigureReader::is_shape(element.name)) {
+    reader_.read(element, own, figure);
+  } else {
+    add_children(element, own);
+  }
+  collected_ = outer;
+  return bounds(Region{rings_of(figure)});
 }
 
 }  // namespace

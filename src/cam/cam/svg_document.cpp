@@ -1,11 +1,13 @@
 #include "svg_document.hpp"
 
+#include <algorithm>
 #include <memory>
 
-#include "text_lines.hpp"
+#include "svg_style.hpp"
 #include <expat.h>
 #include <fmt/format.h>
 
+#include "passo/base/trimmed.hpp"
 #include "passo/base/xml_place.hpp"
 
 namespace passo {
@@ -30,6 +32,8 @@ class SvgTreeReader {
     if (parser_ == nullptr) return {};
     XML_SetUserData(parser_, this);
     XML_SetElementHandler(parser_, &SvgTreeReader::begin, &SvgTreeReader::end);
+    XML_SetCharacterDataHandler(parser_, &SvgTreeReader::add_text);
+    XML_SetProcessingInstructionHandler(parser_, &SvgTreeReader::instruct);
     constexpr std::size_t piece = std::size_t{1} << 20;
     XML_Status status = XML_STATUS_OK;
     do {
@@ -46,6 +50,11 @@ class SvgTreeReader {
       refuse("svg.no-drawing", "this is XML, but not an SVG drawing", "<svg> as the outermost element");
       return {};
     }
+    document_.skipped_rules += sheet_.skipped();
+    if (!sheet_.apply(document_)) {
+      refuse("svg.too-large", "the style sheet has too many rules for a drawing of this size", "a simpler style sheet");
+      return {};
+    }
     return std::move(document_);
   }
 
@@ -55,7 +64,29 @@ class SvgTreeReader {
   }
   static void XMLCALL end(void* self, const XML_Char* /*name*/) {
     auto& reader = *static_cast<SvgTreeReader*>(self);
-    if (!reader.open_.empty()) reader.open_.pop_back();
+    if (reader.open_.empty()) return;
+    if (reader.in_style()) {
+      reader.sheet_.add(reader.css_);
+      reader.css_.clear();
+    }
+    reader.open_.pop_back();
+  }
+  static void XMLCALL add_text(void* self, const XML_Char* text, int size) {
+    auto& reader = *static_cast<SvgTreeReader*>(self);
+    if (reader.in_style()) reader.css_.append(text, static_cast<std::size_t>(size));
+  }
+  // <?xml-stylesheet ...?> refers to a sheet in another file.
+  static void XMLCALL instruct(void* self, const XML_Char* target, const XML_Char* /*data*/) {
+    if (std::string_view(target) == "xml-stylesheet") ++static_cast<SvgTreeReader*>(self)->document_.skipped_rules;
+  }
+
+  bool in_style() const {
+    if (open_.empty()) return false;
+    const SvgElement& element = document_.elements[open_.back()];
+    if (element.name != "style") return false;
+    const std::string_view type = element.attribute("type");
+    const std::string_view media = element.attribute("media");
+    return (type.empty() || type == "text/css") && (media.empty() || media == "all" || media == "screen");
   }
 
   void add(const char* name, const char** attributes) {
@@ -71,14 +102,29 @@ class SvgTreeReader {
     SvgElement& element = document_.elements.emplace_back();
     element.name = without_prefix(name);
     element.line = xml_line(parser_);
+    for (const char** at = attributes; at[0] != nullptr; at += 2) find_prefix(at[0], at[1]);
     for (const char** at = attributes; at[0] != nullptr; at += 2) {
-      // A label of Inkscape keeps its prefix; of the others only the link has one.
-      const std::string_view key = std::string_view(at[0]) == "xlink:href" ? "href" : std::string_view(at[0]);
-      element.attributes.emplace_back(key, at[1]);
+      const std::string key = key_of(at[0]);
       if (key == "id") document_.ids.try_emplace(at[1], index);
+      if (key == "inkscape:version" && index == 0) document_.inkscape_version = at[1];
+      element.attributes.emplace_back(key, at[1]);
     }
+    element.parent = open_.empty() ? 0 : open_.back();
     if (!open_.empty()) document_.elements[open_.back()].children.push_back(index);
     open_.push_back(index);
+  }
+
+  // xmlns:PREFIX="http://www.inkscape.org/..." declares the prefix of Inkscape's attributes, usually "inkscape".
+  void find_prefix(std::string_view name, std::string_view value) {
+    constexpr std::string_view declares = "xmlns:";
+    if (name.starts_with(declares) && value == "http://www.inkscape.org/namespaces/inkscape") {
+      inkscape_ = std::string(name.substr(declares.size())) + ':';
+    }
+  }
+  // The name of an attribute with the usual prefix; a link has none.
+  std::string key_of(std::string_view name) const {
+    if (name.ends_with(":href")) return "href";
+    return name.starts_with(inkscape_) ? "inkscape:" + std::string(name.substr(inkscape_.size())) : std::string(name);
   }
 
   void refuse(std::string code, std::string message, std::string expected) {
@@ -95,6 +141,9 @@ class SvgTreeReader {
   XML_Parser parser_ = nullptr;
   SvgDocument document_;
   std::vector<std::uint32_t> open_;
+  std::string inkscape_ = "inkscape:";  // the prefix of its attributes in this file
+  std::string css_;                     // of the <style> element that is open
+  SvgStyleSheet sheet_;
 };
 
 }  // namespace
@@ -107,15 +156,27 @@ std::string_view SvgElement::attribute(std::string_view wanted) const {
 }
 
 std::string_view SvgElement::property(std::string_view wanted) const {
-  std::string_view style = attribute("style");
-  while (!style.empty()) {
-    const std::string_view one = style.substr(0, style.find(';'));
-    style.remove_prefix(std::min(style.size(), one.size() + 1));
-    const std::size_t colon = one.find(':');
-    if (colon != std::string_view::npos && trimmed(one.substr(0, colon)) == wanted)
-      return trimmed(one.substr(colon + 1));
+  if (is_styled) {
+    const auto found = std::ranges::find(style, wanted, &std::pair<std::string, std::string>::first);
+    return found == style.end() ? attribute(wanted) : std::string_view(found->second);
   }
-  return attribute(wanted);
+  constexpr std::string_view blanks = " \t\r\n\f";
+  std::string_view found;
+  bool is_important = false;
+  std::string_view rest = attribute("style");
+  while (!rest.empty()) {
+    const std::string_view one = rest.substr(0, rest.find(';'));
+    rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+    const std::size_t colon = one.find(':');
+    if (colon == std::string_view::npos || !is_css_word(trimmed(one.substr(0, colon), blanks), wanted)) continue;
+    const std::string_view value = one.substr(colon + 1);
+    const std::size_t mark = value.rfind('!');
+    const bool matters = mark != std::string_view::npos;
+    if (is_important && !matters) continue;
+    is_important = matters;
+    found = trimmed(value.substr(0, mark), blanks);
+  }
+  return found.empty() ? attribute(wanted) : found;
 }
 
 SvgDocument read_svg_document(const std::string& name, std::string_view text, Diagnostics& diagnostics) {

@@ -1,6 +1,7 @@
 // SvgWords: reads the numbers in SVG attributes. Private to cam/.
 #pragma once
 
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -73,7 +74,13 @@ class SvgWords {
 // Reads a transform list such as "translate(10,20) rotate(45)". Nothing if it is invalid.
 std::optional<DxfTransform> svg_transform(std::string_view text);
 
-// Reads a length and converts it to pixels. `whole`: the length of 100 %.
-std::optional<double> svg_length(std::string_view text, double whole);
+// Reads transform-origin: one or two lengths, percentages or sides such as "left". Nothing if it is invalid.
+std::optional<std::array<double, 2>> svg_transform_origin(std::string_view text, double width, double height,
+                                                          double inch);
+
+inline constexpr double svg_inch = 96;  // pixels
+
+// Reads a length and converts it to pixels. `whole`: the length of 100 %. `inch`: the pixels of an inch.
+std::optional<double> svg_length(std::string_view text, double whole, double inch = svg_inch);
 
 }  // namespace passo

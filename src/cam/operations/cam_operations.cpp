@@ -38,6 +38,7 @@ constexpr const char* engrave_examples =
   passo cam engrave --text "Passo" --height 20 --angle 60 -o name.ngc          wider strokes are carved deeper
   passo cam engrave --text "LICEO 1923" --font Serif.otf --around 60 -o plate.ngc     on a circle of 60 mm radius
   passo cam engrave --text "No. 7" --font simplex --depth -0.2 -o no7.ngc      single-line letters
+  passo cam engrave --text "Door 7" --font "DejaVu Serif:bold" --height 15 -o door.ngc   an installed font
   passo cam engrave --text "NORTH" --around 60 --arc 150,30 -o dial.ngc        spread from 150 to 30 degrees
   passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               the lines that a pen plotter would draw
   passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc

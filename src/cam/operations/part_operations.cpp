@@ -59,8 +59,9 @@ std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
       {"font",
        &a.font,
        file,
-       "outline font (.ttf, .otf) or single-line font (.lff, .jhf); simplex is a built-in single-line font",
-       {.choices = {"simplex"}}},
+       "font: a file (.ttf, .otf, .lff, .jhf), an installed family, e.g. \"DejaVu Sans:bold\", or simplex, a built-in "
+       "single-line font",
+       {.choices = {"simplex"}, .names = "an installed font"}},
       {"height", &a.height, length, "height of a capital letter"},
       {"text-align",
        &a.text_align,

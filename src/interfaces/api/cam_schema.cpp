@@ -69,6 +69,7 @@ Json schema_of(const CamOption& option) {
   schema["x-kind"] = kind_name(option.kind);
   if (traits.matters_to == CamFor::experts) schema["x-for"] = "experts";
   if (traits.matters_to == CamFor::programs) schema["x-for"] = "programs";
+  if (!traits.names.empty()) schema["x-names"] = std::string(traits.names);
   if (traits.is_of_job) schema["x-of-job"] = true;
   if (traits.is_of_machine) schema["x-of-machine"] = true;
   return schema;
@@ -98,9 +99,11 @@ std::string expected_of(const CamOption& option) {
   const CamTraits& traits = option.traits;
   if (option.kind == CamKind::flag) return "true or false";
   if (option.kind == CamKind::choice) return fmt::format("one of {}", fmt::join(traits.choices, ", "));
-  if (option.kind == CamKind::file)
-    return fmt::format("a file that was sent{}{}", traits.choices.empty() ? "" : ", or ",
-                       fmt::join(traits.choices, ", "));
+  if (option.kind == CamKind::file) {
+    std::vector<std::string_view> others = traits.choices;
+    if (!traits.names.empty()) others.push_back(traits.names);
+    return fmt::format("a file that was sent{}{}", others.empty() ? "" : ", or ", fmt::join(others, ", "));
+  }
   if (traits.range) return fmt::format("a number from {:g} to {:g}", traits.range->least, traits.range->most);
   if (is_number(option.kind)) return "a number";
   return is_list(option) ? "a text, or a list of texts" : "a text or a number";
@@ -118,7 +121,10 @@ bool is_good(const CamOption& option, const Json& value, const std::vector<std::
   const auto& text = value.get_ref<const std::string&>();
   if (text.empty()) return true;
   if (option.kind == CamKind::choice) return is_among(option.traits.choices, text);
-  if (option.kind == CamKind::file) return is_among(files, text) || is_among(option.traits.choices, text);
+  if (option.kind == CamKind::file && (is_among(files, text) || is_among(option.traits.choices, text))) return true;
+  // A name has no ending and no folders, so it is not one of the daemon's files.
+  if (option.kind == CamKind::file && (option.traits.names.empty() || text.find_first_of("./") != std::string::npos))
+    return false;
   return is_harmless(text);
 }
 

@@ -5,6 +5,8 @@
 
 #include "gcode_sentences.hpp"
 
+#include "passo/base/trimmed.hpp"
+
 namespace passo {
 namespace {
 
@@ -73,14 +75,10 @@ std::string ending_of(const std::string& name) {
   return ending;
 }
 
-bool is_space(char c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
+constexpr std::string_view spaces = " \t\n\v\f\r";
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
+bool is_space(char c) {
+  return spaces.find(c) != std::string_view::npos;
 }
 
 // Takes the next line that is not blank from the front of the text.
@@ -88,7 +86,7 @@ std::string_view take_line(std::string_view& text) {
   std::string_view line;
   while (line.empty() && !text.empty()) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    line = trimmed(text.substr(0, end));
+    line = trimmed(text.substr(0, end), spaces);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return line;
@@ -158,7 +156,7 @@ bool is_excellon(std::string_view line, std::string_view rest, const std::string
 
 // Digits, and blanks before them alone.
 bool is_count(std::string_view columns) {
-  const std::string_view digits = trimmed(columns);
+  const std::string_view digits = trimmed(columns, spaces);
   return !digits.empty() && columns.ends_with(digits) &&
          std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
 }

@@ -57,7 +57,7 @@ export const operations = {
   'cam.option.step-over': 'Stepover, % of the cutter',
   'cam.option.engagement': 'Max. engagement angle, degrees (0: plain offset passes)',
   'cam.option.text': 'Text instead of a drawing',
-  'cam.option.font': 'Font (an uploaded file)',
+  'cam.option.font': 'Font (installed, or an uploaded file)',
   'cam.option.font.simplex': 'single lines (Simplex)',
   'cam.option.font.none': 'DejaVu Sans',
   'cam.option.height': 'Capital letter height',

@@ -59,7 +59,7 @@ export const operations: Same<typeof en> = {
   'cam.option.step-over': 'Pas latéral, % de la fraise',
   'cam.option.engagement': 'Engagement maximal, degrés ; 0 : contours décalés',
   'cam.option.text': 'Texte au lieu d’un dessin',
-  'cam.option.font': 'Police (fichier envoyé)',
+  'cam.option.font': 'Police (installée, ou fichier envoyé)',
   'cam.option.font.simplex': 'traits simples (Simplex)',
   'cam.option.font.none': 'DejaVu Sans',
   'cam.option.height': 'Hauteur des majuscules',

@@ -59,7 +59,7 @@ export const operations: Same<typeof en> = {
   'cam.option.step-over': 'Passo laterale, % della fresa',
   'cam.option.engagement': 'Impegno max., gradi; 0: contorni paralleli',
   'cam.option.text': 'Testo invece di un disegno',
-  'cam.option.font': 'Font (un file caricato)',
+  'cam.option.font': 'Font (installato, o un file caricato)',
   'cam.option.font.simplex': 'tratto singolo (Simplex)',
   'cam.option.font.none': 'DejaVu Sans',
   'cam.option.height': 'Altezza delle maiuscole',

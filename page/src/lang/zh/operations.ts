@@ -59,7 +59,7 @@ export const operations: Same<typeof en> = {
   'cam.option.step-over': '步距，刀具直径的 %',
   'cam.option.engagement': '最大接触角，度；0 为环切',
   'cam.option.text': '用文字代替图纸',
-  'cam.option.font': '字体（已上传的文件）',
+  'cam.option.font': '字体（已安装的，或已上传的文件）',
   'cam.option.font.simplex': '单线字体（Simplex）',
   'cam.option.font.none': 'DejaVu Sans',
   'cam.option.height': '大写字母的高度',

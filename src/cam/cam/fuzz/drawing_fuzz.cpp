@@ -38,7 +38,7 @@ void check_plan(const Drawing& drawing) {
 
 void check_bytes(std::string_view bytes) {
   Diagnostics of_dxf;
-  const Drawing dxf = read_dxf("fuzz.dxf", bytes, {}, of_dxf);
+  const Drawing dxf = read_dxf("fuzz.dxf", bytes, {.is_for_drilling = bytes.size() % 2 == 0}, of_dxf);
   check_findings(of_dxf);
   check_drawing(dxf);
   if (!of_dxf.any_error()) check_plan(dxf);

@@ -1,10 +1,12 @@
-// Any bytes as an SVG drawing and as an HPGL plot: they are refused, or the drawing is within its limits.
+// Any bytes as an SVG drawing, as an airfoil and as an HPGL plot: they are refused, or the drawing is within its
+// limits.
 #include <cstdint>
 #include <string_view>
 
 #include "drawing_checks.hpp"
 #include "layer_checks.hpp"
 
+#include "passo/cam/airfoil.hpp"
 #include "passo/cam/hpgl.hpp"
 #include "passo/cam/svg.hpp"
 
@@ -17,6 +19,12 @@ void check_bytes(std::string_view bytes) {
     passo::test::check_findings(of_svg);
     passo::test::check_drawing(svg);
     return;
+  }
+  if (passo::looks_like_airfoil(bytes)) {
+    passo::Diagnostics of_airfoil;
+    const passo::Drawing section = passo::read_airfoil("fuzz.dat", bytes, passo::Mm(200), of_airfoil);
+    passo::test::check_findings(of_airfoil);
+    passo::test::check_drawing(section);
   }
   passo::Diagnostics of_plot;
   const passo::Drawing plot = passo::read_hpgl("fuzz.plt", bytes, {}, of_plot);

@@ -1,11 +1,14 @@
 #include "passo/cam/dxf.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,14 +68,17 @@ TEST(Dxf, units_come_from_the_header_or_are_told_or_guessed) {
 }
 
 TEST(Dxf, a_drawing_that_is_off_by_ten_is_told) {
-  const ReadDxf wide = read_text(entities("0 CIRCLE 8 0 10 1 20 0 40 4 0 CIRCLE 8 0 10 26 20 0 40 4", in_mm));
+  const std::string circles = entities("0 CIRCLE 8 0 10 1 20 0 40 4 0 CIRCLE 8 0 10 26 20 0 40 4", in_mm);
+  EXPECT_TRUE(read_text(circles).drawing.notes.empty()) << "parts have holes of any size";
+  const ReadDxf wide = read_text(circles, {.is_for_drilling = true});
   EXPECT_THAT(wide.drawing.notes,
               testing::ElementsAre(testing::HasSubstr("off by a factor of 10: with a factor of 0.1")));
   std::string points;
   for (int i = 0; i < 8; ++i) points += "0 POINT 8 0 10 " + std::to_string(i * 25.4) + " 20 7 ";
-  EXPECT_THAT(read_text(entities(points, in_mm)).drawing.notes,
+  EXPECT_THAT(read_text(entities(points, in_mm), {.is_for_drilling = true}).drawing.notes,
               testing::ElementsAre(testing::HasSubstr("off by a factor of 10: with a factor of 0.1")));
-  EXPECT_TRUE(read_text(entities(points, in_mm), {.unit = Mm(0.1), .layers = {}}).drawing.notes.size() == 1U);
+  EXPECT_TRUE(read_text(entities(points, in_mm), {.unit = Mm(0.1), .layers = {}, .is_for_drilling = true})
+                  .drawing.notes.size() == 1U);
 }
 
 TEST(Dxf, lines_arcs_and_polylines_are_paths) {
@@ -92,10 +98,138 @@ TEST(Dxf, lines_arcs_and_polylines_are_paths) {
 }
 
 TEST(Dxf, a_closed_pair_of_half_circles_is_a_hole) {
-  const ReadDxf read = read_text(entities("0 LWPOLYLINE 8 0 90 2 70 1 43 0.5 10 1 20 1 42 1 10 2 20 1 42 1", in_mm));
+  const std::string donut = entities("0 LWPOLYLINE 8 0 90 2 70 1 43 0.5 10 1 20 1 42 1 10 2 20 1 42 1", in_mm);
+  const ReadDxf read = read_text(donut, {.is_for_drilling = true});
   ASSERT_EQ(read.drawing.holes.size(), 1U);
   EXPECT_EQ(read.drawing.holes[0].at, nm(1'500'000, 1'000'000));
   EXPECT_EQ(read.drawing.holes[0].diameter, Nanometres{500'000}) << "the inner circle of a donut";
+  EXPECT_TRUE(read.drawing.notes.empty());
+}
+
+TEST(Dxf, a_polyline_with_a_width_is_its_middle_and_told) {
+  const ReadDxf read = read_text(entities(
+      "0 LWPOLYLINE 8 0 90 2 70 1 43 0.5 10 1 20 1 42 1 10 2 20 1 42 1 0 POLYLINE 8 0 66 1 70 0 40 2 41 2 0 VERTEX 8 0 "
+      "10 5 20 5 0 VERTEX 8 0 10 7 20 5 0 SEQEND 8 0 0 LWPOLYLINE 8 0 90 2 10 0 20 0 10 1 20 0",
+      in_mm));
+  ASSERT_EQ(read.drawing.holes.size(), 1U);
+  EXPECT_EQ(read.drawing.holes[0].diameter, Nanometres{1'000'000}) << "the middle of the donut";
+  EXPECT_EQ(read.drawing.paths.size(), 2U);
+  EXPECT_THAT(read.drawing.notes,
+              testing::ElementsAre("2 polylines with a width are read as their middle, first in line 16"));
+}
+
+// The greatest distance of the path's points from the ellipse with these semi-axes, to first order.
+double off_ellipse(const DrawnPath& path, double cx, double cy, double a, double b) {
+  double most = 0;
+  for (const PathPoint& point : path.points) {
+    const double x = to_mm(point.at.x).value() - cx;
+    const double y = to_mm(point.at.y).value() - cy;
+    const double off = (x * x / (a * a) + y * y / (b * b) - 1) / std::hypot(2 * x / (a * a), 2 * y / (b * b));
+    most = std::max(most, std::abs(off));
+  }
+  return most;
+}
+// The greatest distance of the middles of its chords.
+double middles_off_ellipse(const DrawnPath& path, double cx, double cy, double a, double b) {
+  DrawnPath middles = path;
+  const std::size_t n = path.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const DrawnPoint from = path.points[i].at;
+    const DrawnPoint to = path.points[i + 1 == n && !path.is_closed ? i : (i + 1) % n].at;
+    middles.points[i].at = {{(from.x.count + to.x.count) / 2}, {(from.y.count + to.y.count) / 2}};
+  }
+  return off_ellipse(middles, cx, cy, a, b);
+}
+
+TEST(Dxf, arcs_of_a_stretched_block_are_those_of_ellipses) {
+  const auto in_block = [](const std::string& inside, const std::string& insert) {
+    const ReadDxf read = read_text(
+        entities("0 INSERT 8 0 2 A 10 0 20 0 " + insert,
+                 in_mm + " 0 SECTION 2 BLOCKS 0 BLOCK 8 0 2 A 70 0 10 0 20 0 " + inside + " 0 ENDBLK 0 ENDSEC"));
+    EXPECT_FALSE(read.found.any_error()) << render(read.found, false);
+    EXPECT_TRUE(read.drawing.holes.empty());
+    EXPECT_EQ(read.drawing.paths.size(), 1U);
+    EXPECT_TRUE(read.drawing.notes.empty());
+    return read.drawing.paths.empty() ? DrawnPath{} : read.drawing.paths[0];
+  };
+  const std::string halves = "0 LWPOLYLINE 8 0 90 2 70 1 10 0 20 0 42 1 10 10 20 0 42 1";
+  for (const std::string& circle :
+       {halves, std::string("0 CIRCLE 8 0 10 5 20 0 40 5"),
+        std::string("0 POLYLINE 8 0 66 1 70 1 0 VERTEX 8 0 10 0 20 0 42 1 0 VERTEX 8 0 10 10 20 0 42 1 0 SEQEND 8 0"),
+        std::string("0 ARC 8 0 10 5 20 0 40 5 50 0 51 360")}) {
+    const DrawnPath path = in_block(circle, "41 2 42 1");
+    EXPECT_TRUE(path.is_closed) << circle;
+    EXPECT_GT(path.points.size(), 30U);
+    EXPECT_LT(off_ellipse(path, 10, 0, 10, 5), 1e-5);
+    EXPECT_LT(middles_off_ellipse(path, 10, 0, 10, 5), 0.0051);
+    EXPECT_LT(off_ellipse(in_block(circle, "41 -2 42 1"), -10, 0, 10, 5), 1e-5) << "mirrored, too";
+    EXPECT_LT(off_ellipse(in_block(circle, "41 2 42 1 230 -1"), -10, 0, 10, 5), 1e-5) << "and seen from behind";
+  }
+  // A quarter and a side: the arc bulges to the right of the way.
+  const DrawnPath part =
+      in_block("0 LWPOLYLINE 8 0 90 3 70 0 10 0 20 0 10 10 20 0 42 -0.41421356 10 0 20 10", "41 1 42 3");
+  EXPECT_FALSE(part.is_closed);
+  EXPECT_EQ(part.points.back().at, nm(0, 30'000'000));
+  DrawnPath arc = part;
+  arc.points.erase(arc.points.begin());
+  EXPECT_LT(off_ellipse(arc, 10, 30, 10, 30), 1e-4);
+  EXPECT_LT(middles_off_ellipse(arc, 10, 30, 10, 30), 0.0051);
+}
+
+TEST(Dxf, entities_lie_in_planes_of_their_own) {
+  const ReadDxf behind = read_text(entities(
+      "0 CIRCLE 8 0 10 3 20 1 40 1 210 0 220 0 230 -1 0 ARC 8 0 10 3 20 1 40 2 50 0 51 90 210 0 220 0 230 -1", in_mm));
+  EXPECT_EQ(behind.drawing.holes.at(0).at, nm(-3'000'000, 1'000'000));
+  EXPECT_EQ(behind.drawing.paths.at(0).points.front().at, nm(-5'000'000, 1'000'000));
+  EXPECT_NEAR(behind.drawing.paths.at(0).points[0].bulge, -std::tan(std::acos(-1) / 8), 1e-9) << "clockwise from above";
+  // A circle whose plane leans by 60 degrees about X is seen as an ellipse.
+  const ReadDxf leaning =
+      read_text(entities("0 CIRCLE 8 0 10 0 20 0 40 10 210 0 220 -0.8660254037844386 230 0.5", in_mm));
+  ASSERT_EQ(leaning.drawing.paths.size(), 1U);
+  EXPECT_LT(off_ellipse(leaning.drawing.paths[0], 0, 0, 10, 5), 1e-4);
+}
+
+TEST(Dxf, a_spline_through_fit_points_is_smooth) {
+  const auto spline = [](const std::string& groups) {
+    const ReadDxf read = read_text(entities("0 SPLINE 8 0 71 3 " + groups, in_mm));
+    EXPECT_FALSE(read.found.any_error()) << render(read.found, false);
+    EXPECT_TRUE(read.drawing.notes.empty());
+    return read.drawing.paths.empty() ? DrawnPath{} : read.drawing.paths[0];
+  };
+  const auto turns = [](const DrawnPath& path) {  // the largest change of direction at a point, in degrees
+    double most = 0;
+    const std::size_t n = path.points.size();
+    for (std::size_t i = path.is_closed ? 0 : 1; i + (path.is_closed ? 0 : 1) < n; ++i) {
+      const auto angle = [&](std::size_t from, std::size_t to) {
+        return std::atan2(static_cast<double>(path.points[to].at.y.count - path.points[from].at.y.count),
+                          static_cast<double>(path.points[to].at.x.count - path.points[from].at.x.count));
+      };
+      const double turn = std::remainder(angle(i, (i + 1) % n) - angle((i + n - 1) % n, i), 2 * std::acos(-1));
+      most = std::max(most, std::abs(turn) * 180 / std::acos(-1));
+    }
+    return most;
+  };
+  const std::string zigzag = "11 0 21 0 11 10 21 10 11 20 21 0 11 30 21 10";
+  const DrawnPath open = spline("70 8 " + zigzag);
+  for (const DrawnPoint at : {nm(0, 0), nm(10'000'000, 10'000'000), nm(20'000'000, 0), nm(30'000'000, 10'000'000)}) {
+    EXPECT_TRUE(std::ranges::any_of(open.points, [&](const PathPoint& point) { return point.at == at; }));
+  }
+  EXPECT_LT(turns(open), 8);
+  // Through points of a circle it is nearly that circle.
+  std::string circle;
+  constexpr int points = 12;
+  for (int i = 0; i < points; ++i) {
+    circle +=
+        fmt::format(" 11 {:.9f} 21 {:.9f}", 10 * std::cos(i * std::acos(-1) / 6), 10 * std::sin(i * std::acos(-1) / 6));
+  }
+  const DrawnPath ring = spline("70 1" + circle);
+  EXPECT_TRUE(ring.is_closed);
+  EXPECT_LT(off_ellipse(ring, 0, 0, 10, 10), 0.01);
+  EXPECT_LT(turns(ring), 8);
+  // With tangents at its ends: a quarter of a circle in one cubic.
+  const DrawnPath quarter = spline("70 0 11 10 21 0 11 7.0710678 21 7.0710678 11 0 21 10 12 0 22 1 13 -1 23 0");
+  EXPECT_LT(off_ellipse(quarter, 0, 0, 10, 10), 0.02);
+  EXPECT_EQ(spline("70 8 11 0 21 0 11 5 21 5").points.size(), 2U) << "two points: a line";
 }
 
 TEST(Dxf, ellipses_and_splines_stay_within_the_tolerance) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace passo {
@@ -42,6 +43,25 @@ TEST(Hpgl, lines_go_where_the_pen_is_down) {
   EXPECT_EQ(all_places("in pa 0 0 pd pr 40 0 0 40 -40 0 0 -40 pu"), "0,0 1000,0 1000,1000 0,1000 closed\n");
   // Without a pen nothing is drawn, and the plotter says so.
   EXPECT_THAT(all_places("IN;SP0;PU0,0;PD40,0;"), testing::HasSubstr("[hpgl.no-drawing]"));
+}
+
+TEST(Hpgl, a_pen_that_goes_down_and_up_leaves_a_dot) {
+  const auto dots = [](std::string_view text) {
+    const Plotted plot = plotted(text);
+    std::string all = plot.words;
+    for (const DrawnHole& hole : plot.drawing.holes) {
+      all += fmt::format("{}{},{} ", hole.is_dot ? "" : "circle ", hole.at.x.count / 1000, hole.at.y.count / 1000);
+    }
+    return all;
+  };
+  EXPECT_EQ(dots("IN;PU40,80;PD;PU;PU0,0;PD;PU;"), "1000,2000 0,0 ");
+  EXPECT_EQ(dots("IN;PU40,80;PD40,80;PU0,0;PD0,0,0,0;SP0;"), "1000,2000 0,0 ");
+  EXPECT_EQ(dots("IN;PU40,80;PD"), "1000,2000 ") << "at the end of the plot";
+  EXPECT_EQ(dots("IN;PU0,0;PD;PD40,0;PU;PD;PU;"), "") << "the line is already there";
+  EXPECT_EQ(dots("IN;PU40,0;PD;CI20;PU;"), "circle 1000,0 ") << "the pen draws a circle and no middle";
+  EXPECT_EQ(dots("IN;PU40,0;PD;AA0,0,90;PU;"), "");
+  EXPECT_EQ(dots("IN;PU40,0;PD;EA80,40;PU;PU0,0;PD;LBA\x03;PU;"), "");
+  EXPECT_EQ(dots("IN;SP0;PU40,80;PD;PU;SP1;PU0,0;PD;PU"), "0,0 ") << "without a pen there is no dot";
 }
 
 TEST(Hpgl, pens_are_layers) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "passo/cam/edge_loops.hpp"
+#include "passo/cam/font_file.hpp"
 #include "passo/cam/region.hpp"
 
 namespace passo {
@@ -89,6 +90,38 @@ TEST(Lettering, what_is_wrong_is_told) {
   EXPECT_THAT(lettered({.text = "A"}, "no font").words, testing::HasSubstr("[engrave.no-font]"));
   EXPECT_THAT(lettered({.text = "A"}, font_bytes().substr(0, 3000)).words, testing::HasSubstr("engrave.no-"));
   EXPECT_THAT(lettered({.text = "A", .height = Mm(1e9)}).words, testing::HasSubstr("[drawing.too-far]"));
+}
+
+// Font and file, or the finding.
+std::string found_font(const std::string& wanted) {
+  Diagnostics findings;
+  const std::optional<FontFile> font = find_font(wanted, findings);
+  return font ? font->name + " " + font->path.substr(font->path.rfind('/') + 1) : render(findings, false);
+}
+
+TEST(FontFile, an_installed_font_is_found_by_family_and_style) {
+  EXPECT_EQ(found_font("DejaVu Sans"), "DejaVu Sans Book DejaVuSans.ttf");
+  EXPECT_EQ(found_font("dejavu sans:Bold"), "DejaVu Sans Bold DejaVuSans-Bold.ttf");
+  EXPECT_EQ(found_font("DejaVuSans:style=bold"), "DejaVu Sans Bold DejaVuSans-Bold.ttf");
+  EXPECT_EQ(found_font(" DejaVu Sans Mono : regular "), "DejaVu Sans Mono Book DejaVuSansMono.ttf");
+  EXPECT_THAT(found_font("monospace"), testing::HasSubstr(".ttf"));
+}
+
+TEST(FontFile, what_is_not_installed_is_told_with_what_is) {
+  EXPECT_THAT(
+      found_font("Dejavu Sanz"),
+      testing::AllOf(testing::HasSubstr("no installed font has the family 'Dejavu Sanz'"),
+                     testing::HasSubstr("a family such as DejaVu Sans"), testing::HasSubstr("[engrave.no-family]")));
+  EXPECT_THAT(found_font("DejaVu Sans:style=Fat"),
+              testing::AllOf(testing::HasSubstr("Bold, Bold Oblique, Book"), testing::HasSubstr("[engrave.no-style]")));
+  EXPECT_THAT(found_font("DejaVu Sans:boldd"), testing::HasSubstr("'boldd' is not a style"));
+  EXPECT_THAT(found_font(""), testing::HasSubstr("[engrave.no-family]"));
+  EXPECT_THAT(found_font(":bold"), testing::HasSubstr("[engrave.no-family]"));
+}
+
+TEST(FontFile, a_file_is_no_family) {
+  EXPECT_TRUE(names_font_file("a.TTF") && names_font_file("./Sans") && names_font_file("x.lff"));
+  EXPECT_FALSE(names_font_file("DejaVu Sans:bold"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "passo/cam/bulge.hpp"
 #include "passo/cam/edge_loops.hpp"
+#include "passo/cam/mill_program.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
 
@@ -133,6 +134,20 @@ Pocketed pocketed(const Region& area, const PocketOptions& options) {
 // What a cutter can reach at most: all places of a disc that lies inside.
 double opened_mm2(const Region& area, double radius) {
   return area_mm2(grown(grown(area, mm(-radius), {200}), mm(radius), {200}));
+}
+
+TEST(Profile, on_the_line_the_cutter_goes_down_at_a_dot) {
+  Diagnostics findings;
+  ProfileOptions options{.side = ProfileSide::on};
+  options.cut.depth = {-300'000};
+  const DrawnPoint dot{{5'000'000}, {7'000'000}};
+  const ProfilePlan plan = plan_profile({}, {{{dot, 0}}}, options, findings);
+  EXPECT_FALSE(findings.any_error());
+  EXPECT_EQ(plan.dots, 1U);
+  EXPECT_EQ(plan.lines, 0U);
+  const std::string program = write_mill_program(plan.outline.mill, {});
+  EXPECT_THAT(program, testing::HasSubstr("G0 X5 Y7\nG0 Z0.5\n"));
+  EXPECT_THAT(program, testing::HasSubstr("G1 Z-0.3\nG0 Z"));
 }
 
 TEST(Pocket, clears_all_but_the_corners_and_keeps_islands) {

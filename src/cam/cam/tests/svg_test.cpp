@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "passo/cam/bulge.hpp"
@@ -177,9 +178,182 @@ TEST(Svg, what_is_not_displayed_or_no_line_is_left_out_and_told) {
       svg(page("<g style='stroke:red; display : none'><circle r='1'/></g><circle r='1' visibility='hidden'/><text "
                "x='1' y='1'>A</text><image href='a.png'/><clipPath><circle r='1'/></clipPath>"));
   EXPECT_TRUE(read.drawing.holes.empty());
-  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre("ignored: 2 elements that are not displayed",
-                                                                "ignored: 1 pictures and foreign objects",
-                                                                "ignored: 1 texts (convert them to paths)"));
+  EXPECT_THAT(read.drawing.notes,
+              testing::UnorderedElementsAre("ignored: 2 elements that are not displayed, first in line 1",
+                                            "ignored: 1 pictures and foreign objects, first in line 1",
+                                            "ignored: 1 texts (convert them to paths), first in line 1"));
+}
+
+// How many of the circles with these radii are read.
+std::string diameters(const ReadSvg& read) {
+  std::string all;
+  for (const DrawnHole& hole : read.drawing.holes) all += fmt::format("{:g} ", to_mm(hole.diameter).value());
+  return all;
+}
+
+TEST(Svg, style_sheets_hide_by_element_class_id_and_attribute) {
+  const std::string shapes =
+      "<circle id='a' r='1'/><circle class='x guide' r='2'/><g class='g'><a><circle r='3'/></a><circle r='4'/></g>"
+      "<circle r='5' fill='none'/>";
+  const auto shown = [&](const std::string& css) {
+    return diameters(svg(page("<style>" + css + "</style>" + shapes)));
+  };
+  EXPECT_EQ(shown("#a,.guide{display:none}"), "3 4 5 ");
+  EXPECT_EQ(shown("/* all */ circle { fill:red } circle.guide { Display : None }"), "1 3 4 5 ");
+  EXPECT_EQ(shown(".g circle{display:none}"), "1 2 5 ");
+  EXPECT_EQ(shown(".g > circle{display:none}"), "1 2 3 5 ");
+  EXPECT_EQ(shown("[fill=\"none\"] {display:none}"), "1 2 3 4 ");
+  EXPECT_EQ(shown("*{display:none} circle{display:inline}"), "") << "groups do not show";
+  EXPECT_EQ(shown("circle{display:none} [class~=guide]{display:inline}"), "2 ");
+  EXPECT_EQ(shown("@media print{circle{display:none}} @media screen{#a{display:none}}"), "2 3 4 5 ");
+  EXPECT_EQ(shown("@font-face{src:url(a;b{)}"), "1 2 3 4 5 ");
+  EXPECT_EQ(shown("circle{r:1"), "1 1 1 1 1 ") << "a style sheet places shapes, too";
+}
+
+TEST(Svg, style_sheets_follow_the_cascade) {
+  const auto is_shown = [](const std::string& css, const std::string& attributes) {
+    const ReadSvg read =
+        svg(page("<style><![CDATA[" + css + "]]></style><circle id='a' class='b' r='1' " + attributes + "/>"));
+    EXPECT_EQ(read.words, "");
+    return read.drawing.holes.size() == 1;
+  };
+  EXPECT_FALSE(is_shown("#a{display:none} .b{display:inline} circle{display:inline}", "")) << "an id is more specific";
+  EXPECT_TRUE(is_shown(".b{display:none} .b{display:inline}", "")) << "the later rule";
+  EXPECT_TRUE(is_shown("circle.b{display:inline} .b{display:none}", "")) << "the more specific rule";
+  EXPECT_TRUE(is_shown("#a{display:none}", "style='display:inline'")) << "the style attribute";
+  EXPECT_FALSE(is_shown("circle{display:none !important}", "style='display:inline'")) << "an important rule";
+  EXPECT_TRUE(is_shown("#a{display:none!important}", "style='display:inline !important'"));
+  EXPECT_TRUE(is_shown(".b{display:inline}", "display='none'")) << "an attribute is the weakest";
+  EXPECT_FALSE(is_shown(".c{display:inline}", "display='none'"));
+}
+
+TEST(Svg, rules_that_are_not_read_are_told) {
+  const ReadSvg read = svg("<?xml-stylesheet href='a.css'?>" +
+                           page("<style>circle:hover{display:none} rect:hover{fill:red}</style><circle r='1'/>"));
+  EXPECT_EQ(read.drawing.holes.size(), 1U);
+  EXPECT_THAT(read.drawing.notes, testing::ElementsAre(HasSubstr("ignored: 2 style rules")));
+}
+
+TEST(Svg, what_is_visible_in_a_hidden_group_is_drawn) {
+  EXPECT_EQ(
+      diameters(svg(page("<g visibility='hidden'><circle r='1'/><g style='visibility:visible'><circle r='2'/></g>"
+                         "</g><g visibility='collapse'><use href='#c'/></g><defs><circle id='c' r='3'/></defs>"))),
+      "2 ");
+}
+
+TEST(Svg, a_transform_has_an_origin) {
+  const auto x_of = [](const std::string& attributes) {
+    const ReadSvg read = svg(page("<circle cx='20' cy='10' r='4' " + attributes + "/>"));
+    EXPECT_EQ(read.words, "");
+    return to_mm(read.drawing.holes.at(0).at.x).value();
+  };
+  EXPECT_NEAR(x_of("transform='scale(2)'"), 20, 1e-6);
+  EXPECT_NEAR(x_of("transform='scale(2)' transform-origin='20 10'"), 10, 1e-6);
+  EXPECT_NEAR(x_of("style='transform:scale(2);transform-origin:right 10px'"), 2 * 10 - 100, 1e-6);
+  EXPECT_NEAR(x_of("style='transform:scale(2);transform-origin:top left'"), 20, 1e-6);
+  EXPECT_NEAR(x_of("transform='rotate(180)' transform-origin='50% 50%'"), 90, 1e-6);
+  EXPECT_THAT(svg(page("<circle r='4' transform='scale(2)' style='transform-box:fill-box'/>")).drawing.notes,
+              testing::ElementsAre(HasSubstr("ignored: 1 origins of transforms")));
+}
+
+double area_of(const Drawing& drawing) {
+  double area = 0;
+  for (const DrawnPath& path : drawing.paths) {
+    double sum = 0;
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+      const PathPoint& a = path.points[i];
+      const PathPoint& b = path.points[(i + 1) % path.points.size()];
+      sum += mm_x(a) * mm_y(b) - mm_x(b) * mm_y(a);
+    }
+    area += path.is_closed ? sum / 2 : 0;
+  }
+  return area;
+}
+
+const std::string left_half = "<clipPath id='c'><rect width='100' height='100'/></clipPath>";  // X below 50 mm
+
+TEST(Svg, a_clip_path_cuts_areas_and_lines) {
+  const ReadSvg half = svg(page(left_half + "<g clip-path='url(#c)'><circle cx='100' cy='50' r='20'/></g>"));
+  EXPECT_TRUE(half.drawing.holes.empty());
+  ASSERT_EQ(half.drawing.paths.size(), 1U);
+  EXPECT_NEAR(std::abs(area_of(half.drawing)), M_PI * 100 / 2, 0.05);
+  for (const PathPoint& point : half.drawing.paths[0].points) EXPECT_LE(mm_x(point), 50 + 1e-6);
+  const ReadSvg ring = svg(page(left_half + "<path clip-path='url(#c)' d='M80 30h40v40h-40zM90 40h20v20h-20z'/>"));
+  EXPECT_NEAR(std::abs(area_of(ring.drawing)), 10 * 20 - 5 * 10, 1e-4) << "what is left is one area";
+  const ReadSvg line = svg(page(left_half + "<line clip-path='url(#c)' x1='20' y1='50' x2='180' y2='50'/>"));
+  ASSERT_EQ(line.drawing.paths.size(), 1U);
+  EXPECT_NEAR(std::abs(mm_x(line.drawing.paths[0].points[0]) - mm_x(line.drawing.paths[0].points[1])), 40, 1e-4);
+  const ReadSvg inside = svg(page(left_half + "<circle clip-path='url(#c)' cx='80' cy='50' r='20'/>"));
+  EXPECT_EQ(inside.drawing.holes.size(), 1U) << "a circle that touches the clip stays a circle";
+  const ReadSvg outside = svg(page(left_half + "<circle style='clip-path:url(\"#c\")' cx='150' cy='50' r='20'/>"));
+  EXPECT_TRUE(outside.drawing.holes.empty() && outside.drawing.paths.empty());
+  EXPECT_THAT(outside.drawing.notes, testing::ElementsAre(HasSubstr("1 elements outside of their clip path")));
+}
+
+TEST(Svg, clip_paths_have_rules_units_transforms_and_clips_of_their_own) {
+  const auto area = [](const std::string& clip, const std::string& shape) {
+    return std::abs(area_of(svg(page(clip + shape)).drawing));
+  };
+  const std::string square = "<rect clip-path='url(#c)' x='20' y='20' width='40' height='40'/>";  // 20 x 20 mm
+  EXPECT_NEAR(
+      area("<clipPath id='c'><path clip-rule='evenodd' d='M0 0h100v100h-100zM30 30h20v20h-20z'/></clipPath>", square),
+      400 - 100, 1e-3);
+  EXPECT_NEAR(area("<clipPath id='c'><path d='M0 0h100v100h-100zM30 30h20v20h-20z'/></clipPath>", square), 400, 1e-3);
+  EXPECT_NEAR(
+      area("<clipPath id='c' clipPathUnits='objectBoundingBox'><rect width='.5' height='.25'/></clipPath>", square),
+      400 / 8.0, 1e-3);
+  EXPECT_NEAR(area("<clipPath id='c' transform='translate(10,0)'><rect x='30' y='0' width='9' height='100'/><use "
+                   "href='#r'/></clipPath><defs><rect id='r' width='20' height='100'/></defs>",
+                   square),
+              5 * 20 + 4.5 * 20, 1e-3);
+  EXPECT_NEAR(area(left_half + "<clipPath id='d' clip-path='url(#c)'><rect y='30' width='200' height='5'/></clipPath>",
+                   "<rect clip-path='url(#d)' x='90' y='20' width='40' height='40'/>"),
+              5 * 2.5, 1e-3);
+  EXPECT_NEAR(area(left_half,
+                   "<g clip-path='url(#c)' transform='translate(-60,0)'><rect x='90' y='20' width='40' "
+                   "height='40'/></g>"),
+              5 * 20, 1e-3)
+      << "the clip path moves with what it clips";
+}
+
+TEST(Svg, clips_that_are_not_obeyed_are_told_with_their_lines) {
+  const ReadSvg read =
+      svg(page("\n<circle clip-path='circle(50%)' r='1'/>\n<circle clip-path='url(#no)' r='1'/>\n<circle "
+               "mask='url(#m)' r='1'/><line x2='3' style='marker-end:url(#arrow)'/>"));
+  EXPECT_EQ(read.drawing.holes.size(), 3U);
+  EXPECT_THAT(read.drawing.notes, testing::UnorderedElementsAre(
+                                      "ignored: 1 clip paths by CSS shapes: what they hide is drawn, first in line 2",
+                                      "ignored: 1 clip paths that the drawing does not have, first in line 3",
+                                      "ignored: 1 masks: what they hide is drawn, first in line 4",
+                                      "ignored: 1 markers of lines, first in line 4"));
+  EXPECT_THAT(svg(page("<clipPath id='c' clip-path='url(#c)'><rect width='1' height='1'/></clipPath><rect "
+                       "clip-path='url(#c)' width='1' height='1'/>"))
+                  .words,
+              HasSubstr("[svg.nested-too-deep]"));
+}
+
+TEST(Svg, a_nested_view_shows_nothing_beside_itself) {
+  const std::string inside = "<circle cx='20' cy='10' r='5'/>";
+  EXPECT_NEAR(std::abs(area_of(svg(page("<svg width='20' height='20'>" + inside + "</svg>")).drawing)), M_PI * 6.25 / 2,
+              0.01);
+  EXPECT_EQ(svg(page("<svg width='20' height='20' overflow='visible'>" + inside + "</svg>")).drawing.holes.size(), 1U);
+}
+
+TEST(Svg, old_inkscape_has_90_pixels_in_an_inch) {
+  const auto width = [](const std::string& attributes) {
+    const ReadSvg read = svg("<svg xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' " + attributes +
+                             "><rect width='90' height='90'/></svg>");
+    EXPECT_EQ(read.words, "");
+    return mm_x(read.drawing.paths.at(0).points[0]);
+  };
+  EXPECT_NEAR(width("inkscape:version='0.48.4 r9939' width='744.09' height='1052.36'"), 25.4, 1e-5);
+  EXPECT_NEAR(width("inkscape:version='0.91 r13725' width='210mm' height='297mm'"), 25.4, 1e-5);
+  EXPECT_NEAR(width("inkscape:version='0.91 r13725' width='100mm' height='50mm' viewBox='0 0 200 100'"), 45, 1e-5);
+  EXPECT_NEAR(width("inkscape:version='0.48' width='200' height='100' viewBox='0 0 100 50'"), 50.8, 1e-5);
+  EXPECT_NEAR(width("inkscape:version='0.92.3' width='960' height='960'"), 25.4 * 90 / 96, 1e-5);
+  EXPECT_NEAR(width("inkscape:version='1.2 (dc2aeda)' width='960' height='960'"), 25.4 * 90 / 96, 1e-5);
+  EXPECT_NEAR(width("ns0:version='0.47 r1' xmlns:ns0='http://www.inkscape.org/namespaces/inkscape' width='9'"), 25.4,
+              1e-5);
 }
 
 TEST(Svg, layers_are_chosen_by_their_names) {

@@ -122,6 +122,7 @@ TEST_F(CamOrders, become_words_of_the_command_line) {
   EXPECT_EQ(said("outline", "tool", R"("")"), "") << "nothing is said";
   EXPECT_EQ(said("isolate", "edge", R"("edge.gbr")"), "<edge.gbr>");
   EXPECT_EQ(said("engrave", "font", R"("simplex")"), "<simplex>");
+  EXPECT_EQ(said("engrave", "font", R"("DejaVu Sans:bold")"), "<DejaVu Sans:bold>");
   EXPECT_EQ(said("outline", "ramp", R"("99")"), "<99>") << "the operation judges it";
 }
 
@@ -137,7 +138,10 @@ TEST_F(CamOrders, that_cannot_be_are_refused) {
   EXPECT_EQ(said("outline", "tool", R"(["1", "2"])"), "\"tool\": expected a text or a number");
   EXPECT_EQ(said("outline", "tab", R"([true])"), "\"tab\": expected a text, or a list of texts");
   EXPECT_EQ(said("isolate", "edge", R"("other.gbr")"), "\"edge\": expected a file that was sent");
-  EXPECT_EQ(said("engrave", "font", R"("/usr/a.ttf")"), "\"font\": expected a file that was sent, or simplex");
+  EXPECT_EQ(said("engrave", "font", R"("/usr/a.ttf")"),
+            "\"font\": expected a file that was sent, or simplex, an installed font");
+  EXPECT_EQ(said("engrave", "font", R"("a.ttf")"),
+            "\"font\": expected a file that was sent, or simplex, an installed font");
   for (const char* value : {R"("../x")", R"("a/b")", R"("a\nb")", R"("a\\b")"}) {
     EXPECT_EQ(said("engrave", "text", value), "\"text\": expected a text or a number") << value;
   }

@@ -33,6 +33,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   LengthArguments lengths(unit);
   DrillJob job;
   job.reading.dxf = dxf_options_of(arguments, unit, lengths);
+  job.reading.dxf.is_for_drilling = true;
   if (!arguments.input.empty()) job.reading.excellon.inch = arguments.input == "inch";
   if (!arguments.zeros.empty()) {
     job.reading.excellon.zeros = arguments.zeros == "leading" ? LeftOutZeros::leading : LeftOutZeros::trailing;

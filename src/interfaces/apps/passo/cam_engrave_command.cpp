@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/base/sensible_number.hpp"
+#include "passo/cam/font_file.hpp"
 #include "passo/cam/lettering.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
@@ -124,6 +126,16 @@ EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& j
   return engrave;
 }
 
+// The file of --font: a file, or that of an installed font.
+std::string font_path(const std::string& font, Lettering& lettering, Diagnostics& findings) {
+  if (names_font_file(font) || std::filesystem::exists(font)) return font;
+  const std::optional<FontFile> installed = find_font(font, findings);
+  if (!installed) return "";
+  note(fmt::format("--font {}: {}, {}", font, installed->name, installed->path));
+  lettering.face = installed->face;
+  return installed->path;
+}
+
 // The letters or the files as a drawing. Letters of single lines are followed, not carved.
 std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const MillJob& job, EngraveJob& engrave) {
   if (arguments.text.empty()) return read_drawings(arguments, job);
@@ -132,11 +144,11 @@ std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const Mi
   if (arguments.font == "simplex") {
     engrave.is_on_line = true;
     drawing = letter_simplex(engrave.lettering, findings);
-  } else {
-    const auto font = read_bytes(arguments.font, {.area = "engrave", .expected = "--font FILE: a font"}, findings);
+  } else if (const std::string path = font_path(arguments.font, engrave.lettering, findings); !path.empty()) {
+    const auto font = read_bytes(path, {.area = "engrave", .expected = "--font FILE: a font"}, findings);
     if (font) {
       engrave.is_on_line |= looks_like_stroke_font(*font);
-      drawing = letter(engrave.lettering, arguments.font, *font, findings);
+      drawing = letter(engrave.lettering, path, *font, findings);
     }
   }
   show(findings, "--text");
@@ -163,11 +175,14 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
   if (findings.any_error()) return exit_bad_program;
   const double width = to_mm(options.cut.cutter).value();
   const double depth = -to_mm(options.cut.depth).value();
-  const std::string words = size_words(part) + fmt::format("{} and {}, {:.4g} mm deep, {:.4g} mm wide\n",
-                                                           counted(plan.outline.outsides, "closed line"),
-                                                           counted(plan.lines, "open line"), depth, width);
-  const nlohmann::ordered_json json = {
-      {"closed", plan.outline.outsides}, {"open", plan.lines}, {"deepest_mm", depth}, {"width_mm", width}};
+  const std::string words =
+      size_words(part) + fmt::format("{} and {}, {:.4g} mm deep, {:.4g} mm wide\n",
+                                     counted(plan.outline.outsides, "closed line"), open_lines(plan), depth, width);
+  const nlohmann::ordered_json json = {{"closed", plan.outline.outsides},
+                                       {"open", plan.lines},
+                                       {"dots", plan.dots},
+                                       {"deepest_mm", depth},
+                                       {"width_mm", width}};
   return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)},
                  progress.part(0.8, 1));
 }

@@ -7,6 +7,8 @@
 
 #include "cam_job.hpp"
 
+#include "passo/cam/profile.hpp"
+
 namespace passo {
 
 // The lines of a command's files, in program coordinates.
@@ -23,6 +25,9 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
 
 // Returns one line, e.g. "drawn: X 0 to 10, Y 0 to 5 mm".
 std::string size_words(const PartDrawing& part);
+
+// Returns the numbers of open lines and dots, e.g. "2 open lines, 1 dot".
+std::string open_lines(const ProfilePlan& plan);
 
 // The results of a command, for the program, the picture and the summary.
 struct PartResult {

@@ -56,8 +56,9 @@ std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const Mi
 }
 
 std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows) {
-  const auto points =
-      std::ranges::count_if(drawing.holes, [](const DrawnHole& hole) { return hole.diameter.count <= 0; });
+  const bool cuts_dots = open_rows == OpenRows::kept;
+  const auto points = std::ranges::count_if(
+      drawing.holes, [&](const DrawnHole& hole) { return hole.diameter.count <= 0 && !(hole.is_dot && cuts_dots); });
   if (points > 0) {
     note(fmt::format("{} without a diameter {} ignored", counted(static_cast<std::size_t>(points), "point"),
                      points == 1 ? "is" : "are"));
@@ -69,6 +70,9 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
   const DrawnBox box = box_of(drawing);
   Diagnostics findings;
   PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most};
+  for (const DrawnHole& hole : drawing.holes) {
+    if (hole.is_dot && cuts_dots) part.loops.open.push_back({{hole.at, 0}});
+  }
   if (job.sheet && !findings.any_error()) check_sheet(*job.sheet, box, drawing.file, findings);
   show(findings);
   if (findings.any_error()) return std::nullopt;
@@ -78,6 +82,11 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
 std::string size_words(const PartDrawing& part) {
   return fmt::format("drawn: X {:.6g} to {:.6g}, Y {:.6g} to {:.6g} mm\n", to_mm(part.least.x).value(),
                      to_mm(part.most.x).value(), to_mm(part.least.y).value(), to_mm(part.most.y).value());
+}
+
+std::string open_lines(const ProfilePlan& plan) {
+  const std::string dots = plan.dots == 0 ? "" : ", " + counted(plan.dots, "dot");
+  return counted(plan.lines, "open line") + dots;
 }
 
 int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result,
@@ -186,10 +195,11 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
   std::string words = size_words(*part);
   nlohmann::ordered_json json = lengths_json(cut.mill, options.cut.park);
   if (is_on) {
-    words += fmt::format("{} and {}, {}\n", counted(cut.outsides, "closed line"), counted(plan.lines, "open line"),
+    words += fmt::format("{} and {}, {}\n", counted(cut.outsides, "closed line"), open_lines(plan),
                          counted(cut.tabs.size(), "tab"));
     json["closed"] = cut.outsides;
     json["open"] = plan.lines;
+    json["dots"] = plan.dots;
     json["tabs"] = cut.tabs.size();
   } else {
     words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),

@@ -53,6 +53,7 @@ struct DrawnHole {
   Nanometres diameter = {};  // 0: not stated in the file
   std::uint32_t layer = 0;   // index into Drawing::layers
   std::uint32_t line = 0;    // line of the file, from 1; 0: the file has no lines
+  bool is_dot = false;       // a dot of a pen: no hole, and without a diameter
 };
 
 // A point of a path. `bulge` defines the connection to the next point: 0 is a line; otherwise it is an arc, and the

@@ -40,6 +40,7 @@ struct Lettering {
   Mm around{0};                       // radius of the baseline; 0: a straight line
   std::optional<LetterArc> arc = {};  // the range on that circle; empty: the natural length of the text
   double turn_degrees = 0;            // rotation of the whole text about the origin, counterclockwise
+  int face = 0;                       // the font in the file; see FontFile
   Mm tolerance{0.005};
 };
 

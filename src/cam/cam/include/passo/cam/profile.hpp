@@ -28,13 +28,15 @@ struct ProfileOptions {
 struct ProfilePlan {
   OutlinePlan outline = {};
   std::size_t lines = 0;  // number of open paths that are cut
-  Region face = {};       // the area inside the loops; empty for `on`
+  std::size_t dots = 0;
+  Region face = {};  // the area inside the loops; empty for `on`
   Region unreached = {};
   double unreached_mm2 = 0;
 };
 
-// `loops`: closed; the last point leads back to the first. `lines`: open paths, which are always cut on the line.
-// Reports errors "outline.…" and "profile.…" in `diagnostics`.
+// `loops`: closed; the last point leads back to the first. `lines`: open paths, which are always cut on the line; one
+// of a single point is a dot, at which the cutter only goes down. Reports errors "outline.…" and "profile.…" in
+// `diagnostics`.
 ProfilePlan plan_profile(const std::vector<std::vector<PathPoint>>& loops,
                          const std::vector<std::vector<PathPoint>>& lines, const ProfileOptions& options,
                          Diagnostics& diagnostics);

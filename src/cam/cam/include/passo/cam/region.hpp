@@ -11,6 +11,7 @@
 // Source: B. R. Vatti, A generic solution to polygon clipping (1992); the library Clipper 6.4.2 of A. Johnson.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,10 @@ inline constexpr Nanometres usual_chord_tolerance{1000};
 // Fills each ring, whatever its direction, and unites all of them. A self-crossing ring is filled where its winding
 // number is not zero. Rings of fewer than three points are ignored.
 Region filled(std::vector<DrawnRing> rings);
+
+// Fills the rings together: where their winding number is odd, or where it is not zero.
+enum class FillRule : std::uint8_t { even_odd, nonzero };
+Region filled_together(std::vector<DrawnRing> rings, FillRule rule);
 
 Region united(const Region& a, const Region& b);
 Region united(const std::vector<Region>& regions);

@@ -6,14 +6,17 @@
 // lower left corner of the page is X0 Y0. Only the geometry counts: fill and stroke width are ignored. Inkscape layers
 // are the layers of the drawing.
 //
-// Texts, pictures and foreign objects are omitted and counted in Drawing::notes; so are hidden elements (`display:
-// none`), clips, masks, markers and patterns. Style sheets are not applied.
+// Style sheets are applied where they hide or place shapes (svg_style.hpp). Clip paths are obeyed, and nested views
+// clip what lies beside them: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts,
+// pictures, hidden elements, masks, markers and unsupported clip paths and style rules are omitted and counted in
+// Drawing::notes.
 //
-// `width` and `viewBox` determine the user unit; without them it is a pixel, 1/96 inch. Time and memory are
+// `width` and `viewBox` determine the user unit; without them it is a pixel, 1/96 inch, or 1/90 inch if the file
+// names a version of Inkscape before 0.92. Time and memory are
 // proportional to the text and to the expansion of its uses, which is bounded by `most_drawn`. Invalid input produces
 // diagnostics "svg.…" with a line number.
 //
-// Source: Scalable Vector Graphics (SVG) 2, W3C, 2018.
+// Sources: Scalable Vector Graphics (SVG) 2, W3C, 2018; CSS Masking Module Level 1, W3C, 2021.
 #pragma once
 
 #include <string>

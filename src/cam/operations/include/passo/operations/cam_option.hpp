@@ -56,6 +56,7 @@ struct CamTraits {
   std::string_view letter = {};  // short form: "o" stands for -o
   bool is_required = false;      // the option must be given; for kind `drawings`: at least one file
   int most_files = 0;            // for kind `drawings`: maximum number of files; 0: any number
+  std::string_view names = {};   // for kind `file`: what a value that is not a file names; empty: nothing
 };
 
 struct CamOption {
