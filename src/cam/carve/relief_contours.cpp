@@ -94,7 +94,8 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   NodeMask level = steep;
   level.invert();
   level.widen(step_x, step_y);
-  const NodeMask work = nodes_of_work(tips, surface, step, floor, options);
+  const NodeMask work = nodes_of_work(tips, surface, lattice, step, floor, options);
+  const NodeMask below_top = nodes_of_finishing(tips, surface, lattice, options);
 
   const float top = *std::max_element(tips.heights.begin(), tips.heights.end());
   const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
@@ -121,7 +122,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   }
   AreaSweep sweep(
       pass, area_of(tips, step_y, nodes_of(cutter.radius, surface.pitch_x)),
-      [&](auto column, auto row) { return level.at(column, row) && work.at(column, row); },
+      [&](auto column, auto row) { return level.at(column, row) && below_top.at(column, row); },
       [&](auto column, auto row) { return tips.at(column, row); },
       [&](auto column, auto row) {
         const FlatPlace place{static_cast<double>(column) * surface.pitch_x.value(),

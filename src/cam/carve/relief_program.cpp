@@ -135,7 +135,9 @@ void ReliefProgram::record(const ReliefTool& tool, Mm overrun, const std::functi
 void ReliefProgram::finish() {
   if (options_.way == FinishStrategy::contours) cut(finish_contours, surface_, false);
   if (options_.way == FinishStrategy::spiral) cut(finish_spiral, surface_, false);
-  const Cut rows = options_.only_on_model ? finish_rows_on_model : finish_rows;
+  const bool has_gaps = options_.only_on_model || !options_.within.empty() || options_.has_even_scallops ||
+                        options_.direction != RowDirection::there_and_back;
+  const Cut rows = options_.angle.value != 0 ? finish_rows_at_angle : has_gaps ? finish_rows_in_area : finish_rows;
   if (options_.way == FinishStrategy::rows || options_.way == FinishStrategy::both) cut(rows, surface_, false);
   if (options_.way == FinishStrategy::columns || options_.way == FinishStrategy::both) {
     cut(rows, surface_.transposed(), true);
@@ -145,7 +147,9 @@ void ReliefProgram::finish() {
 // Only where somebody asks for it: it costs time.
 void ReliefProgram::watch_stock() {
   const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
-  const bool is_asked = options_.only_on_model || options_.way == FinishStrategy::contours ||
+  const bool is_asked = options_.only_on_model || !options_.within.empty() || options_.has_even_scallops ||
+                        options_.direction != RowDirection::there_and_back || options_.angle.value != 0 ||
+                        options_.way == FinishStrategy::contours ||
                         options_.finish.removal > 0 ||
                         (options_.roughing && options_.roughing->way == RoughStrategy::offsets) ||
                         holds(options_.roughing) || holds(options_.rest);

@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/cam/drawing_file.hpp"
+#include "passo/cam/edge_loops.hpp"
 #include "passo/carve/relief_program.hpp"
 #include "passo/carve/relief_surface.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
@@ -41,15 +43,15 @@ class ReliefReading {
     if (text.empty()) return std::nullopt;
     return length(option, text, least, most);
   }
-  // The lowest Z, below the top at Z0.
-  std::optional<Mm> depth(const std::string& text) {
+  // A Z, below the top at Z0.
+  std::optional<Mm> depth(const char* option, const std::string& text) {
     if (text.empty()) return std::nullopt;
-    const Result<Mm, std::string> read = parse_length("--depth", text, 1);
+    const Result<Mm, std::string> read = parse_length(option, text, 1);
     if (read && *read >= Mm(0.001) && *read <= deepest_relief) {
-      refuse(fmt::format("--depth: expected a Z below the top at Z0, found '{0}'; write --depth -{0}", text));
+      refuse(fmt::format("{1}: expected a Z below the top at Z0, found '{0}'; write {1} -{0}", text, option));
       return std::nullopt;
     }
-    return length("--depth", text, -deepest_relief, Mm(-0.001)) * -1;
+    return length(option, text, -deepest_relief, Mm(-0.001)) * -1;
   }
   Cutter cutter(const char* option, const std::string& text) {
     const Result<Cutter, std::string> read = parse_cutter(text);
@@ -80,7 +82,10 @@ ReliefShape shape_of(const CamReliefArguments& arguments, ReliefReading& read) {
   ReliefShape shape;
   shape.width = read.perhaps("--width", arguments.width, Mm(0.1), most_length);
   shape.length = read.perhaps("--length", arguments.length, Mm(0.1), most_length);
-  shape.depth = read.depth(arguments.depth);
+  shape.depth = read.depth("--depth", arguments.depth);
+  shape.lowest = read.depth("--lowest-z", arguments.lowest_z);
+  shape.smooth = read.length("--smooth", arguments.smooth, Mm(0), Mm(100));
+  shape.background = arguments.background / 100;
   shape.gamma = arguments.gamma;
   shape.invert = arguments.invert;
   shape.mirror = arguments.mirror;
@@ -101,6 +106,27 @@ ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& c
   tool.removal = removal.value_or(0);
   if (!arguments.feed_most.empty()) tool.fastest = read.length("--feed-most", arguments.feed_most, Mm(1), fastest);
   return tool;
+}
+
+// The options of rows, and what they do not go with.
+void read_rows(const CamReliefArguments& arguments, ReliefProgramOptions& program, ReliefReading& read) {
+  const std::string& way = arguments.way;
+  const bool has_rows = way == "rows" || way == "columns" || way == "both";
+  program.direction = arguments.one_way == "climb"          ? RowDirection::climb
+                      : arguments.one_way == "conventional" ? RowDirection::conventional
+                                                            : RowDirection::there_and_back;
+  if (program.direction != RowDirection::there_and_back && !has_rows) {
+    read.refuse(fmt::format("--one-way: expected --way rows, columns or both, found {}", way));
+  }
+  program.angle = {arguments.angle * std::numbers::pi / 180};
+  if (arguments.angle != 0 && way != "rows") read.refuse(fmt::format("--angle: expected --way rows, found {}", way));
+  program.has_even_scallops = arguments.spacing == "slope";
+  if (!program.has_even_scallops) return;
+  if (!has_rows || arguments.angle != 0) {
+    read.refuse("--spacing slope: expected --way rows, columns or both, and no --angle");
+  }
+  const bool is_round = program.finish.cutter.corner.value() > 0;
+  if (!is_round) read.refuse("--spacing slope: expected a cutter with a round tip or corner: ball, bull or taper");
 }
 
 ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReading& read) {
@@ -133,14 +159,38 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
   program.overrun = read.perhaps("--overrun", arguments.overrun, Mm(0), Mm(200));
   program.only_on_model = arguments.area == "model";
-  if (program.only_on_model && program.way == FinishStrategy::spiral) {
-    read.refuse("--area model: expected --way rows, columns, both or contours, found spiral");
+  const bool is_part = program.only_on_model || !arguments.within.empty();
+  if (is_part && program.way == FinishStrategy::spiral) {
+    read.refuse(fmt::format("{}: expected --way rows, columns, both or contours, found spiral",
+                            program.only_on_model ? "--area model" : "--within"));
   }
+  read_rows(arguments, program, read);
   program.ramps = arguments.entry == "ramp";
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   return program;
+}
+
+// The closed curves of a drawing, in program coordinates. Shows findings; then the answer is false.
+bool read_curves(const std::string& path, std::vector<std::vector<ReliefPoint>>& curves) {
+  if (path.empty()) return true;
+  Diagnostics findings;
+  const Drawing drawing = read_drawing(path, {}, findings);
+  constexpr Nanometres join{100'000};
+  const EdgeLoops loops = findings.any_error() ? EdgeLoops() : edge_loops(drawing, join, findings);
+  if (!findings.any_error() && loops.loops.empty()) {
+    findings.add(of_file("relief.no-curve", path, "there is no closed curve", "a drawing with closed curves"));
+  }
+  show(findings);
+  constexpr Nanometres tolerance{5'000};
+  for (const std::vector<PathPoint>& loop : loops.loops) {
+    std::vector<ReliefPoint>& curve = curves.emplace_back();
+    for (const DrawnPoint& point : chords_of_path(loop, true, tolerance)) {
+      curve.push_back({to_mm(point.x), to_mm(point.y)});
+    }
+  }
+  return !findings.any_error();
 }
 
 // A node must not be far apart for what the finest cutter can do.
@@ -151,6 +201,13 @@ Mm pitch_for(const ReliefProgramOptions& program) {
     return tool.step_over.value() > 0 ? std::min(fine, tool.step_over) : fine;
   };
   Mm pitch = of_tool(program.finish);
+  if (program.has_even_scallops) {
+    // Rows are added midway between rows, three times at most.
+    const Cutter& cutter = program.finish.cutter;
+    const Mm step =
+        program.finish.step_over.value() > 0 ? program.finish.step_over : cutter.step_for_scallop(program.scallop);
+    pitch = std::min(pitch, (step.value() > 0 ? step : cutter.radius) / 8);
+  }
   if (program.rest) pitch = std::min(pitch, of_tool(program.rest->tool));
   return std::max(pitch, Mm(0.01));
 }
@@ -227,7 +284,7 @@ struct ReliefGrid {
 std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const ReliefJob& job,
                                       Diagnostics& findings) {
   const auto bytes =
-      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG or TIFF picture, or an STL file"}, findings);
+      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG, JPEG or TIFF picture, or an STL or 3MF file"}, findings);
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
   shape.wished_pitch = pitch_for(job.program);
@@ -251,7 +308,7 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     const bool is_read = read.is_body || foreign.kind.empty() || foreign.kind == "a height map";
     if (!is_read) {
       findings.add(of_file("picture.unknown-kind", arguments.file, fmt::format("this is {}", foreign.kind),
-                           "a PNG or TIFF picture, an STL file or a height map x,y,z"));
+                           "a PNG, JPEG or TIFF picture, an STL or 3MF file or a height map x,y,z"));
       return std::nullopt;
     }
     SurfaceFaces faces = read_faces(arguments.file, *bytes, findings);
@@ -345,6 +402,7 @@ int draw(const std::string& path, const std::string& bytes) {
 int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress) {
   NamedFiles files;
   files.reads("the file", arguments.file);
+  files.reads("--within", arguments.within);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart()) return exit_bad_program;
@@ -355,6 +413,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
     return fail(exit_bad_program,
                 fmt::format("--picture: expected a name that ends with .png, found '{}'", arguments.picture));
   }
+  if (!read_curves(arguments.within, job.program.within)) return exit_bad_program;
   Diagnostics findings;
   const std::optional<ReliefGrid> read = read_relief(arguments, job, findings);
   if (!read) {

@@ -30,6 +30,15 @@ enum class FinishStrategy : std::uint8_t { rows, columns, both, spiral, contours
 // The roughing strategy: rows, or offsets of the area that a level removes, from the inside outwards.
 enum class RoughStrategy : std::uint8_t { rows, offsets };
 
+// The direction in which rows are cut: there and back in turn, or always so that a clockwise spindle climb mills or mills
+// conventionally.
+enum class RowDirection : std::uint8_t { there_and_back, climb, conventional };
+
+struct ReliefPoint {
+  Mm x{};
+  Mm y{};
+};
+
 struct ReliefTool {
   Cutter cutter = {};
   Mm step_over{0};  // stepover; 0: derived from `scallop`
@@ -60,6 +69,11 @@ struct ReliefProgramOptions {
   FinishStrategy way = FinishStrategy::rows;
   Radians steep{0.785398};  // slope limit of contours: 45 degrees
   bool arcs = true;         // use arcs where they save lines
+  RowDirection direction = RowDirection::there_and_back;
+  Radians angle{0};  // of the rows, from X, counterclockwise; only for rows in both directions of X
+  // Adds rows on slopes, so that ridges are nowhere higher than `scallop`. For cutters with a round tip; not for
+  // contours, spirals or rows at an angle.
+  bool has_even_scallops = false;
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
   Mm scallop{0.02};                           // scallop height between two rows on a flat area, if no stepover is given
@@ -76,6 +90,9 @@ struct ReliefProgramOptions {
   // Cuts only where a cutter touches material of the model above the floor, and one stepover around it. Not for
   // spirals.
   bool only_on_model = false;
+  // The tips stay within these closed curves, in program coordinates; a curve within a curve is a hole. Empty:
+  // everywhere. Not for spirals.
+  std::vector<std::vector<ReliefPoint>> within = {};
   unsigned threads = 1;  // at least 1
 };
 
