@@ -88,8 +88,9 @@ namespace {
 
 // Rows between the rows, where the surface rises across them.
 //
-// On a slope, two rows are farther apart along the surface than seen from above, by `ratio`; ridges grow with its
-// square. Rows midway are added where this is above 1, rows midway between these where it is above 2, and so on.
+// On a slope, two rows are farther apart along the surface than seen from above, by sqrt(1 + slope²); ridges grow with
+// its square. Where they would be too high, rows midway are added, and rows midway between these, until the rows lie at
+// each node.
 class RowLevels {
  public:
   RowLevels(const TipMap& tips, const HeightGrid& surface, Mm step, const ReliefProgramOptions& options)
@@ -98,52 +99,63 @@ class RowLevels {
     const double radius = options.finish.cutter.corner.value();
     const double high = std::min(options.scallop.value(), radius);
     allowed_ = 2 * std::sqrt(high * (2 * radius - high));
-    for (std::ptrdiff_t parts = 2; parts <= most_parts && nodes_ >= parts; parts *= 2) levels_ = parts;
-    nodes_ = nodes_ / levels_ * levels_;
+    while (parts_ < most_parts && 2 * parts_ <= nodes_) parts_ *= 2;
   }
 
-  std::ptrdiff_t nodes() const { return nodes_; }
-  // How many parts a step has where it has most.
-  std::ptrdiff_t parts() const { return levels_; }
+  std::ptrdiff_t step() const { return nodes_; }
+  // The parts of a step where the rows are closest: a power of 2.
+  std::ptrdiff_t parts() const { return parts_; }
 
-  // The nodes of the rows that divide a step in `parts` that an even number of parts does not have.
-  NodeMask between(std::ptrdiff_t parts) const {
+  // The rows that divide steps in `parts`, but are no rows of steps in half as many.
+  std::vector<std::ptrdiff_t> rows(std::ptrdiff_t parts) const {
+    std::vector<std::ptrdiff_t> all;
+    for (std::ptrdiff_t i = 1;; i += 2) {
+      const std::ptrdiff_t row = i * nodes_ / parts;
+      if (row + 1 >= static_cast<std::ptrdiff_t>(tips_.rows)) return all;
+      all.push_back(row - tips_.margin_y);
+    }
+  }
+  // The nodes of these rows that have work.
+  NodeMask between(const std::vector<std::ptrdiff_t>& rows, std::ptrdiff_t parts) const {
     NodeMask mask(tips_);
-    const std::ptrdiff_t apart = nodes_ / parts;
-    const auto rows = static_cast<std::ptrdiff_t>(tips_.rows);
-    const double most = static_cast<double>(parts) / 2;
-    for (std::ptrdiff_t row = apart; row + 1 < rows; row += 2 * apart) {
+    const std::ptrdiff_t apart = (nodes_ + parts - 1) / parts;
+    const double gap = static_cast<double>((2 * nodes_ + parts - 1) / parts) * pitch_;  // without these rows
+    // On slopes up to this the rows are close enough; a level area is left to the stepover.
+    constexpr double level = 1e-3;
+    const double enough = std::max(level, allowed_ * allowed_ / (gap * gap) - 1);
+    for (const std::ptrdiff_t place : rows) {
+      const std::ptrdiff_t row = place + tips_.margin_y;
       const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, row - apart);
-      const std::ptrdiff_t end = std::min(rows - 1, row + apart);
+      const std::ptrdiff_t end = std::min(static_cast<std::ptrdiff_t>(tips_.rows) - 1, row + apart);
       for (std::size_t column = 0; column < tips_.columns; ++column) {
         bool wants = false;
-        for (std::ptrdiff_t i = first; i < end && !wants; ++i) wants = ratio(column, i) > most;
+        for (std::ptrdiff_t i = first; i < end && !wants; ++i) {
+          const double square = slope2(column, i);
+          wants = square > enough && square < steepest;
+        }
         mask.mark(column, static_cast<std::size_t>(row)) = wants ? 1 : 0;
       }
     }
-    mask.widen(nodes_, 0);
+    mask.widen(nodes_ / 2, 0);
     return mask;
   }
 
  private:
   static constexpr std::ptrdiff_t most_parts = 8;
-  // Rows cannot finish what is steeper: contours do.
-  static constexpr double steepest = 6;  // about 80 degrees
+  static constexpr double steepest = 32;  // 80 degrees
 
-  // How much farther apart than allowed two rows are, between this row of nodes and the next.
-  double ratio(std::size_t column, std::ptrdiff_t row) const {
+  // The square of the slope from this row of nodes to the next.
+  double slope2(std::size_t column, std::ptrdiff_t row) const {
     const std::size_t i = static_cast<std::size_t>(row) * tips_.columns + column;
     const double slope = static_cast<double>(tips_.heights[i + tips_.columns] - tips_.heights[i]) / pitch_;
-    constexpr double level = 0.02;
-    if (std::abs(slope) < level || std::abs(slope) > steepest) return 0;
-    return static_cast<double>(nodes_) * pitch_ * std::sqrt(1 + slope * slope) / allowed_;
+    return slope * slope;
   }
 
   const TipMap& tips_;
   std::ptrdiff_t nodes_;
   double pitch_;
   double allowed_ = 0;
-  std::ptrdiff_t levels_ = 1;
+  std::ptrdiff_t parts_ = 1;
 };
 
 // The direction of travel along columns, for rows of which the next has the higher number: the stock that is still to be
@@ -169,15 +181,15 @@ void finish_rows_in_area(ReliefPass& pass, const HeightGrid& surface, const Node
     const FlatPlace place = lattice.turned ? FlatPlace{y, x} : FlatPlace{x, y};
     return static_cast<float>(pass.stock()->free_height(place, cutter.radius.value() / 2));
   };
-  const std::ptrdiff_t gap = nodes_of(cutter.radius, surface.pitch_x);
+  const Mm gap = gap_of(options, cutter.radius);
   for (std::ptrdiff_t parts = 1; parts <= levels.parts(); parts *= 2) {
-    AreaSweep::Area area = area_of(tips, levels.nodes() * (parts == 1 ? 1 : 2) / parts, gap);
+    AreaSweep::Area area = area_of(tips, levels.step(), gap.value() > 0 ? nodes_of(gap, surface.pitch_x) : 0);
     area.direction = direction_of(options, lattice.turned);
     std::optional<NodeMask> between;
     if (parts > 1) {
-      area.first_row += levels.nodes() / parts;
-      between.emplace(levels.between(parts));
-      if (area.first_row >= area.end_row) break;
+      area.rows = levels.rows(parts);
+      if (area.rows.empty()) break;
+      between.emplace(levels.between(area.rows, parts));
     }
     AreaSweep sweep(
         pass, area,
@@ -256,7 +268,8 @@ class AngledRows {
       if (line.points.size() < 2) continue;
       if (is_back) std::reverse(line.points.begin(), line.points.end());
       const auto wants = [&](const FlatPlace& place) { return work_.near(place, surface_); };
-      for (const LevelLine& part : parts_of(line, wants, pass_.options().finish.cutter.radius.value(), 0)) cut(part);
+      const Mm gap = gap_of(pass_.options(), pass_.options().finish.cutter.radius);
+      for (const LevelLine& part : parts_of(line, wants, gap.value(), 0)) cut(part);
       if (pass_.options().direction == RowDirection::there_and_back) is_back = !is_back;
       progress(i / count);
     }

@@ -104,6 +104,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   const double down = levels > 0 ? static_cast<double>(top - lowest) / levels : 0;
   const LevelPathFit fit{.tolerance = options.tolerance.value(), .has_arcs = options.arcs};
   const ReliefPass::WayEntry entry{.near = cutter.radius.value() * 2, .cuts_with_rim = true};
+  const Mm gap = gap_of(options, step * 2);
   LevelLines lines(tips, surface.pitch_x, surface.pitch_y);
   for (double i = 1; i <= levels; ++i) {
     const float height = i < levels ? grid_height(Mm(static_cast<double>(top) - down * i)) : lowest;
@@ -112,7 +113,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
       const auto wants = [&](const FlatPlace& place) {
         return steep.near(place, tip_surface) && work.near(place, tip_surface);
       };
-      for (LevelLine& part : parts_of(line, wants, step.value() * 2, step.value() * 2)) next.add(std::move(part));
+      for (LevelLine& part : parts_of(line, wants, gap.value(), step.value() * 2)) next.add(std::move(part));
     });
     while (!next.empty()) {
       const LevelLine line = next.take(pass.flat_place());
@@ -121,7 +122,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
     progress(i / levels * 0.7);
   }
   AreaSweep sweep(
-      pass, area_of(tips, step_y, nodes_of(cutter.radius, surface.pitch_x)),
+      pass, area_of(tips, step_y, options.within.empty() ? nodes_of(cutter.radius, surface.pitch_x) : 0),
       [&](auto column, auto row) { return level.at(column, row) && below_top.at(column, row); },
       [&](auto column, auto row) { return tips.at(column, row); },
       [&](auto column, auto row) {

@@ -203,6 +203,7 @@ Mm rest_overrun(const ReliefProgramOptions& options) {
 }
 
 std::ptrdiff_t AreaSweep::row_of(std::size_t index) const {
+  if (!area_.rows.empty()) return area_.rows[index];
   return std::min(area_.first_row + static_cast<std::ptrdiff_t>(index) * area_.step, area_.end_row - 1);
 }
 
@@ -222,7 +223,7 @@ void AreaSweep::find_stretches() {
     }
     all_ += here.size();
     stretches_.push_back(std::move(here));
-    if (row == area_.end_row - 1) return;
+    if (area_.rows.empty() ? row == area_.end_row - 1 : index + 1 == area_.rows.size()) return;
   }
 }
 

@@ -105,6 +105,7 @@ class AreaSweep {
     std::ptrdiff_t first_row = 0;
     std::ptrdiff_t end_row = 0;
     std::ptrdiff_t step = 1;  // between rows of work
+    std::vector<std::ptrdiff_t> rows = {};  // the rows of work, if they are not `step` apart
     std::ptrdiff_t gap = 0;   // joins runs at most this far apart
     int direction = 0;        // 1 or -1: all runs go to higher or lower columns; 0: one run follows the other
   };
@@ -143,6 +144,10 @@ class AreaSweep {
   std::size_t all_ = 0;
 };
 
+// Returns the longest gap across which runs are joined: `usual`, but none where the cutter must stay within curves.
+inline Mm gap_of(const ReliefProgramOptions& options, Mm usual) {
+  return options.within.empty() ? usual : Mm(0);
+}
 // Returns the number of nodes in a distance, at least one.
 std::ptrdiff_t nodes_of(Mm distance, Mm pitch);
 // Returns the greatest whole number of nodes within a step, at least one.

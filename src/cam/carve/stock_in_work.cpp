@@ -70,8 +70,8 @@ Curve curve_of(const CarvedCut& cut) {
 }  // namespace
 
 StockInWork::StockInWork(const HeightGrid& surface, const ReliefProgramOptions& options, Mm beyond, Watcher watcher)
-    : heights_{.field = field_for(surface, options, beyond, 0.1, 6e6)},
-      bound_{.field = field_for(surface, options, beyond, 0.2, 1.5e6)},
+    : heights_{.field = field_for(surface, options, beyond, 0.125, 6e6)},
+      bound_{.field = field_for(surface, options, beyond, 0.3, 1e6)},
       x0_(options.x0.value()),
       y0_(options.y0.value()),
       shapes_(cutters_of(options)) {

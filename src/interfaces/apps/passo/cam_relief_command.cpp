@@ -318,6 +318,11 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
                            "--up and --input-units for a model only"));
       return std::nullopt;
     }
+    if (states_its_unit(*bytes) && arguments.input_units != "mm") {
+      findings.add(of_file("relief.bad-body", arguments.file, "a 3MF file states its unit",
+                           "no --input-units; --width scales the model"));
+      return std::nullopt;
+    }
     turn(arguments, faces.triangles);
     if (read.is_body && !is_plausible(arguments, faces.triangles, findings)) return std::nullopt;
     read.words = counted(faces.triangles.size(), "triangle") + ", seen from above";
