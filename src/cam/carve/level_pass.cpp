@@ -91,7 +91,7 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
   for (const CarvedCut& cut : path.cuts) {
     if (!entry.is_row) lowest = std::min(lowest, static_cast<double>(cut.to.z) / carved_units);
   }
-  const double free = entry.is_row          ? stock_->free_height(flat(start), stock_->radius() / 2)
+  const double free = entry.is_row          ? stock_->free_height_inside(flat(start))
                       : entry.cuts_with_rim ? stock_->free_height_inside(path.cuts)
                                             : stock_->free_height(path.cuts);
   constexpr double nothing = 1e-4;  // mm

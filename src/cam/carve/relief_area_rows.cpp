@@ -179,7 +179,10 @@ void finish_rows_in_area(ReliefPass& pass, const HeightGrid& surface, const Node
     const double x = static_cast<double>(column) * surface.pitch_x.value();
     const double y = static_cast<double>(row) * surface.pitch_y.value();
     const FlatPlace place = lattice.turned ? FlatPlace{y, x} : FlatPlace{x, y};
-    return static_cast<float>(pass.stock()->free_height(place, cutter.radius.value() / 2));
+    // A row in one direction begins beside the row before: there the rim of the cutter has stock, but not its middle.
+    const bool is_beside = options.direction != RowDirection::there_and_back;
+    return static_cast<float>(is_beside ? pass.stock()->free_height_inside(place)
+                                        : pass.stock()->free_height(place, cutter.radius.value() / 2));
   };
   const Mm gap = gap_of(options, cutter.radius);
   for (std::ptrdiff_t parts = 1; parts <= levels.parts(); parts *= 2) {

@@ -184,6 +184,10 @@ double StockInWork::free_height(const std::vector<CarvedCut>& way) {
   return highest;
 }
 
+double StockInWork::free_height_inside(const FlatPlace& place) {
+  return highest(heights_, place, 0, radius() / 2);
+}
+
 double StockInWork::free_height_inside(const std::vector<CarvedCut>& way) {
   const double radius = shapes_[tool_].radius.value();
   const double apart = radius / 4;

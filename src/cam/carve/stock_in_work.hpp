@@ -40,7 +40,9 @@ class StockInWork {
   double free_height(const FlatPlace& place, double around);
   // Returns the same for a whole toolpath.
   double free_height(const std::vector<CarvedCut>& way);
-  // Returns the lowest tip height at which the inner half of the cutter touches no stock along a toolpath.
+  // Returns the lowest tip height at which the inner half of the cutter touches no stock at a position, and along a
+  // toolpath.
+  double free_height_inside(const FlatPlace& place);
   double free_height_inside(const std::vector<CarvedCut>& way);
 
  private:

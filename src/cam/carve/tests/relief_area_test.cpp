@@ -91,6 +91,11 @@ TEST(ReliefArea, within_a_curve_keeps_the_tip_inside) {
     options.x0 = Mm(10);
     options.y0 = Mm(10);
     options.within = {square(10.55, 14.45), square(12.05, 12.95)};
+    // Then at an angle, too.
+    if (way == FinishStrategy::both) {
+      options.way = FinishStrategy::rows;
+      options.angle = {0.4};
+    }
     const Written program = written(grid, options);
     std::size_t low = 0;
     for (const ReadMove& move : moves_of(program.text)) {

@@ -275,6 +275,30 @@ bool fits_memory(const ReliefProgramOptions& program, const HeightGrid& grid, co
   return false;
 }
 
+// Curves that lie beside the relief were probably drawn elsewhere.
+bool meet(const std::vector<std::vector<ReliefPoint>>& curves, const HeightGrid& grid,
+          const ReliefProgramOptions& program, const std::string& name, Diagnostics& findings) {
+  if (curves.empty()) return true;
+  ReliefPoint low = curves.front().front();
+  ReliefPoint high = low;
+  for (const std::vector<ReliefPoint>& curve : curves) {
+    for (const ReliefPoint& point : curve) {
+      low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+      high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+    }
+  }
+  const Mm right = program.x0 + grid.width();
+  const Mm top = program.y0 + grid.length();
+  if (high.x > program.x0 && low.x < right && high.y > program.y0 && low.y < top) return true;
+  findings.add(of_file(
+      "relief.no-curve", name,
+      fmt::format("the curves, X {:.4g} to {:.4g}, Y {:.4g} to {:.4g}, lie beside the relief", low.x.value(),
+                  high.x.value(), low.y.value(), high.y.value()),
+      fmt::format("curves in program coordinates; the relief reaches from X {:.4g} to {:.4g}, Y {:.4g} to {:.4g}",
+                  program.x0.value(), right.value(), program.y0.value(), top.value())));
+  return false;
+}
+
 struct ReliefGrid {
   HeightGrid grid;
   std::string words;  // what was read
@@ -435,6 +459,10 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   }
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
+  if (!meet(job.program.within, read->grid, job.program, arguments.within, findings)) {
+    show(findings);
+    return exit_bad_program;
+  }
   const std::string what = std::filesystem::path(arguments.file).filename().string();
   job.program.words = {fmt::format("from {}: {}", what, read->words), grid_words(read->grid)};
 
