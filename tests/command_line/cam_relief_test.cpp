@@ -185,7 +185,8 @@ TEST_F(CamRelief, is_cut_within_a_curve_in_rows_of_all_kinds_and_no_deeper_than_
   refused(" --within " + oval + " --way spiral", "--within: expected --way rows, columns, both or contours");
   refused(" --angle 30 --way columns", "--angle: expected --way rows, found columns");
   refused(" --one-way climb --way contours", "--one-way: expected --way rows, columns or both, found contours");
-  refused(" --spacing slope --cutter flat:2", "--spacing slope: expected a cutter with a round tip");
+  EXPECT_THAT(relief(flower + " --spacing slope --cutter flat:2").err,
+              HasSubstr("--spacing slope: expected a cutter with a round tip"));
   refused(" --background 100", "--background");
 }
 

@@ -57,11 +57,11 @@ NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, const NodeL
   for (std::size_t row = 0; row < map.rows; ++row) {
     for (std::size_t column = 0; column < map.columns; ++column) {
       const bool is_high = map.heights[row * map.columns + column] > floor + least_work;
-      mask.mark(column, row) = !options.only_on_model || is_high ? 1 : 0;
+      mask.mark(column, row) = !options.area.only_on_model || is_high ? 1 : 0;
     }
   }
-  if (options.only_on_model) mask.widen(nodes_of(around, surface.pitch_x), nodes_of(around, surface.pitch_y));
-  if (!options.within.empty()) keep_within(options.within, map, lattice, mask);
+  if (options.area.only_on_model) mask.widen(nodes_of(around, surface.pitch_x), nodes_of(around, surface.pitch_y));
+  if (!options.area.within.empty()) keep_within(options.area.within, map, lattice, mask);
   return mask;
 }
 
@@ -95,7 +95,7 @@ class RowLevels {
  public:
   RowLevels(const TipMap& tips, const HeightGrid& surface, Mm step, const ReliefProgramOptions& options)
       : tips_(tips), nodes_(step_nodes(step, surface.pitch_y)), pitch_(surface.pitch_y.value()) {
-    if (!options.has_even_scallops) return;
+    if (!options.rows.has_even_scallops) return;
     const double radius = options.finish.cutter.corner.value();
     const double high = std::min(options.scallop.value(), radius);
     allowed_ = 2 * std::sqrt(high * (2 * radius - high));
@@ -161,8 +161,8 @@ class RowLevels {
 // The direction of travel along columns, for rows of which the next has the higher number: the stock that is still to be
 // cut is to the left of a row that goes to higher columns, unless rows and columns are swapped.
 int direction_of(const ReliefProgramOptions& options, bool is_turned) {
-  if (options.direction == RowDirection::there_and_back) return 0;
-  return (options.direction == RowDirection::climb) == is_turned ? 1 : -1;
+  if (options.rows.direction == RowDirection::there_and_back) return 0;
+  return (options.rows.direction == RowDirection::climb) == is_turned ? 1 : -1;
 }
 
 }  // namespace
@@ -180,7 +180,7 @@ void finish_rows_in_area(ReliefPass& pass, const HeightGrid& surface, const Node
     const double y = static_cast<double>(row) * surface.pitch_y.value();
     const FlatPlace place = lattice.turned ? FlatPlace{y, x} : FlatPlace{x, y};
     // A row in one direction begins beside the row before: there the rim of the cutter has stock, but not its middle.
-    const bool is_beside = options.direction != RowDirection::there_and_back;
+    const bool is_beside = options.rows.direction != RowDirection::there_and_back;
     return static_cast<float>(is_beside ? pass.stock()->free_height_inside(place)
                                         : pass.stock()->free_height(place, cutter.radius.value() / 2));
   };
@@ -249,7 +249,7 @@ class AngledRows {
         step_(step_of(pass.options().finish, pass.options(), false).value()) {}
 
   void cut(const std::function<void(double)>& progress) {
-    const double angle = pass_.options().angle.value;
+    const double angle = pass_.options().rows.angle.value;
     const FlatPlace along{std::cos(angle), std::sin(angle)};
     const FlatPlace across{-along.y, along.x};
     double low = 1e9;
@@ -263,7 +263,7 @@ class AngledRows {
       }
     }
     const double count = std::max(1.0, std::ceil((high - low) / step_));
-    bool is_back = pass_.options().direction == RowDirection::climb;
+    bool is_back = pass_.options().rows.direction == RowDirection::climb;
     for (double i = 0; i <= count; ++i) {
       // The first and the last row would be mere corners of the map.
       const double out = low + (high - low) * std::clamp(i / count, 1e-6, 1 - 1e-6);
@@ -273,7 +273,7 @@ class AngledRows {
       const auto wants = [&](const FlatPlace& place) { return work_.near(place, surface_); };
       const Mm gap = gap_of(pass_.options(), pass_.options().finish.cutter.radius);
       for (const LevelLine& part : parts_of(line, wants, gap.value(), 0)) cut(part);
-      if (pass_.options().direction == RowDirection::there_and_back) is_back = !is_back;
+      if (pass_.options().rows.direction == RowDirection::there_and_back) is_back = !is_back;
       progress(i / count);
     }
   }
@@ -297,7 +297,7 @@ class AngledRows {
 
   // Goes from the end of a row to the begin of the next one, if that is near and all the way is wanted.
   bool links_to(const FlatPlace& place) {
-    if (!has_begun_ || pass_.options().direction != RowDirection::there_and_back) return false;
+    if (!has_begun_ || pass_.options().rows.direction != RowDirection::there_and_back) return false;
     const FlatPlace from = pass_.flat_place();
     const double away = distance_between(from, place);
     if (away > 4 * step_) return false;

@@ -90,7 +90,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   const Mm step = step_of(options.finish, options, false);
   const std::ptrdiff_t step_x = step_nodes(step, surface.pitch_x);
   const std::ptrdiff_t step_y = step_nodes(step, surface.pitch_y);
-  const NodeMask steep = steep_nodes(tips, surface, options.steep);
+  const NodeMask steep = steep_nodes(tips, surface, options.rows.steep);
   NodeMask level = steep;
   level.invert();
   level.widen(step_x, step_y);
@@ -99,7 +99,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
 
   const float top = *std::max_element(tips.heights.begin(), tips.heights.end());
   const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
-  const double wanted = step.value() * std::tan(options.steep.value);
+  const double wanted = step.value() * std::tan(options.rows.steep.value);
   const double levels = std::ceil(static_cast<double>(top - lowest) / wanted - 1e-6);
   const double down = levels > 0 ? static_cast<double>(top - lowest) / levels : 0;
   const LevelPathFit fit{.tolerance = options.tolerance.value(), .has_arcs = options.arcs};
@@ -122,7 +122,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
     progress(i / levels * 0.7);
   }
   AreaSweep sweep(
-      pass, area_of(tips, step_y, options.within.empty() ? nodes_of(cutter.radius, surface.pitch_x) : 0),
+      pass, area_of(tips, step_y, options.area.within.empty() ? nodes_of(cutter.radius, surface.pitch_x) : 0),
       [&](auto column, auto row) { return level.at(column, row) && below_top.at(column, row); },
       [&](auto column, auto row) { return tips.at(column, row); },
       [&](auto column, auto row) {

@@ -39,7 +39,7 @@ TipMap roughing_tips(const HeightGrid& surface, const NodeLattice& lattice, cons
   TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor_of(surface),
                         roughing_overrun(options), options);
   for (float& height : tips.heights) height = std::min(0.0F, height + stock);
-  if (!options.only_on_model && options.within.empty()) return tips;
+  if (options.area.is_all()) return tips;
   // Where there is no work, the tip stays at the top. The finishing cutter must find room around the model.
   const Mm around = options.finish.cutter.radius * 2 + step_of(roughing.tool, options, true);
   const NodeMask work = nodes_of_work(tips, surface, lattice, around, floor_of(surface) + stock, options);
@@ -256,7 +256,7 @@ void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
   const auto least = static_cast<float>(rest.least.value());
   const NodeMask work = nodes_of_work(tips, surface, lattice, Mm(0), DroppedCutter::nothing, options);
   AreaSweep sweep(
-      pass, area_of(tips, step, options.within.empty() ? nodes_of(rest.tool.cutter.radius * 2, surface.pitch_x) : 0),
+      pass, area_of(tips, step, options.area.within.empty() ? nodes_of(rest.tool.cutter.radius * 2, surface.pitch_x) : 0),
       [&](auto column, auto row) {
         return touching.at(column, row) - tips.at(column, row) > least && work.at(column, row);
       },

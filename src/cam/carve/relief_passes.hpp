@@ -146,7 +146,7 @@ class AreaSweep {
 
 // Returns the longest gap across which runs are joined: `usual`, but none where the cutter must stay within curves.
 inline Mm gap_of(const ReliefProgramOptions& options, Mm usual) {
-  return options.within.empty() ? usual : Mm(0);
+  return options.area.within.empty() ? usual : Mm(0);
 }
 // Returns the number of nodes in a distance, at least one.
 std::ptrdiff_t nodes_of(Mm distance, Mm pitch);

@@ -90,11 +90,11 @@ TEST(ReliefArea, within_a_curve_keeps_the_tip_inside) {
     options.way = way;
     options.x0 = Mm(10);
     options.y0 = Mm(10);
-    options.within = {square(10.55, 14.45), square(12.05, 12.95)};
+    options.area.within = {square(10.55, 14.45), square(12.05, 12.95)};
     // Then at an angle, too.
     if (way == FinishStrategy::both) {
       options.way = FinishStrategy::rows;
-      options.angle = {0.4};
+      options.rows.angle = {0.4};
     }
     const Written program = written(grid, options);
     std::size_t low = 0;
@@ -119,11 +119,11 @@ TEST(ReliefArea, rows_of_all_kinds_never_cut_into_a_random_surface) {
     const HeightGrid grid = random_surface(random, 30, 24, Mm(0.2), Mm(0.25));
     ReliefProgramOptions options = options_of(cutter.text);
     const double angles[] = {0.3, 0, 2.2, -0.7, 1.5708, 0};
-    options.angle = {angles[i % 6]};
-    options.direction = i % 3 == 0   ? RowDirection::there_and_back
+    options.rows.angle = {angles[i % 6]};
+    options.rows.direction = i % 3 == 0   ? RowDirection::there_and_back
                         : i % 3 == 1 ? RowDirection::climb
                                      : RowDirection::conventional;
-    options.has_even_scallops = options.angle.value == 0;
+    options.rows.has_even_scallops = options.rows.angle.value == 0;
     options.ramps = i % 2 == 0;
     ++i;
     expect_no_gouge(grid, written(grid, options).text, {cutter}, 5);
@@ -133,10 +133,10 @@ TEST(ReliefArea, rows_of_all_kinds_never_cut_into_a_random_surface) {
 TEST(ReliefArea, rows_at_an_angle_go_that_way_and_leave_as_little) {
   const HeightGrid grid = hills(61, 51, 0.1, 0.8);
   ReliefProgramOptions options = options_of("ball:3");
-  options.angle = {0.5};
+  options.rows.angle = {0.5};
   const Written program = written(grid, options, true);
   const OracleStock stock = cut_out(program.text, oracle_of("ball:3"), 6, 5, 0.1);
-  options.angle = {0};
+  options.rows.angle = {0};
   const OracleStock by_rows = cut_out(written(grid, options).text, oracle_of("ball:3"), 6, 5, 0.1);
   double along = 0;
   double across = 0;
@@ -162,7 +162,7 @@ TEST(ReliefArea, rows_in_one_direction_have_the_stock_on_one_side) {
     for (const RowDirection direction : {RowDirection::climb, RowDirection::conventional}) {
       ReliefProgramOptions options = options_of("ball:3");
       options.way = way;
-      options.direction = direction;
+      options.rows.direction = direction;
       options.ramps = false;
       const Written program = written(grid, options);
       // Rows follow each other to higher Y, columns to higher X: the stock is on that side.
@@ -209,7 +209,7 @@ TEST(ReliefArea, even_scallops_are_even_on_slopes) {
   const double uneven = highest_ridge(3.6, 4.2);
   EXPECT_GT(uneven, 0.07);
   const double fewer = feeds_of(written(grid, options).text);
-  options.has_even_scallops = true;
+  options.rows.has_even_scallops = true;
   EXPECT_LT(highest_ridge(3.6, 4.2), 0.05);
   EXPECT_LT(highest_ridge(0.5, 2.0), 0.04);
   EXPECT_LT(feeds_of(written(grid, options).text), 2.5 * fewer) << "rows are added only where it is steep";

@@ -112,16 +112,16 @@ ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& c
 void read_rows(const CamReliefArguments& arguments, ReliefProgramOptions& program, ReliefReading& read) {
   const std::string& way = arguments.way;
   const bool has_rows = way == "rows" || way == "columns" || way == "both";
-  program.direction = arguments.one_way == "climb"          ? RowDirection::climb
+  program.rows.direction = arguments.one_way == "climb"          ? RowDirection::climb
                       : arguments.one_way == "conventional" ? RowDirection::conventional
                                                             : RowDirection::there_and_back;
-  if (program.direction != RowDirection::there_and_back && !has_rows) {
+  if (program.rows.direction != RowDirection::there_and_back && !has_rows) {
     read.refuse(fmt::format("--one-way: expected --way rows, columns or both, found {}", way));
   }
-  program.angle = {arguments.angle * std::numbers::pi / 180};
+  program.rows.angle = {arguments.angle * std::numbers::pi / 180};
   if (arguments.angle != 0 && way != "rows") read.refuse(fmt::format("--angle: expected --way rows, found {}", way));
-  program.has_even_scallops = arguments.spacing == "slope";
-  if (!program.has_even_scallops) return;
+  program.rows.has_even_scallops = arguments.spacing == "slope";
+  if (!program.rows.has_even_scallops) return;
   if (!has_rows || arguments.angle != 0) {
     read.refuse("--spacing slope: expected --way rows, columns or both, and no --angle");
   }
@@ -139,7 +139,7 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
                 : arguments.way == "spiral"   ? FinishStrategy::spiral
                 : arguments.way == "contours" ? FinishStrategy::contours
                                               : FinishStrategy::rows;
-  program.steep = {arguments.steep * std::numbers::pi / 180};
+  program.rows.steep = {arguments.steep * std::numbers::pi / 180};
   program.arcs = arguments.moves == "arcs";
   if (!arguments.rough.empty()) {
     program.roughing =
@@ -158,11 +158,11 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
   program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
   program.overrun = read.perhaps("--overrun", arguments.overrun, Mm(0), Mm(200));
-  program.only_on_model = arguments.area == "model";
-  const bool is_part = program.only_on_model || !arguments.within.empty();
+  program.area.only_on_model = arguments.area == "model";
+  const bool is_part = program.area.only_on_model || !arguments.within.empty();
   if (is_part && program.way == FinishStrategy::spiral) {
     read.refuse(fmt::format("{}: expected --way rows, columns, both or contours, found spiral",
-                            program.only_on_model ? "--area model" : "--within"));
+                            program.area.only_on_model ? "--area model" : "--within"));
   }
   read_rows(arguments, program, read);
   program.ramps = arguments.entry == "ramp";
@@ -201,7 +201,7 @@ Mm pitch_for(const ReliefProgramOptions& program) {
     return tool.step_over.value() > 0 ? std::min(fine, tool.step_over) : fine;
   };
   Mm pitch = of_tool(program.finish);
-  if (program.has_even_scallops) {
+  if (program.rows.has_even_scallops) {
     // Rows are added midway between rows, three times at most.
     const Cutter& cutter = program.finish.cutter;
     const Mm step =
@@ -442,7 +442,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
     return fail(exit_bad_program,
                 fmt::format("--picture: expected a name that ends with .png, found '{}'", arguments.picture));
   }
-  if (!read_curves(arguments.within, job.program.within)) return exit_bad_program;
+  if (!read_curves(arguments.within, job.program.area.within)) return exit_bad_program;
   Diagnostics findings;
   const std::optional<ReliefGrid> read = read_relief(arguments, job, findings);
   if (!read) {
@@ -459,7 +459,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   }
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
-  if (!meet(job.program.within, read->grid, job.program, arguments.within, findings)) {
+  if (!meet(job.program.area.within, read->grid, job.program, arguments.within, findings)) {
     show(findings);
     return exit_bad_program;
   }
