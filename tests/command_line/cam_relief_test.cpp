@@ -161,9 +161,7 @@ TEST_F(CamRelief, is_cut_within_a_curve_in_rows_of_all_kinds_and_no_deeper_than_
                                  "<svg xmlns='http://www.w3.org/2000/svg' width='20mm' height='20mm' viewBox='0 0 20 "
                                  "20'><circle cx='10' cy='10' r='5'/></svg>");
   const std::string small = flower + " --width 20 --depth -2 --cutter ball:2 --scallop 0.1 -o " + path("s.ngc");
-  const auto simulated = [&] {
-    return passo("simulate " + path("s.ngc") + " --tool ball:2 --cell 0.1 --json").out;
-  };
+  const auto simulated = [&] { return passo("simulate " + path("s.ngc") + " --tool ball:2 --cell 0.1 --json").out; };
   for (const std::string options : {" --angle 30", " --one-way climb", " --spacing slope", " --way both"}) {
     const Outcome made = relief(small + options + " --within " + oval);
     EXPECT_EQ(made.code, 0) << made.err;

@@ -158,8 +158,8 @@ class RowLevels {
   std::ptrdiff_t parts_ = 1;
 };
 
-// The direction of travel along columns, for rows of which the next has the higher number: the stock that is still to be
-// cut is to the left of a row that goes to higher columns, unless rows and columns are swapped.
+// The direction of travel along columns, for rows of which the next has the higher number: the stock that is still to
+// be cut is to the left of a row that goes to higher columns, unless rows and columns are swapped.
 int direction_of(const ReliefProgramOptions& options, bool is_turned) {
   if (options.rows.direction == RowDirection::there_and_back) return 0;
   return (options.rows.direction == RowDirection::climb) == is_turned ? 1 : -1;

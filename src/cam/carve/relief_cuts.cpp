@@ -256,7 +256,8 @@ void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
   const auto least = static_cast<float>(rest.least.value());
   const NodeMask work = nodes_of_work(tips, surface, lattice, Mm(0), DroppedCutter::nothing, options);
   AreaSweep sweep(
-      pass, area_of(tips, step, options.area.within.empty() ? nodes_of(rest.tool.cutter.radius * 2, surface.pitch_x) : 0),
+      pass,
+      area_of(tips, step, options.area.within.empty() ? nodes_of(rest.tool.cutter.radius * 2, surface.pitch_x) : 0),
       [&](auto column, auto row) {
         return touching.at(column, row) - tips.at(column, row) > least && work.at(column, row);
       },

@@ -104,10 +104,10 @@ class AreaSweep {
     std::ptrdiff_t end_column = 0;
     std::ptrdiff_t first_row = 0;
     std::ptrdiff_t end_row = 0;
-    std::ptrdiff_t step = 1;  // between rows of work
+    std::ptrdiff_t step = 1;                // between rows of work
     std::vector<std::ptrdiff_t> rows = {};  // the rows of work, if they are not `step` apart
-    std::ptrdiff_t gap = 0;   // joins runs at most this far apart
-    int direction = 0;        // 1 or -1: all runs go to higher or lower columns; 0: one run follows the other
+    std::ptrdiff_t gap = 0;                 // joins runs at most this far apart
+    int direction = 0;  // 1 or -1: all runs go to higher or lower columns; 0: one run follows the other
   };
   using Wants = std::function<bool(std::ptrdiff_t column, std::ptrdiff_t row)>;
   using Height = std::function<float(std::ptrdiff_t column, std::ptrdiff_t row)>;
@@ -188,7 +188,7 @@ class RunsBelowTop {
   double length_of(const NodeRun& run, std::size_t first, std::size_t last) const;
 
   ReliefPass& pass_;
-  double longest_;  // mm of air that is not worth a lift
+  double longest_;            // mm of air that is not worth a lift
   std::vector<NodeRun> air_;  // since the last cut, if it is not worth a lift
   double gone_ = 0;           // mm
   bool is_down_ = false;

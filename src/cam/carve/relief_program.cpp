@@ -149,8 +149,7 @@ void ReliefProgram::watch_stock() {
   const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
   const bool is_asked = !options_.area.is_all() || options_.rows.has_even_scallops ||
                         options_.rows.direction != RowDirection::there_and_back || options_.rows.angle.value != 0 ||
-                        options_.way == FinishStrategy::contours ||
-                        options_.finish.removal > 0 ||
+                        options_.way == FinishStrategy::contours || options_.finish.removal > 0 ||
                         (options_.roughing && options_.roughing->way == RoughStrategy::offsets) ||
                         holds(options_.roughing) || holds(options_.rest);
   if (!is_asked) return;
@@ -190,7 +189,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   const Mm pitch = options_.way == FinishStrategy::columns ? surface_.pitch_x : surface_.pitch_y;
   end_tool("finishing", options_.finish,
            options_.rows.angle.value != 0 ? step_of(options_.finish, options_, false)
-                                     : nodes_step(options_.finish, false, pitch));
+                                          : nodes_step(options_.finish, false, pitch));
   if (options_.rest) {
     const ReliefTool& tool = options_.rest->tool;
     begin_tool("rest finishing", tool);

@@ -116,7 +116,8 @@ std::vector<std::uint16_t> smoothed(const LevelPicture& picture, double sigma_x,
   }
   std::vector<std::uint16_t> rounded;
   rounded.reserve(levels.size());
-  for (const float level : levels) rounded.push_back(static_cast<std::uint16_t>(std::clamp(level + 0.5F, 0.0F, 65535.0F)));
+  for (const float level : levels)
+    rounded.push_back(static_cast<std::uint16_t>(std::clamp(level + 0.5F, 0.0F, 65535.0F)));
   return rounded;
 }
 

@@ -201,7 +201,8 @@ double StockInWork::free_height_inside(const std::vector<CarvedCut>& way) {
     const double parts = std::ceil(length / apart);
     for (double i = 0; i <= parts; ++i) {
       const Point here = curve.at(Mm(parts > 0 ? length * i / parts : 0));
-      highest_place = std::max(highest_place, highest(heights_, {here[Axis::x] - x0_, here[Axis::y] - y0_}, apart, radius / 2));
+      highest_place =
+          std::max(highest_place, highest(heights_, {here[Axis::x] - x0_, here[Axis::y] - y0_}, apart, radius / 2));
     }
     since = 0;
   }

@@ -99,12 +99,14 @@ std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics
   const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL or 3MF file"}, diagnostics);
   if (!bytes) return {};
   if (looks_like_body(*bytes)) return read_body(path, *bytes, diagnostics);
-  diagnostics.add(of_file("surface.unknown-kind", path, "this is not an STL or 3MF file", "an STL model, text or binary, or a 3MF model"));
+  diagnostics.add(of_file("surface.unknown-kind", path, "this is not an STL or 3MF file",
+                          "an STL model, text or binary, or a 3MF model"));
   return {};
 }
 
 Surface read_surface(const std::string& path, Diagnostics& diagnostics) {
-  const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL or 3MF file or a height map"}, diagnostics);
+  const auto bytes =
+      read_bytes(path, {.area = "surface", .expected = "an STL or 3MF file or a height map"}, diagnostics);
   if (!bytes) return {};
   return read_surface(path, *bytes, diagnostics);
 }

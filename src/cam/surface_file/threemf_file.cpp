@@ -193,14 +193,14 @@ class ModelReader {
         refuse(fmt::format("it has over {} vertices", most_triangles));
         return;
       }
-      object_->vertices.push_back(
-          {number_of(attributes, "x"), number_of(attributes, "y"), number_of(attributes, "z")});
+      object_->vertices.push_back({number_of(attributes, "x"), number_of(attributes, "y"), number_of(attributes, "z")});
     } else if (name == "triangle") {
       if (++counts_.triangles > most_triangles) {
         refuse(fmt::format("it has over {} triangles", most_triangles));
         return;
       }
-      object_->triangles.push_back({index_of(attributes, "v1"), index_of(attributes, "v2"), index_of(attributes, "v3")});
+      object_->triangles.push_back(
+          {index_of(attributes, "v1"), index_of(attributes, "v2"), index_of(attributes, "v3")});
     } else if (name == "component") {
       add_part(object_->components, attributes);
     }
@@ -213,9 +213,9 @@ class ModelReader {
     parts.push_back(part_of(attributes));
   }
   void open_model(std::string_view unit) {
-    constexpr std::pair<std::string_view, double> units[] = {{"", 1},         {"millimeter", 1}, {"micron", 1e-3},
-                                                             {"centimeter", 10}, {"meter", 1000},   {"inch", 25.4},
-                                                             {"foot", 304.8}};
+    constexpr std::pair<std::string_view, double> units[] = {
+        {"", 1},         {"millimeter", 1}, {"micron", 1e-3}, {"centimeter", 10},
+        {"meter", 1000}, {"inch", 25.4},    {"foot", 304.8}};
     for (const auto& [name, mm] : units) {
       if (name != unit) continue;
       model_.unit = mm;
@@ -334,9 +334,8 @@ class ThreeMfReader {
       }
       all_.push_back(triangle);
     }
-    return std::ranges::all_of(object.components, [&](const PartOf3mf& component) {
-      return add(component, path, placement, depth + 1);
-    });
+    return std::ranges::all_of(object.components,
+                               [&](const PartOf3mf& component) { return add(component, path, placement, depth + 1); });
   }
 
   static constexpr std::size_t most_models = 1000;

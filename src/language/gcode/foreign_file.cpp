@@ -16,8 +16,8 @@ constexpr SentenceRow of_drawn_holes{
     {}, "G-code; passo cam profile or pocket generates it from the drawing, passo cam drill from its holes"};
 constexpr SentenceRow of_plot{{},
                               "G-code; passo cam engrave --on-line or passo cam profile generates it from the plot"};
-constexpr SentenceRow of_picture{{},
-                                 "G-code; save the picture as PNG, JPEG or TIFF, from which passo cam relief generates it"};
+constexpr SentenceRow of_picture{
+    {}, "G-code; save the picture as PNG, JPEG or TIFF, from which passo cam relief generates it"};
 constexpr SentenceRow of_png{{}, "G-code; passo cam relief generates it from the picture"};
 constexpr SentenceRow of_font{{}, "G-code; passo cam engrave --text --font generates it with the font"};
 constexpr SentenceRow of_airfoil{{}, "G-code; passo cam wire --chord generates it from the airfoil"};

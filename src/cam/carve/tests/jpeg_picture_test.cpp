@@ -32,9 +32,9 @@ std::string jpeg_of(int columns, int rows, int channels, const std::vector<unsig
   if (is_progressive) jpeg_simple_progression(&file);
   jpeg_start_compress(&file, TRUE);
   while (file.next_scanline < file.image_height) {
-    std::vector<unsigned char> row(samples.begin() + static_cast<std::ptrdiff_t>(file.next_scanline) * columns * channels,
-                                   samples.begin() +
-                                       static_cast<std::ptrdiff_t>(file.next_scanline + 1) * columns * channels);
+    std::vector<unsigned char> row(
+        samples.begin() + static_cast<std::ptrdiff_t>(file.next_scanline) * columns * channels,
+        samples.begin() + static_cast<std::ptrdiff_t>(file.next_scanline + 1) * columns * channels);
     JSAMPROW pointer = row.data();
     jpeg_write_scanlines(&file, &pointer, 1);
   }

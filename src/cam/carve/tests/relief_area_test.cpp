@@ -1,4 +1,5 @@
-// Where a relief is cut, and in which rows: below the top, within curves, in one direction, at an angle, closer on slopes.
+// Where a relief is cut, and in which rows: below the top, within curves, in one direction, at an angle, closer on
+// slopes.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -121,8 +122,8 @@ TEST(ReliefArea, rows_of_all_kinds_never_cut_into_a_random_surface) {
     const double angles[] = {0.3, 0, 2.2, -0.7, 1.5708, 0};
     options.rows.angle = {angles[i % 6]};
     options.rows.direction = i % 3 == 0   ? RowDirection::there_and_back
-                        : i % 3 == 1 ? RowDirection::climb
-                                     : RowDirection::conventional;
+                             : i % 3 == 1 ? RowDirection::climb
+                                          : RowDirection::conventional;
     options.rows.has_even_scallops = options.rows.angle.value == 0;
     options.ramps = i % 2 == 0;
     ++i;
@@ -187,7 +188,9 @@ TEST(ReliefArea, even_scallops_are_even_on_slopes) {
   HeightGrid grid{.columns = 11, .rows = 161, .pitch_x = Mm(0.05), .pitch_y = Mm(0.05)};
   for (int i = 0; i < 11 * 161; ++i) {
     const double y = (i / 11) * 0.05;
-    grid.heights.push_back(grid_height(Mm(y < 3 ? -1 : y < 5 ? -1 - (y - 3) * std::tan(M_PI / 3) : -1 - 2 * std::tan(M_PI / 3))));
+    grid.heights.push_back(grid_height(Mm(y < 3   ? -1
+                                          : y < 5 ? -1 - (y - 3) * std::tan(M_PI / 3)
+                                                  : -1 - 2 * std::tan(M_PI / 3))));
   }
   ReliefProgramOptions options = options_of("ball:3");
   options.scallop = Mm(0.03);
@@ -230,7 +233,9 @@ TEST(ReliefArea, contours_have_no_rapid_through_a_sliver) {
       const auto row = static_cast<std::size_t>(y / 0.5);
       const double u = x / 0.5 - static_cast<double>(column);
       const double v = y / 0.5 - static_cast<double>(row);
-      const auto bump = [&](std::size_t i, std::size_t j) { return bumps[std::min<std::size_t>(j, 12) * 17 + std::min<std::size_t>(i, 16)]; };
+      const auto bump = [&](std::size_t i, std::size_t j) {
+        return bumps[std::min<std::size_t>(j, 12) * 17 + std::min<std::size_t>(i, 16)];
+      };
       const double height = (bump(column, row) * (1 - u) + bump(column + 1, row) * u) * (1 - v) +
                             (bump(column, row + 1) * (1 - u) + bump(column + 1, row + 1) * u) * v;
       grid.heights.push_back(grid_height(Mm(-4 + 2 * std::sin(x * 1.1) * std::cos(y) + 1.2 * height)));

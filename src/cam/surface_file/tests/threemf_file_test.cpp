@@ -21,8 +21,8 @@ using testing::HasSubstr;
 using ZippedFiles = std::vector<std::pair<std::string, std::string>>;
 
 std::string zipped(const ZippedFiles& files) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("threemf_file_test_{}.3mf", static_cast<const void*>(&files));
+  const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                     fmt::format("threemf_file_test_{}.3mf", static_cast<const void*>(&files));
   void* const zip = zipOpen64(path.c_str(), 0);
   for (const auto& [name, text] : files) {
     zipOpenNewFileInZip(zip, name.c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, 8, 6);
@@ -80,8 +80,12 @@ Box3 box_of(const std::vector<SurfaceTriangle>& faces) {
 }
 
 TEST(ThreeMfFile, has_its_triangles_in_the_unit_of_the_file) {
-  for (const auto& [unit, mm] : std::vector<std::pair<std::string, double>>{
-           {"millimeter", 1}, {"micron", 0.001}, {"centimeter", 10}, {"inch", 25.4}, {"foot", 304.8}, {"meter", 1000}}) {
+  for (const auto& [unit, mm] : std::vector<std::pair<std::string, double>>{{"millimeter", 1},
+                                                                            {"micron", 0.001},
+                                                                            {"centimeter", 10},
+                                                                            {"inch", 25.4},
+                                                                            {"foot", 304.8},
+                                                                            {"meter", 1000}}) {
     const Read3mf read = read_model(one_object(unit));
     EXPECT_EQ(read.words, "") << unit;
     ASSERT_EQ(read.faces.size(), 4U);

@@ -113,8 +113,8 @@ void read_rows(const CamReliefArguments& arguments, ReliefProgramOptions& progra
   const std::string& way = arguments.way;
   const bool has_rows = way == "rows" || way == "columns" || way == "both";
   program.rows.direction = arguments.one_way == "climb"          ? RowDirection::climb
-                      : arguments.one_way == "conventional" ? RowDirection::conventional
-                                                            : RowDirection::there_and_back;
+                           : arguments.one_way == "conventional" ? RowDirection::conventional
+                                                                 : RowDirection::there_and_back;
   if (program.rows.direction != RowDirection::there_and_back && !has_rows) {
     read.refuse(fmt::format("--one-way: expected --way rows, columns or both, found {}", way));
   }
@@ -307,8 +307,8 @@ struct ReliefGrid {
 
 std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const ReliefJob& job,
                                       Diagnostics& findings) {
-  const auto bytes =
-      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG, JPEG or TIFF picture, or an STL or 3MF file"}, findings);
+  const auto bytes = read_bytes(
+      arguments.file, {.area = "picture", .expected = "a PNG, JPEG or TIFF picture, or an STL or 3MF file"}, findings);
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
   shape.wished_pitch = pitch_for(job.program);

@@ -30,8 +30,8 @@ enum class FinishStrategy : std::uint8_t { rows, columns, both, spiral, contours
 // The roughing strategy: rows, or offsets of the area that a level removes, from the inside outwards.
 enum class RoughStrategy : std::uint8_t { rows, offsets };
 
-// The direction in which rows are cut: there and back in turn, or always so that a clockwise spindle climb mills or mills
-// conventionally.
+// The direction in which rows are cut: there and back in turn, or always so that a clockwise spindle climb mills or
+// mills conventionally.
 enum class RowDirection : std::uint8_t { there_and_back, climb, conventional };
 
 struct ReliefPoint {
@@ -88,7 +88,7 @@ struct ReliefProgramOptions {
   std::vector<std::string> words = {};  // additional comments
   ReliefTool finish = {};
   FinishStrategy way = FinishStrategy::rows;
-  bool arcs = true;         // use arcs where they save lines
+  bool arcs = true;  // use arcs where they save lines
   ReliefRows rows = {};
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};

@@ -211,13 +211,13 @@ struct CamReliefArguments {
   std::string pitch;                    // empty: as fine as the cutters require
   std::string origin = "lower-left";    // a corner, center or X,Y
   std::string cutter = "ball:3";
-  std::string way = "rows";    // columns, both, spiral or contours
-  double angle = 0;            // degrees; of rows, from X
-  std::string one_way = "no";  // or climb, conventional
+  std::string way = "rows";      // columns, both, spiral or contours
+  double angle = 0;              // degrees; of rows, from X
+  std::string one_way = "no";    // or climb, conventional
   std::string spacing = "even";  // or slope: closer rows on slopes
-  double steep = 45;           // degrees; slope limit of contours
-  std::string moves = "arcs";  // or lines
-  std::string step;            // stepover; empty: derived from `scallop`
+  double steep = 45;             // degrees; slope limit of contours
+  std::string moves = "arcs";    // or lines
+  std::string step;              // stepover; empty: derived from `scallop`
   std::string scallop = "0.02mm";
   std::string tolerance = "0.01mm";
   std::string clearance = "5mm";

@@ -4,8 +4,8 @@
 // A height map has a line x,y,z for each point of a grid. Between the points its surface is that of HeightMap
 // (levelling/height_map.hpp), so a program that is levelled by a map fits the surface of that map.
 //
-// STL files and height maps are in millimetres; a 3MF file states its unit. Limits apply to the file size, the number of triangles and the coordinates. Errors are
-// diagnostics "surface.…".
+// STL files and height maps are in millimetres; a 3MF file states its unit. Limits apply to the file size, the number
+// of triangles and the coordinates. Errors are diagnostics "surface.…".
 #pragma once
 
 #include <cstddef>
