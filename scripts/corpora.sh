@@ -46,9 +46,9 @@ while IFS= read -r -d '' file; do
     head -n 3 "$new/errors" >&2
   fi
 done < <(find "$@" -type f \( -iname '*.svg' -o -iname '*.dxf' -o -iname '*.stl' -o -iname '*.png' -o -iname '*.tif' \
-  -o -iname '*.tiff' \) -print0 | sort -z)
+  -o -iname '*.tiff' -o -iname '*.jpg' -o -iname '*.jpeg' -o -iname '*.3mf' \) -print0 | sort -z)
 
-for kind in SVG DXF STL PNG TIF TIFF; do
+for kind in SVG DXF STL 3MF PNG JPG JPEG TIF TIFF; do
   all=$((${read[$kind]-0} + ${refused[$kind]-0} + ${neither[$kind]-0}))
   ((all > 0)) || continue
   echo "$kind: $all files, ${read[$kind]-0} read, ${refused[$kind]-0} refused with a reason, ${neither[$kind]-0} neither"

@@ -26,6 +26,7 @@ build_packages=(
   libtomlplusplus-dev        # machine files
   nlohmann-json3-dev         # reports
   libcairo2-dev libpng-dev   # pictures
+  libjpeg62-turbo-dev        # photographs for passo cam relief
   zlib1g-dev                 # packed TIFF pictures
   libsqlite3-dev             # jobs and history of passo serve
   libboost-dev               # HTTP and WebSocket of passo serve
@@ -34,7 +35,7 @@ build_packages=(
   libfreetype-dev libharfbuzz-dev libfontconfig-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam
   libyaml-cpp-dev            # FluidNC configurations in passo machine --from
-  libminizip-dev             # zip archives of board files
+  libminizip-dev             # zip archives of board files, 3MF models
   pybind11-dev python3-pybind11 python3-dev python3-numpy  # the Python package
   fonts-dejavu-core          # letters in pictures
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker

@@ -156,6 +156,38 @@ TEST_F(CamRelief, a_model_is_turned_and_has_a_unit) {
   EXPECT_THAT(many.err, HasSubstr("[relief.too-many-nodes]"));
 }
 
+TEST_F(CamRelief, is_cut_within_a_curve_in_rows_of_all_kinds_and_no_deeper_than_a_z) {
+  const std::string oval = write("oval.svg",
+                                 "<svg xmlns='http://www.w3.org/2000/svg' width='20mm' height='20mm' viewBox='0 0 20 "
+                                 "20'><circle cx='10' cy='10' r='5'/></svg>");
+  const std::string small = flower + " --width 20 --depth -2 --cutter ball:2 --scallop 0.1 -o " + path("s.ngc");
+  const auto simulated = [&] { return passo("simulate " + path("s.ngc") + " --tool ball:2 --cell 0.1 --json").out; };
+  for (const std::string options : {" --angle 30", " --one-way climb", " --spacing slope", " --way both"}) {
+    const Outcome made = relief(small + options + " --within " + oval);
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(made.err, "") << options;
+    // The circle of the axis, and the cutter's radius around it: X4 to X16.
+    EXPECT_THAT(passo("simulate " + path("s.ngc") + " --tool ball:2").out, HasSubstr("X 4")) << options;
+    EXPECT_THAT(simulated(), Not(HasSubstr("simulate.rapid"))) << options;
+  }
+  EXPECT_THAT(relief(small + " --lowest-z -1.2").out, HasSubstr("\n20 x 20 mm, 1.2 mm deep"));
+  const auto refused = [&](const std::string& options, const std::string& words) {
+    const Outcome outcome = relief(small + options);
+    EXPECT_EQ(outcome.code, 2) << options;
+    EXPECT_THAT(outcome.err, HasSubstr(words)) << options;
+  };
+  refused(" --lowest-z 1", "--lowest-z: expected a Z below the top at Z0, found '1'; write --lowest-z -1");
+  refused(" --within " + oval + " --origin 100,0", "lie beside the relief");
+  refused(" --within " + write("line.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='9mm' height='9mm'/>"),
+          "there is no closed curve");
+  refused(" --within " + oval + " --way spiral", "--within: expected --way rows, columns, both or contours");
+  refused(" --angle 30 --way columns", "--angle: expected --way rows, found columns");
+  refused(" --one-way climb --way contours", "--one-way: expected --way rows, columns or both, found contours");
+  EXPECT_THAT(relief(flower + " --spacing slope --cutter flat:2").err,
+              HasSubstr("--spacing slope: expected a cutter with a round tip"));
+  refused(" --background 100", "--background");
+}
+
 TEST_F(CamRelief, what_is_wrong_is_told_and_nothing_is_written) {
   const std::string out = " -o " + path("r.ngc");
   const auto refused = [&](const std::string& arguments, const std::string& words) {

@@ -33,7 +33,8 @@ void ReliefPass::approach(const CarvedPlace& place, double free_above) {
   const std::int64_t clearance = carved_height(options_.clearance.value());
   writer_.rapid_up_down(clearance);
   writer_.rapid_to(place.x, place.y);
-  writer_.rapid_up_down(std::min(carved_height(free_above + above), clearance));
+  const double free = stock_ != nullptr ? std::max(free_above, stock_->rapid_height(flat(place))) : free_above;
+  writer_.rapid_up_down(std::min(carved_height(free + above), clearance));
   is_at_work_ = true;
 }
 
@@ -87,8 +88,12 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
   if (path.cuts.empty()) return;
   const CarvedPlace start = path.cuts.front().from;
   double lowest = static_cast<double>(start.z) / carved_units;
-  for (const CarvedCut& cut : path.cuts) lowest = std::min(lowest, static_cast<double>(cut.to.z) / carved_units);
-  const double free = entry.cuts_with_rim ? stock_->free_height_inside(path.cuts) : stock_->free_height(path.cuts);
+  for (const CarvedCut& cut : path.cuts) {
+    if (!entry.is_row) lowest = std::min(lowest, static_cast<double>(cut.to.z) / carved_units);
+  }
+  const double free = entry.is_row          ? stock_->free_height_inside(flat(start))
+                      : entry.cuts_with_rim ? stock_->free_height_inside(path.cuts)
+                                            : stock_->free_height(path.cuts);
   constexpr double nothing = 1e-4;  // mm
   if (entry.is_for_stock && free <= lowest + nothing) return;
   std::size_t next = 0;
@@ -111,7 +116,7 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
     writer_.cut_to({start.x, start.y, z});
     if (options_.ramps && over > lowest + nothing) next = ramp_down(path, over, lowest);
   } else {
-    approach(start, std::max(begin, entry.cuts_with_rim ? stock_->free_height(flat(start), 0) : begin));
+    approach(start, begin);
     writer_.cut_to({start.x, start.y, carved_height(begin)});
     if (options_.ramps && begin > lowest + nothing) next = ramp_down(path, begin, lowest);
   }
@@ -120,6 +125,13 @@ void ReliefPass::cut_way(const LevelPath& path, const TipSurface& surface, const
     const CarvedCut& cut = path.cuts[(next + i) % path.cuts.size()];
     emit(cut, cut.to.z);
   }
+  if (record_ != nullptr) record_->add(path.cuts, lattice_, surface);
+}
+
+void ReliefPass::follow(const LevelPath& path, const TipSurface& surface) {
+  if (path.cuts.empty()) return;
+  writer_.cut_to(path.cuts.front().from);
+  for (const CarvedCut& cut : path.cuts) emit(cut, cut.to.z);
   if (record_ != nullptr) record_->add(path.cuts, lattice_, surface);
 }
 

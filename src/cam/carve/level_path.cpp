@@ -379,7 +379,7 @@ std::vector<LevelLine> parts_of(const LevelLine& line, const std::function<bool(
       between.push_back(here);
       continue;
     }
-    if (parts.empty() || pause > gap) {
+    if (parts.empty() || (!between.empty() && pause > gap)) {
       parts.emplace_back();
     } else {
       parts.back().points.insert(parts.back().points.end(), between.begin(), between.end());

@@ -4,6 +4,7 @@
 #include <csetjmp>
 #include <cstring>
 
+#include "jpeg_picture.hpp"
 #include "pixel_level.hpp"
 #include "tiff_file.hpp"
 #include "tiff_picture.hpp"
@@ -159,24 +160,26 @@ bool is_png(std::string_view bytes) {
 }  // namespace
 
 bool is_level_picture(std::string_view bytes) {
-  return is_png(bytes) || TiffFile::is_one(bytes);
+  return is_png(bytes) || is_jpeg(bytes) || TiffFile::is_one(bytes);
 }
 
 LevelPicture read_level_picture(const std::string& name, std::string_view bytes, PixelLevel level,
                                 Diagnostics& diagnostics) {
   if (!is_level_picture(bytes)) {
     diagnostics.add(
-        of_file("picture.unknown-kind", name, "this picture format is not supported", "a PNG or TIFF picture"));
+        of_file("picture.unknown-kind", name, "this picture format is not supported", "a PNG, JPEG or TIFF picture"));
     return {};
   }
   const auto refuse = [&](std::string_view fault) {
     diagnostics.add(of_file("picture.broken", name, fmt::format("the picture cannot be read: {}", fault),
-                            fmt::format("a complete {} picture", is_png(bytes) ? "PNG" : "TIFF")));
+                            fmt::format("a complete {} picture", is_png(bytes)    ? "PNG"
+                                                                 : is_jpeg(bytes) ? "JPEG"
+                                                                                  : "TIFF")));
     return LevelPicture{};
   };
   if (!is_png(bytes)) {
     std::string fault;
-    LevelPicture picture = read_tiff(bytes, level, fault);
+    LevelPicture picture = is_jpeg(bytes) ? read_jpeg(bytes, level, fault) : read_tiff(bytes, level, fault);
     return fault.empty() ? std::move(picture) : refuse(fault);
   }
   PngReading reading;

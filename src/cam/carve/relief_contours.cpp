@@ -90,19 +90,21 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
   const Mm step = step_of(options.finish, options, false);
   const std::ptrdiff_t step_x = step_nodes(step, surface.pitch_x);
   const std::ptrdiff_t step_y = step_nodes(step, surface.pitch_y);
-  const NodeMask steep = steep_nodes(tips, surface, options.steep);
+  const NodeMask steep = steep_nodes(tips, surface, options.rows.steep);
   NodeMask level = steep;
   level.invert();
   level.widen(step_x, step_y);
-  const NodeMask work = nodes_of_work(tips, surface, step, floor, options);
+  const NodeMask work = nodes_of_work(tips, surface, lattice, step, floor, options);
+  const NodeMask below_top = nodes_of_finishing(tips, surface, lattice, options);
 
   const float top = *std::max_element(tips.heights.begin(), tips.heights.end());
   const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
-  const double wanted = step.value() * std::tan(options.steep.value);
+  const double wanted = step.value() * std::tan(options.rows.steep.value);
   const double levels = std::ceil(static_cast<double>(top - lowest) / wanted - 1e-6);
   const double down = levels > 0 ? static_cast<double>(top - lowest) / levels : 0;
   const LevelPathFit fit{.tolerance = options.tolerance.value(), .has_arcs = options.arcs};
   const ReliefPass::WayEntry entry{.near = cutter.radius.value() * 2, .cuts_with_rim = true};
+  const Mm gap = gap_of(options, step * 2);
   LevelLines lines(tips, surface.pitch_x, surface.pitch_y);
   for (double i = 1; i <= levels; ++i) {
     const float height = i < levels ? grid_height(Mm(static_cast<double>(top) - down * i)) : lowest;
@@ -111,7 +113,7 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
       const auto wants = [&](const FlatPlace& place) {
         return steep.near(place, tip_surface) && work.near(place, tip_surface);
       };
-      for (LevelLine& part : parts_of(line, wants, step.value() * 2, step.value() * 2)) next.add(std::move(part));
+      for (LevelLine& part : parts_of(line, wants, gap.value(), step.value() * 2)) next.add(std::move(part));
     });
     while (!next.empty()) {
       const LevelLine line = next.take(pass.flat_place());
@@ -120,8 +122,8 @@ void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLatt
     progress(i / levels * 0.7);
   }
   AreaSweep sweep(
-      pass, area_of(tips, step_y, nodes_of(cutter.radius, surface.pitch_x)),
-      [&](auto column, auto row) { return level.at(column, row) && work.at(column, row); },
+      pass, area_of(tips, step_y, options.area.within.empty() ? nodes_of(cutter.radius, surface.pitch_x) : 0),
+      [&](auto column, auto row) { return level.at(column, row) && below_top.at(column, row); },
       [&](auto column, auto row) { return tips.at(column, row); },
       [&](auto column, auto row) {
         const FlatPlace place{static_cast<double>(column) * surface.pitch_x.value(),

@@ -32,31 +32,17 @@ TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm 
                          static_cast<std::size_t>(overrun_nodes(overrun, surface.pitch_y)), options.threads);
 }
 
-NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, Mm around, float floor,
-                       const ReliefProgramOptions& options) {
-  NodeMask mask(map);
-  constexpr float least = 0.001F;  // mm
-  for (std::size_t row = 0; row < map.rows; ++row) {
-    for (std::size_t column = 0; column < map.columns; ++column) {
-      const bool is_high = map.heights[row * map.columns + column] > floor + least;
-      mask.mark(column, row) = !options.only_on_model || is_high ? 1 : 0;
-    }
-  }
-  if (options.only_on_model) mask.widen(nodes_of(around, surface.pitch_x), nodes_of(around, surface.pitch_y));
-  return mask;
-}
-
 // The tip of the grown shape is lower by the stock.
-TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options) {
+TipMap roughing_tips(const HeightGrid& surface, const NodeLattice& lattice, const ReliefProgramOptions& options) {
   const ReliefRoughing& roughing = *options.roughing;
   const float stock = grid_height(roughing.stock);
   TipMap tips = tips_of(surface, roughing.tool.cutter.grown(roughing.stock), floor_of(surface),
                         roughing_overrun(options), options);
   for (float& height : tips.heights) height = std::min(0.0F, height + stock);
-  if (!options.only_on_model) return tips;
+  if (options.area.is_all()) return tips;
   // Where there is no work, the tip stays at the top. The finishing cutter must find room around the model.
   const Mm around = options.finish.cutter.radius * 2 + step_of(roughing.tool, options, true);
-  const NodeMask work = nodes_of_work(tips, surface, around, floor_of(surface) + stock, options);
+  const NodeMask work = nodes_of_work(tips, surface, lattice, around, floor_of(surface) + stock, options);
   for (std::size_t row = 0; row < tips.rows; ++row) {
     for (std::size_t column = 0; column < tips.columns; ++column) {
       const bool is_work = work.at(static_cast<std::ptrdiff_t>(column) - tips.margin_x,
@@ -73,7 +59,7 @@ void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& l
                const std::function<void(double)>& progress) {
   const ReliefProgramOptions& options = pass.options();
   const ReliefRoughing& roughing = *options.roughing;
-  const TipMap tips = roughing_tips(surface, options);
+  const TipMap tips = roughing_tips(surface, lattice, options);
   const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
   pass.set_lattice(lattice);
   pass.writer().set_feeds({.along = roughing.tool.feed, .down = roughing.tool.plunge});
@@ -164,39 +150,17 @@ void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
                  const std::function<void(double)>& progress) {
   FinishRows work(surface, pass.options());
   pass.set_lattice(lattice);
+  RunsBelowTop runs(pass);
   std::vector<FinishRows::Row> rows;
   for (std::size_t first = 0; first < work.count(); first += rows.size()) {
     rows.resize(std::min(work.at_once(), work.count() - first));
     work.compute(first, rows);
-    if (first == 0) pass.go_to_work(rows.front().along, 0);
     for (const FinishRows::Row& row : rows) {
-      pass.cut(row.along);
-      if (!row.over.heights.empty()) pass.cut(row.over);
+      runs.cut(row.along);
+      if (!row.over.heights.empty()) runs.cut(row.over);
     }
     progress(static_cast<double>(first + rows.size()) / static_cast<double>(work.count()));
   }
-}
-
-void finish_rows_on_model(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
-                          const std::function<void(double)>& progress) {
-  const ReliefProgramOptions& options = pass.options();
-  const Cutter& cutter = options.finish.cutter;
-  const float floor = floor_of(surface);
-  const TipMap tips = tips_of(surface, cutter, floor, finishing_overrun(options), options);
-  pass.set_lattice(lattice);
-  const Mm step = step_of(options.finish, options, false);
-  const NodeMask work = nodes_of_work(tips, surface, step, floor, options);
-  AreaSweep sweep(
-      pass, area_of(tips, step_nodes(step, surface.pitch_y), nodes_of(cutter.radius, surface.pitch_x)),
-      [&](auto column, auto row) { return work.at(column, row); },
-      [&](auto column, auto row) { return tips.at(column, row); },
-      [&](auto column, auto row) {
-        const double x = static_cast<double>(column) * surface.pitch_x.value();
-        const double y = static_cast<double>(row) * surface.pitch_y.value();
-        const FlatPlace place = lattice.turned ? FlatPlace{y, x} : FlatPlace{x, y};
-        return static_cast<float>(pass.stock()->free_height(place, cutter.radius.value() / 2));
-      });
-  sweep.cut(progress);
 }
 
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
@@ -214,7 +178,7 @@ void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattic
   const double turns = static_cast<double>(high - low) / 2 / static_cast<double>(step_y);
   std::ptrdiff_t column = left;
   std::ptrdiff_t row = low;
-  bool has_begun = false;
+  RunsBelowTop runs(pass);
   const auto go = [&](std::ptrdiff_t to_column, std::ptrdiff_t to_row) {
     NodeRun run{.column = column, .row = row, .step_x = 0, .step_y = 0};
     if (to_column != column) run.step_x = to_column > column ? 1 : -1;
@@ -225,9 +189,7 @@ void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattic
       column += run.step_x;
       row += run.step_y;
     }
-    if (!has_begun) pass.go_to_work(run, 0);
-    has_begun = true;
-    pass.cut(run);
+    runs.cut(run);
   };
   // The last turn goes along what is left between the turns before, which is at most a step wide.
   for (double turn = 0; left <= right && low <= high; ++turn) {
@@ -292,9 +254,13 @@ void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice&
   pass.writer().set_feeds({.along = rest.tool.feed, .down = rest.tool.plunge});
   const std::ptrdiff_t step = step_nodes(step_of(rest.tool, options, false), surface.pitch_y);
   const auto least = static_cast<float>(rest.least.value());
+  const NodeMask work = nodes_of_work(tips, surface, lattice, Mm(0), DroppedCutter::nothing, options);
   AreaSweep sweep(
-      pass, area_of(tips, step, nodes_of(rest.tool.cutter.radius * 2, surface.pitch_x)),
-      [&](auto column, auto row) { return touching.at(column, row) - tips.at(column, row) > least; },
+      pass,
+      area_of(tips, step, options.area.within.empty() ? nodes_of(rest.tool.cutter.radius * 2, surface.pitch_x) : 0),
+      [&](auto column, auto row) {
+        return touching.at(column, row) - tips.at(column, row) > least && work.at(column, row);
+      },
       [&](auto column, auto row) { return tips.at(column, row); },
       [&](auto column, auto row) { return touching.at(column, row); });
   sweep.cut(progress);

@@ -119,6 +119,58 @@ void ReliefPass::ramp_in(const NodeRun& run, double free_above, std::size_t node
   }
 }
 
+RunsBelowTop::RunsBelowTop(ReliefPass& pass)
+    : pass_(pass), longest_(2 * (pass.options().clearance + pass.options().finish.cutter.radius).value()) {}
+
+double RunsBelowTop::length_of(const NodeRun& run, std::size_t first, std::size_t last) const {
+  const bool along_x = (run.step_x != 0) != pass_.lattice().turned;
+  return static_cast<double>(last - first) * (along_x ? pass_.lattice().pitch_x : pass_.lattice().pitch_y);
+}
+
+void RunsBelowTop::cut_part(const NodeRun& run, std::size_t first, std::size_t last) {
+  NodeRun part{.column = run.column_at(first), .row = run.row_at(first), .step_x = run.step_x, .step_y = run.step_y};
+  part.heights.assign(run.heights.begin() + static_cast<std::ptrdiff_t>(first),
+                      run.heights.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  if (!is_down_) pass_.go_to_work(part, 0);
+  is_down_ = true;
+  pass_.cut(part);
+}
+
+void RunsBelowTop::cut(const NodeRun& run) {
+  constexpr float least = 0.001F;  // mm; less is no work
+  const std::size_t last = run.heights.size() - 1;
+  std::size_t from = 0;  // where the tool is, or was when it was lifted
+  for (std::size_t i = 0; i <= last;) {
+    if (run.heights[i] >= -least) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    while (end < last && run.heights[end + 1] < -least) ++end;
+    const std::size_t begin = std::max(from, i > 0 ? i - 1 : 0);
+    if (is_down_ && gone_ + length_of(run, from, begin) > longest_) is_down_ = false;
+    if (is_down_) {
+      for (const NodeRun& air : air_) pass_.cut(air);
+    }
+    air_.clear();
+    gone_ = 0;
+    const std::size_t after = std::min(end + 1, last);
+    cut_part(run, is_down_ ? from : begin, after);
+    from = after;
+    i = end + 1;
+  }
+  gone_ += length_of(run, from, last);
+  if (!is_down_ || from == last) return;
+  if (gone_ > longest_) {
+    is_down_ = false;
+    air_.clear();
+    return;
+  }
+  NodeRun air{.column = run.column_at(from), .row = run.row_at(from), .step_x = run.step_x, .step_y = run.step_y};
+  air.heights.assign(run.heights.begin() + static_cast<std::ptrdiff_t>(from), run.heights.end());
+  air_.push_back(std::move(air));
+}
+
 std::ptrdiff_t nodes_of(Mm distance, Mm pitch) {
   return std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(std::ceil(distance / pitch - 1e-6)));
 }
@@ -151,6 +203,7 @@ Mm rest_overrun(const ReliefProgramOptions& options) {
 }
 
 std::ptrdiff_t AreaSweep::row_of(std::size_t index) const {
+  if (!area_.rows.empty()) return area_.rows[index];
   return std::min(area_.first_row + static_cast<std::ptrdiff_t>(index) * area_.step, area_.end_row - 1);
 }
 
@@ -170,7 +223,7 @@ void AreaSweep::find_stretches() {
     }
     all_ += here.size();
     stretches_.push_back(std::move(here));
-    if (row == area_.end_row - 1) return;
+    if (area_.rows.empty() ? row == area_.end_row - 1 : index + 1 == area_.rows.size()) return;
   }
 }
 
@@ -197,11 +250,13 @@ void AreaSweep::cut(const std::function<void(double)>& progress) {
 // Cuts a stretch, and then what lies on from its end, row after row.
 void AreaSweep::cut_from(std::size_t index, Stretch& first) {
   const std::ptrdiff_t row = row_of(index);
-  NodeRun run = run_along(row, first.first, first.last);
-  pass_.go_to_work(run, static_cast<double>(free_above_(first.first, row)));
+  const bool is_back = area_.direction < 0;
+  const NodeRun run = is_back ? run_along(row, first.last, first.first) : run_along(row, first.first, first.last);
+  pass_.go_to_work(run, static_cast<double>(free_above_(run.column, row)));
   pass_.cut(run);
   first.done = true;
   ++done_;
+  if (area_.direction != 0) return;
   const Stretch* last = &first;
   std::ptrdiff_t column = first.last;
   while (++index < stretches_.size()) {

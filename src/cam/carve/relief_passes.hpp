@@ -45,6 +45,7 @@ class ReliefPass {
   const ReliefProgramOptions& options() const { return options_; }
 
   void set_lattice(const NodeLattice& lattice) { lattice_ = lattice; }
+  const NodeLattice& lattice() const { return lattice_; }
   void set_record(TipRecord* record) { record_ = record; }
   // The stock that the writer's moves cut. Null: the stock is not tracked.
   void set_stock(StockInWork* stock) { stock_ = stock; }
@@ -69,9 +70,13 @@ class ReliefPass {
     // The ramp begins where the inner half of the cutter touches the stock: the rest is cut by the rim, as between two
     // neighbouring toolpaths.
     bool cuts_with_rim = false;
+    // The ramp ends at the height of the start, and only the stock there matters: what comes is cut as it comes.
+    bool is_row = false;
   };
   // Approaches a toolpath of lines and arcs, descends along it, and cuts all of it. Requires the stock.
   void cut_way(const LevelPath& path, const TipSurface& surface, const WayEntry& entry);
+  // Cuts a toolpath that begins where the tool is, above or below.
+  void follow(const LevelPath& path, const TipSurface& surface);
 
  private:
   FlatPlace flat(const CarvedPlace& place) const;
@@ -99,8 +104,10 @@ class AreaSweep {
     std::ptrdiff_t end_column = 0;
     std::ptrdiff_t first_row = 0;
     std::ptrdiff_t end_row = 0;
-    std::ptrdiff_t step = 1;  // between rows of work
-    std::ptrdiff_t gap = 0;   // joins runs at most this far apart
+    std::ptrdiff_t step = 1;                // between rows of work
+    std::vector<std::ptrdiff_t> rows = {};  // the rows of work, if they are not `step` apart
+    std::ptrdiff_t gap = 0;                 // joins runs at most this far apart
+    int direction = 0;  // 1 or -1: all runs go to higher or lower columns; 0: one run follows the other
   };
   using Wants = std::function<bool(std::ptrdiff_t column, std::ptrdiff_t row)>;
   using Height = std::function<float(std::ptrdiff_t column, std::ptrdiff_t row)>;
@@ -137,6 +144,10 @@ class AreaSweep {
   std::size_t all_ = 0;
 };
 
+// Returns the longest gap across which runs are joined: `usual`, but none where the cutter must stay within curves.
+inline Mm gap_of(const ReliefProgramOptions& options, Mm usual) {
+  return options.area.within.empty() ? usual : Mm(0);
+}
 // Returns the number of nodes in a distance, at least one.
 std::ptrdiff_t nodes_of(Mm distance, Mm pitch);
 // Returns the greatest whole number of nodes within a step, at least one.
@@ -155,11 +166,34 @@ Mm rest_overrun(const ReliefProgramOptions& options);
 TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm overrun,
                const ReliefProgramOptions& options);
 // Returns the tip heights of the roughing cutter, including the stock to leave, limited to the top of the stock.
-TipMap roughing_tips(const HeightGrid& surface, const ReliefProgramOptions& options);
-// Returns the nodes where the program may cut: all, or those where the cutter touches the model and all within
-// `around` of them.
-NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, Mm around, float floor,
+TipMap roughing_tips(const HeightGrid& surface, const NodeLattice& lattice, const ReliefProgramOptions& options);
+// Returns the nodes where the program may cut: all within the curves, or of these only those where the cutter touches
+// the model and all within `around` of them.
+NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, const NodeLattice& lattice, Mm around, float floor,
                        const ReliefProgramOptions& options);
+// Returns those of them where the finishing cutter has something to cut, or is about to: not where its tip is at the
+// top of the stock.
+NodeMask nodes_of_finishing(const TipMap& map, const HeightGrid& surface, const NodeLattice& lattice,
+                            const ReliefProgramOptions& options);
+
+// Cuts runs that follow each other without a gap, but not the air between them: where the tip stays at the top of the
+// stock for longer than a lift takes, the tool is lifted.
+class RunsBelowTop {
+ public:
+  explicit RunsBelowTop(ReliefPass& pass);
+  void cut(const NodeRun& run);
+
+ private:
+  void cut_part(const NodeRun& run, std::size_t first, std::size_t last);
+  double length_of(const NodeRun& run, std::size_t first, std::size_t last) const;
+
+  ReliefPass& pass_;
+  double longest_;            // mm of air that is not worth a lift
+  std::vector<NodeRun> air_;  // since the last cut, if it is not worth a lift
+  double gone_ = 0;           // mm
+  bool is_down_ = false;
+};
+
 AreaSweep::Area area_of(const TipMap& map, std::ptrdiff_t step, std::ptrdiff_t gap);
 
 void rough_out(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
@@ -170,8 +204,11 @@ void rough_by_offsets(ReliefPass& pass, const HeightGrid& surface, const NodeLat
 // Finishes in rows or columns, as `way` says; for columns the surface must be transposed.
 void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
-// Does the same only where the model stands.
-void finish_rows_on_model(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+// Does the same where rows have gaps: on the model, within curves, in one direction only, closer together on slopes.
+void finish_rows_in_area(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                         const std::function<void(double)>& progress);
+// Finishes in rows at an angle.
+void finish_rows_at_angle(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                           const std::function<void(double)>& progress);
 void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                    const std::function<void(double)>& progress);

@@ -135,7 +135,9 @@ void ReliefProgram::record(const ReliefTool& tool, Mm overrun, const std::functi
 void ReliefProgram::finish() {
   if (options_.way == FinishStrategy::contours) cut(finish_contours, surface_, false);
   if (options_.way == FinishStrategy::spiral) cut(finish_spiral, surface_, false);
-  const Cut rows = options_.only_on_model ? finish_rows_on_model : finish_rows;
+  const bool has_gaps = !options_.area.is_all() || options_.rows.has_even_scallops ||
+                        options_.rows.direction != RowDirection::there_and_back;
+  const Cut rows = options_.rows.angle.value != 0 ? finish_rows_at_angle : has_gaps ? finish_rows_in_area : finish_rows;
   if (options_.way == FinishStrategy::rows || options_.way == FinishStrategy::both) cut(rows, surface_, false);
   if (options_.way == FinishStrategy::columns || options_.way == FinishStrategy::both) {
     cut(rows, surface_.transposed(), true);
@@ -145,8 +147,9 @@ void ReliefProgram::finish() {
 // Only where somebody asks for it: it costs time.
 void ReliefProgram::watch_stock() {
   const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
-  const bool is_asked = options_.only_on_model || options_.way == FinishStrategy::contours ||
-                        options_.finish.removal > 0 ||
+  const bool is_asked = !options_.area.is_all() || options_.rows.has_even_scallops ||
+                        options_.rows.direction != RowDirection::there_and_back || options_.rows.angle.value != 0 ||
+                        options_.way == FinishStrategy::contours || options_.finish.removal > 0 ||
                         (options_.roughing && options_.roughing->way == RoughStrategy::offsets) ||
                         holds(options_.roughing) || holds(options_.rest);
   if (!is_asked) return;
@@ -183,9 +186,10 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   }
   begin_tool("finishing", options_.finish);
   record(options_.finish, finishing_overrun(options_), [&] { finish(); });
+  const Mm pitch = options_.way == FinishStrategy::columns ? surface_.pitch_x : surface_.pitch_y;
   end_tool("finishing", options_.finish,
-           nodes_step(options_.finish, false,
-                      options_.way == FinishStrategy::columns ? surface_.pitch_x : surface_.pitch_y));
+           options_.rows.angle.value != 0 ? step_of(options_.finish, options_, false)
+                                          : nodes_step(options_.finish, false, pitch));
   if (options_.rest) {
     const ReliefTool& tool = options_.rest->tool;
     begin_tool("rest finishing", tool);

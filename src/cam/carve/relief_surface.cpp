@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "body_grid.hpp"
@@ -27,6 +28,10 @@ Sides sides_of(const ReliefShape& shape, double across, double up, Mm usual) {
 
 // The surface with nodes no farther apart than wanted, and with the rim.
 HeightGrid completed(HeightGrid grid, const ReliefShape& shape, const std::string& name, Diagnostics& diagnostics) {
+  if (shape.lowest) {
+    const float lowest = grid_height(-*shape.lowest);
+    for (float& height : grid.heights) height = std::max(height, lowest);
+  }
   const Mm widest = std::max(grid.pitch_x, grid.pitch_y);
   double parts = 1;
   if (shape.pitch) {
@@ -58,6 +63,66 @@ float floor_of(const HeightGrid& grid) {
   return *std::min_element(grid.heights.begin(), grid.heights.end());
 }
 
+namespace {
+
+// Smooths a line of `count` levels, `apart` apart, by a Gaussian of `sigma` pixels. At the ends the line is continued.
+class LineSmoother {
+ public:
+  explicit LineSmoother(double sigma) {
+    const auto reach = static_cast<std::size_t>(std::ceil(3 * sigma));
+    double sum = 0;
+    for (std::size_t i = 0; i <= reach; ++i) {
+      const double away = static_cast<double>(i) / sigma;
+      weights_.push_back(static_cast<float>(std::exp(-away * away / 2)));
+      sum += static_cast<double>(weights_.back()) * (i == 0 ? 1 : 2);
+    }
+    for (float& weight : weights_) weight /= static_cast<float>(sum);
+  }
+
+  void smooth(float* line, std::size_t count, std::size_t apart) {
+    const std::size_t reach = weights_.size() - 1;
+    padded_.assign(count + 2 * reach, 0);
+    for (std::size_t i = 0; i < padded_.size(); ++i) {
+      const std::size_t from = std::min(count - 1, i > reach ? i - reach : 0);
+      padded_[i] = line[from * apart];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const middle = &padded_[i + reach];
+      float sum = weights_[0] * *middle;
+      for (std::size_t k = 1; k <= reach; ++k) {
+        const auto out = static_cast<std::ptrdiff_t>(k);
+        sum += weights_[k] * (middle[-out] + middle[out]);
+      }
+      line[i * apart] = sum;
+    }
+  }
+
+ private:
+  std::vector<float> weights_;
+  std::vector<float> padded_;
+};
+
+// `sigma_x`, `sigma_y`: in pixels.
+std::vector<std::uint16_t> smoothed(const LevelPicture& picture, double sigma_x, double sigma_y) {
+  constexpr double least = 0.1;  // pixels; less changes nothing
+  std::vector<float> levels(picture.levels.begin(), picture.levels.end());
+  if (sigma_x > least) {
+    LineSmoother along(sigma_x);
+    for (std::size_t y = 0; y < picture.rows; ++y) along.smooth(&levels[y * picture.columns], picture.columns, 1);
+  }
+  if (sigma_y > least) {
+    LineSmoother across(sigma_y);
+    for (std::size_t x = 0; x < picture.columns; ++x) across.smooth(&levels[x], picture.rows, picture.columns);
+  }
+  std::vector<std::uint16_t> rounded;
+  rounded.reserve(levels.size());
+  for (const float level : levels)
+    rounded.push_back(static_cast<std::uint16_t>(std::clamp(level + 0.5F, 0.0F, 65535.0F)));
+  return rounded;
+}
+
+}  // namespace
+
 HeightGrid relief_of(const LevelPicture& picture, const ReliefShape& shape, const std::string& name,
                      Diagnostics& diagnostics) {
   constexpr Mm usual_width{100};
@@ -70,13 +135,20 @@ HeightGrid relief_of(const LevelPicture& picture, const ReliefShape& shape, cons
   std::vector<float> height_of(levels);
   for (std::size_t level = 0; level < levels; ++level) {
     const double bright = static_cast<double>(shape.invert ? levels - 1 - level : level) / (levels - 1);
-    height_of[level] = grid_height(depth * (std::pow(bright, shape.gamma) - 1));
+    const bool is_carved = bright >= shape.background;
+    height_of[level] = is_carved ? grid_height(depth * (std::pow(bright, shape.gamma) - 1)) : 0.0F;
   }
   HeightGrid grid{
       .columns = picture.columns, .rows = picture.rows, .pitch_x = sides.x / across, .pitch_y = sides.y / up};
+  constexpr double widest = 500;  // pixels; beyond, a picture is one level
+  const auto sigma = [&](Mm pitch) { return std::min(widest, shape.smooth / pitch); };
+  const bool is_smoothed = shape.smooth.value() > 0;
+  const std::vector<std::uint16_t> smooth =
+      is_smoothed ? smoothed(picture, sigma(grid.pitch_x), sigma(grid.pitch_y)) : std::vector<std::uint16_t>();
+  const std::vector<std::uint16_t>& shown = is_smoothed ? smooth : picture.levels;
   grid.heights.resize(picture.levels.size());
   for (std::size_t y = 0; y < grid.rows; ++y) {
-    const std::uint16_t* const from = &picture.levels[(grid.rows - 1 - y) * grid.columns];
+    const std::uint16_t* const from = &shown[(grid.rows - 1 - y) * grid.columns];
     float* const to = &grid.heights[y * grid.columns];
     for (std::size_t x = 0; x < grid.columns; ++x) to[x] = height_of[from[shape.mirror ? grid.columns - 1 - x : x]];
   }
@@ -210,9 +282,9 @@ HeightGrid relief_of(ReliefBody body, const ReliefShape& shape, const std::strin
     return refuse("the model has no area when seen from above", "a model with faces that are visible from above");
   const Sides sides = sides_of(shape, across, up, Mm(across));
   const Mm depth = shape.depth.value_or(Mm(high * (sides.x.value() / across)));
-  if (depth > deepest_relief) {
+  if (depth > deepest_relief && !shape.lowest) {
     return refuse(fmt::format("the model is {:.6g} mm high", depth.value()),
-                  "at most 250 mm; check the unit and --depth");
+                  "at most 250 mm; check the unit, --depth and --lowest-z");
   }
   const Mm pitch = body_pitch(shape, sides);
   const double columns = std::floor(sides.x / pitch + 0.5) + 1;
@@ -253,7 +325,7 @@ HeightGrid relief_of(ReliefBody body, const ReliefShape& shape, const std::strin
   grid.heights = cover_body(body.faces, cover);
   body = {};
   bend(grid, GammaCurve(depth, shape.gamma));
-  const auto lowest = static_cast<float>(-depth.value());
+  const auto lowest = static_cast<float>(-std::min(depth, shape.lowest.value_or(depth)).value());
   for (float& height : grid.heights) height = grid_height(Mm(static_cast<double>(std::clamp(height, lowest, 0.0F))));
   ReliefShape sampled = shape;
   sampled.pitch.reset();

@@ -276,7 +276,7 @@ class OffsetRoughing {
 void rough_by_offsets(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                       const std::function<void(double)>& progress) {
   const ReliefRoughing& roughing = *pass.options().roughing;
-  const TipMap tips = roughing_tips(surface, pass.options());
+  const TipMap tips = roughing_tips(surface, lattice, pass.options());
   const float lowest = *std::min_element(tips.heights.begin(), tips.heights.end());
   pass.set_lattice(lattice);
   pass.writer().set_feeds({.along = roughing.tool.feed, .down = roughing.tool.plunge});

@@ -1,7 +1,9 @@
 // StockInWork: the stock as cut by the program so far, for code that needs the remaining material. Private to carve/.
 //
 // It covers the whole range of the cutters, including the area beside the surface; its top is Z 0. Cells are some
-// tenths of the smallest cutter's radius; queries return the worst case within a cell.
+// tenths of the smallest cutter's radius, and have the height at their centres. A sliver may stand between two centres,
+// so a second field of coarser cells has an upper bound for each cell: it is cut by thinner tools (`thinned`, in
+// passo/stock/cut_target.hpp). Rapids rely on the bound, ramps on the heights.
 #pragma once
 
 #include <cstdint>
@@ -31,31 +33,41 @@ class StockInWork {
   // Cuts and reports all pending moves.
   void settle();
 
+  double radius() const { return shapes_[tool_].radius.value(); }  // of the selected cutter, mm
+  // Returns a tip height to which a rapid may go down at a position: the cutter certainly touches no stock there.
+  double rapid_height(const FlatPlace& place);
   // Returns the lowest tip height at which the cutter touches no stock, within `around` mm of a position.
   double free_height(const FlatPlace& place, double around);
   // Returns the same for a whole toolpath.
   double free_height(const std::vector<CarvedCut>& way);
-  // Returns the lowest tip height at which the inner half of the cutter touches no stock along a toolpath.
+  // Returns the lowest tip height at which the inner half of the cutter touches no stock at a position, and along a
+  // toolpath.
+  double free_height_inside(const FlatPlace& place);
   double free_height_inside(const std::vector<CarvedCut>& way);
 
  private:
-  void measure(double around, double inside);
-  double highest(const FlatPlace& place, double around, double inside);
+  // A field, and the cutter's height above its tip for each of its cells around the cutter's own: a quadrant.
+  struct Layer {
+    HeightField field;
+    std::unique_ptr<StockCutter> cutter = nullptr;
+    std::vector<float> heights = {};
+    std::ptrdiff_t reach = 0;
+    // For which the heights were computed.
+    double around = -1;
+    double inside = 0;
+    std::size_t tool = 0;
+  };
+  void measure(Layer& layer, double around, double inside) const;
+  double highest(Layer& layer, const FlatPlace& place, double around, double inside);
 
-  HeightField field_;
-  std::unique_ptr<StockCutter> cutter_;
+  Layer heights_;
+  Layer bound_;
   double x0_;
   double y0_;
   std::vector<Cutter> shapes_;
+  std::vector<Mm> raised_;  // for each shape: how much higher the tip of its thinner tool is
   std::size_t tool_ = 0;
   bool is_settled_ = true;
-  // A quadrant with the cutter's height above its tip for each cell around its own; and the parameters for which it was
-  // computed.
-  std::vector<float> heights_;
-  std::ptrdiff_t reach_ = 0;
-  double measured_around_ = -1;
-  double measured_inside_ = 0;
-  std::size_t measured_tool_ = 0;
 };
 
 }  // namespace passo

@@ -124,6 +124,10 @@ Examples:
                                                                    contours on steep areas; roughing by offsets on each level
   passo cam relief face.png --rough flat:6 --rough-removal 3000 --removal 150 --feed-most 2500 -o face.ngc
                                                                    feed rates from target removal rates, mm3/min
+  passo cam relief photo.jpg --smooth 0.3 --gamma 1.5 --background 10 --cutter ball:2 -o photo.ngc
+                                                                   a photograph; its dark background is not carved
+  passo cam relief face.3mf --within oval.svg --angle 45 --lowest-z -6 -o face.ngc
+                                                                   rows at 45 degrees within a curve, at most 6 mm deep
   passo cam relief map.png --origin center --margin 5 --margin-level top --spindle 18000 -o map.ngc
 
 All options, and what is guaranteed: docs/manual/relief.md.)";
@@ -186,7 +190,7 @@ constexpr std::array operations = {
         .parts = board_parts},
     CamOperation{.name = "relief",
                  .purpose = "carve a relief from a picture, or from a model seen from above",
-                 .accepts = ".png,.tif,.tiff,.stl,.csv,.xyz",
+                 .accepts = ".png,.jpg,.jpeg,.tif,.tiff,.stl,.3mf,.csv,.xyz",
                  .examples = relief_examples,
                  .options = options_with_defaults<CamReliefArguments>,
                  .picture_ending = ".png"},

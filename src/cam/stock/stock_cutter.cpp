@@ -300,7 +300,10 @@ void StockCutter::Implementation::write(const MoveTally& tally, MoveCut& cut) co
 }
 
 void StockCutter::Implementation::cut_busy_tiles(std::vector<std::vector<MoveTally>>& tallies) {
-  const std::size_t threads = std::min(tallies.size(), std::max<std::size_t>(1, busy_.size()));
+  // A few chords are cut sooner than a thread starts.
+  constexpr std::size_t chords_a_thread = 64;
+  const std::size_t worth = std::max<std::size_t>(1, std::min(busy_.size(), chords_.size() / chords_a_thread));
+  const std::size_t threads = std::min(tallies.size(), worth);
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> others;
   for (std::size_t i = 1; i < threads; ++i) {

@@ -7,12 +7,17 @@
 #include <utility>
 
 #include "stl_file.hpp"
+#include "threemf_file.hpp"
 
 #include "passo/diagnostics/file_bytes.hpp"
 #include "passo/levelling/height_map.hpp"
 
 namespace passo {
 namespace {
+
+std::vector<SurfaceTriangle> read_body(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  return looks_like_3mf(bytes) ? read_3mf(name, bytes, diagnostics) : read_stl(name, bytes, diagnostics);
+}
 
 bool is_text(std::string_view bytes) {
   return bytes.substr(0, 4096).find('\0') == std::string_view::npos;
@@ -37,17 +42,21 @@ SurfaceFaces faces_of(const HeightMap& map) {
 }  // namespace
 
 bool looks_like_body(std::string_view bytes) {
-  return looks_like_stl(bytes);
+  return looks_like_stl(bytes) || looks_like_3mf(bytes);
+}
+
+bool states_its_unit(std::string_view bytes) {
+  return looks_like_3mf(bytes);
 }
 
 SurfaceFaces read_faces(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  if (looks_like_body(bytes)) return {read_stl(name, bytes, diagnostics), {}};
+  if (looks_like_body(bytes)) return {read_body(name, bytes, diagnostics), {}};
   if (is_text(bytes)) {
     const std::optional<HeightMap> map = read_height_map(name, bytes, diagnostics);
     return map ? faces_of(*map) : SurfaceFaces();
   }
-  diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL file nor a height map",
-                          "STL, text or binary, or lines x,y,z"));
+  diagnostics.add(of_file("surface.unknown-kind", name, "this is neither an STL or 3MF file nor a height map",
+                          "STL, text or binary, 3MF, or lines x,y,z"));
   return {};
 }
 
@@ -87,15 +96,17 @@ std::size_t open_edges(const std::vector<SurfaceTriangle>& triangles) {
 }
 
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics) {
-  const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL file"}, diagnostics);
+  const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL or 3MF file"}, diagnostics);
   if (!bytes) return {};
-  if (looks_like_body(*bytes)) return read_stl(path, *bytes, diagnostics);
-  diagnostics.add(of_file("surface.unknown-kind", path, "this is not an STL file", "an STL model, text or binary"));
+  if (looks_like_body(*bytes)) return read_body(path, *bytes, diagnostics);
+  diagnostics.add(of_file("surface.unknown-kind", path, "this is not an STL or 3MF file",
+                          "an STL model, text or binary, or a 3MF model"));
   return {};
 }
 
 Surface read_surface(const std::string& path, Diagnostics& diagnostics) {
-  const auto bytes = read_bytes(path, {.area = "surface", .expected = "an STL file or a height map"}, diagnostics);
+  const auto bytes =
+      read_bytes(path, {.area = "surface", .expected = "an STL or 3MF file or a height map"}, diagnostics);
   if (!bytes) return {};
   return read_surface(path, *bytes, diagnostics);
 }

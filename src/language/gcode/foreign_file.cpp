@@ -18,8 +18,8 @@ constexpr SentenceRow of_drawn_holes{
     {}, "G-code; passo cam profile or pocket generates it from the drawing, passo cam drill from its holes"};
 constexpr SentenceRow of_plot{{},
                               "G-code; passo cam engrave --on-line or passo cam profile generates it from the plot"};
-constexpr SentenceRow of_picture{{},
-                                 "G-code; save the picture as PNG or TIFF, from which passo cam relief generates it"};
+constexpr SentenceRow of_picture{
+    {}, "G-code; save the picture as PNG, JPEG or TIFF, from which passo cam relief generates it"};
 constexpr SentenceRow of_png{{}, "G-code; passo cam relief generates it from the picture"};
 constexpr SentenceRow of_font{{}, "G-code; passo cam engrave --text --font generates it with the font"};
 constexpr SentenceRow of_airfoil{{}, "G-code; passo cam wire --chord generates it from the airfoil"};
@@ -38,7 +38,7 @@ constexpr SentenceRow of_settings{{}, "G-code; a sender transfers settings to a 
 constexpr SentenceRow of_program{{}, "G-code, which is plain text"};
 
 constexpr ForeignFile png{"a PNG picture", of_png};
-constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
+constexpr ForeignFile jpeg{"a JPEG picture", of_png};
 constexpr ForeignFile tiff{"a TIFF picture", of_png};
 constexpr ForeignFile gif{"a GIF picture", of_picture};
 constexpr ForeignFile bmp{"a BMP picture", of_picture};
@@ -54,7 +54,7 @@ constexpr ForeignFile airfoil{"an airfoil file", of_airfoil};
 constexpr ForeignFile heights{"a height map", of_heights};
 constexpr ForeignFile description{"a TOML file, e.g. a machine file or a tool table", of_description};
 constexpr ForeignFile model{"a mesh (OBJ, PLY, OFF)", of_body};
-constexpr ForeignFile model_3mf{"a 3MF model", of_body};
+constexpr ForeignFile model_3mf{"a 3MF model", of_stl};
 constexpr ForeignFile gerber{"a Gerber file", of_circuit};
 constexpr ForeignFile kicad{"a KiCad board", of_board};
 constexpr ForeignFile excellon{"an Excellon drill file", of_holes};

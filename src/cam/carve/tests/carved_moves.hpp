@@ -136,9 +136,9 @@ inline const OracleCutter& oracle_of(const char* text) {
   return oracle_cutters().front();
 }
 
-// `every`: checks one of this many positions along the moves.
+// `every`: checks one of this many positions along the moves. `least`: number of positions.
 inline void expect_no_gouge(const HeightGrid& grid, const std::string& program, const std::vector<OracleCutter>& tools,
-                            int every) {
+                            int every, int least = 1000) {
   int places = 0;
   for (const ReadMove& move : moves_of(program)) {
     const OracleCutter& cutter = tools[tools.size() > 1 ? move.tool - 1 : 0];
@@ -153,7 +153,7 @@ inline void expect_no_gouge(const HeightGrid& grid, const std::string& program, 
           << move.line;
     }
   }
-  EXPECT_GT(places, 1000);
+  EXPECT_GT(places, least);
 }
 
 inline ReliefProgramOptions options_of(const char* cutter) {
@@ -187,7 +187,9 @@ inline ReliefProgramOptions three_tools() {
 // The stock as heights on a fine grid, cut by each position of the tool.
 class OracleStock {
  public:
-  OracleStock(double width, double length) : columns_(places(width)), rows_(places(length)) {
+  // `fine`: distance between the points, mm.
+  OracleStock(double width, double length, double fine = 0.1)
+      : fine_(fine), columns_(places(width)), rows_(places(length)) {
     heights_.assign(columns_ * rows_, 0);
   }
 
@@ -206,35 +208,35 @@ class OracleStock {
       taken += heights_[i] - low;
       heights_[i] = low;
     });
-    return taken * fine * fine;
+    return taken * fine_ * fine_;
   }
   double at(double x, double y) const {
-    return heights_[static_cast<std::size_t>((y + beyond) / fine) * columns_ +
-                    static_cast<std::size_t>((x + beyond) / fine)];
+    return heights_[static_cast<std::size_t>((y + beyond) / fine_) * columns_ +
+                    static_cast<std::size_t>((x + beyond) / fine_)];
   }
 
  private:
-  static constexpr double fine = 0.1;
   static constexpr double beyond = 3.5;
-  static std::size_t places(double size) { return static_cast<std::size_t>((size + 2 * beyond) / fine) + 1; }
+  std::size_t places(double size) const { return static_cast<std::size_t>((size + 2 * beyond) / fine_) + 1; }
 
   template <class Act>
   void each(const OracleCutter& cutter, double x, double y, const Act& act) const {
     const auto first = [&](double at) {
-      return static_cast<std::size_t>(std::max(0.0, (at - cutter.radius + beyond) / fine));
+      return static_cast<std::size_t>(std::max(0.0, (at - cutter.radius + beyond) / fine_));
     };
     const auto end = [&](double at, std::size_t most) {
-      return std::min(most, static_cast<std::size_t>(std::max(0.0, (at + cutter.radius + beyond) / fine)) + 1);
+      return std::min(most, static_cast<std::size_t>(std::max(0.0, (at + cutter.radius + beyond) / fine_)) + 1);
     };
     for (std::size_t j = first(y); j < end(y, rows_); ++j) {
-      const double dy = static_cast<double>(j) * fine - beyond - y;
+      const double dy = static_cast<double>(j) * fine_ - beyond - y;
       for (std::size_t i = first(x); i < end(x, columns_); ++i) {
-        const double away = std::hypot(static_cast<double>(i) * fine - beyond - x, dy);
+        const double away = std::hypot(static_cast<double>(i) * fine_ - beyond - x, dy);
         if (away <= cutter.radius) act(j * columns_ + i, cutter.height(away));
       }
     }
   }
 
+  double fine_;
   std::size_t columns_;
   std::size_t rows_;
   std::vector<double> heights_;

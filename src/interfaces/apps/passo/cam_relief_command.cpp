@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/cam/drawing_file.hpp"
+#include "passo/cam/edge_loops.hpp"
 #include "passo/carve/relief_program.hpp"
 #include "passo/carve/relief_surface.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
@@ -41,15 +43,15 @@ class ReliefReading {
     if (text.empty()) return std::nullopt;
     return length(option, text, least, most);
   }
-  // The lowest Z, below the top at Z0.
-  std::optional<Mm> depth(const std::string& text) {
+  // A Z, below the top at Z0.
+  std::optional<Mm> depth(const char* option, const std::string& text) {
     if (text.empty()) return std::nullopt;
-    const Result<Mm, std::string> read = parse_length("--depth", text, 1);
+    const Result<Mm, std::string> read = parse_length(option, text, 1);
     if (read && *read >= Mm(0.001) && *read <= deepest_relief) {
-      refuse(fmt::format("--depth: expected a Z below the top at Z0, found '{0}'; write --depth -{0}", text));
+      refuse(fmt::format("{1}: expected a Z below the top at Z0, found '{0}'; write {1} -{0}", text, option));
       return std::nullopt;
     }
-    return length("--depth", text, -deepest_relief, Mm(-0.001)) * -1;
+    return length(option, text, -deepest_relief, Mm(-0.001)) * -1;
   }
   Cutter cutter(const char* option, const std::string& text) {
     const Result<Cutter, std::string> read = parse_cutter(text);
@@ -80,7 +82,10 @@ ReliefShape shape_of(const CamReliefArguments& arguments, ReliefReading& read) {
   ReliefShape shape;
   shape.width = read.perhaps("--width", arguments.width, Mm(0.1), most_length);
   shape.length = read.perhaps("--length", arguments.length, Mm(0.1), most_length);
-  shape.depth = read.depth(arguments.depth);
+  shape.depth = read.depth("--depth", arguments.depth);
+  shape.lowest = read.depth("--lowest-z", arguments.lowest_z);
+  shape.smooth = read.length("--smooth", arguments.smooth, Mm(0), Mm(100));
+  shape.background = arguments.background / 100;
   shape.gamma = arguments.gamma;
   shape.invert = arguments.invert;
   shape.mirror = arguments.mirror;
@@ -103,6 +108,27 @@ ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& c
   return tool;
 }
 
+// The options of rows, and what they do not go with.
+void read_rows(const CamReliefArguments& arguments, ReliefProgramOptions& program, ReliefReading& read) {
+  const std::string& way = arguments.way;
+  const bool has_rows = way == "rows" || way == "columns" || way == "both";
+  program.rows.direction = arguments.one_way == "climb"          ? RowDirection::climb
+                           : arguments.one_way == "conventional" ? RowDirection::conventional
+                                                                 : RowDirection::there_and_back;
+  if (program.rows.direction != RowDirection::there_and_back && !has_rows) {
+    read.refuse(fmt::format("--one-way: expected --way rows, columns or both, found {}", way));
+  }
+  program.rows.angle = {arguments.angle * std::numbers::pi / 180};
+  if (arguments.angle != 0 && way != "rows") read.refuse(fmt::format("--angle: expected --way rows, found {}", way));
+  program.rows.has_even_scallops = arguments.spacing == "slope";
+  if (!program.rows.has_even_scallops) return;
+  if (!has_rows || arguments.angle != 0) {
+    read.refuse("--spacing slope: expected --way rows, columns or both, and no --angle");
+  }
+  const bool is_round = program.finish.cutter.corner.value() > 0;
+  if (!is_round) read.refuse("--spacing slope: expected a cutter with a round tip or corner: ball, bull or taper");
+}
+
 ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReading& read) {
   ReliefProgramOptions program;
   program.name = arguments.output.empty() ? "relief" : std::filesystem::path(arguments.output).filename().string();
@@ -113,7 +139,7 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
                 : arguments.way == "spiral"   ? FinishStrategy::spiral
                 : arguments.way == "contours" ? FinishStrategy::contours
                                               : FinishStrategy::rows;
-  program.steep = {arguments.steep * std::numbers::pi / 180};
+  program.rows.steep = {arguments.steep * std::numbers::pi / 180};
   program.arcs = arguments.moves == "arcs";
   if (!arguments.rough.empty()) {
     program.roughing =
@@ -132,15 +158,39 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
   program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
   program.overrun = read.perhaps("--overrun", arguments.overrun, Mm(0), Mm(200));
-  program.only_on_model = arguments.area == "model";
-  if (program.only_on_model && program.way == FinishStrategy::spiral) {
-    read.refuse("--area model: expected --way rows, columns, both or contours, found spiral");
+  program.area.only_on_model = arguments.area == "model";
+  const bool is_part = program.area.only_on_model || !arguments.within.empty();
+  if (is_part && program.way == FinishStrategy::spiral) {
+    read.refuse(fmt::format("{}: expected --way rows, columns, both or contours, found spiral",
+                            program.area.only_on_model ? "--area model" : "--within"));
   }
+  read_rows(arguments, program, read);
   program.ramps = arguments.entry == "ramp";
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   return program;
+}
+
+// The closed curves of a drawing, in program coordinates. Shows findings; then the answer is false.
+bool read_curves(const std::string& path, std::vector<std::vector<ReliefPoint>>& curves) {
+  if (path.empty()) return true;
+  Diagnostics findings;
+  const Drawing drawing = read_drawing(path, {}, findings);
+  constexpr Nanometres join{100'000};
+  const EdgeLoops loops = findings.any_error() ? EdgeLoops() : edge_loops(drawing, join, findings);
+  if (!findings.any_error() && loops.loops.empty()) {
+    findings.add(of_file("relief.no-curve", path, "there is no closed curve", "a drawing with closed curves"));
+  }
+  show(findings);
+  constexpr Nanometres tolerance{5'000};
+  for (const std::vector<PathPoint>& loop : loops.loops) {
+    std::vector<ReliefPoint>& curve = curves.emplace_back();
+    for (const DrawnPoint& point : chords_of_path(loop, true, tolerance)) {
+      curve.push_back({to_mm(point.x), to_mm(point.y)});
+    }
+  }
+  return !findings.any_error();
 }
 
 // A node must not be far apart for what the finest cutter can do.
@@ -151,6 +201,13 @@ Mm pitch_for(const ReliefProgramOptions& program) {
     return tool.step_over.value() > 0 ? std::min(fine, tool.step_over) : fine;
   };
   Mm pitch = of_tool(program.finish);
+  if (program.rows.has_even_scallops) {
+    // Rows are added midway between rows, three times at most.
+    const Cutter& cutter = program.finish.cutter;
+    const Mm step =
+        program.finish.step_over.value() > 0 ? program.finish.step_over : cutter.step_for_scallop(program.scallop);
+    pitch = std::min(pitch, (step.value() > 0 ? step : cutter.radius) / 8);
+  }
   if (program.rest) pitch = std::min(pitch, of_tool(program.rest->tool));
   return std::max(pitch, Mm(0.01));
 }
@@ -218,6 +275,30 @@ bool fits_memory(const ReliefProgramOptions& program, const HeightGrid& grid, co
   return false;
 }
 
+// Curves that lie beside the relief were probably drawn elsewhere.
+bool meet(const std::vector<std::vector<ReliefPoint>>& curves, const HeightGrid& grid,
+          const ReliefProgramOptions& program, const std::string& name, Diagnostics& findings) {
+  if (curves.empty()) return true;
+  ReliefPoint low = curves.front().front();
+  ReliefPoint high = low;
+  for (const std::vector<ReliefPoint>& curve : curves) {
+    for (const ReliefPoint& point : curve) {
+      low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+      high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+    }
+  }
+  const Mm right = program.x0 + grid.width();
+  const Mm top = program.y0 + grid.length();
+  if (high.x > program.x0 && low.x < right && high.y > program.y0 && low.y < top) return true;
+  findings.add(of_file(
+      "relief.no-curve", name,
+      fmt::format("the curves, X {:.4g} to {:.4g}, Y {:.4g} to {:.4g}, lie beside the relief", low.x.value(),
+                  high.x.value(), low.y.value(), high.y.value()),
+      fmt::format("curves in program coordinates; the relief reaches from X {:.4g} to {:.4g}, Y {:.4g} to {:.4g}",
+                  program.x0.value(), right.value(), program.y0.value(), top.value())));
+  return false;
+}
+
 struct ReliefGrid {
   HeightGrid grid;
   std::string words;  // what was read
@@ -226,8 +307,8 @@ struct ReliefGrid {
 
 std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const ReliefJob& job,
                                       Diagnostics& findings) {
-  const auto bytes =
-      read_bytes(arguments.file, {.area = "picture", .expected = "a PNG or TIFF picture, or an STL file"}, findings);
+  const auto bytes = read_bytes(
+      arguments.file, {.area = "picture", .expected = "a PNG, JPEG or TIFF picture, or an STL or 3MF file"}, findings);
   if (!bytes) return std::nullopt;
   ReliefShape shape = job.shape;
   shape.wished_pitch = pitch_for(job.program);
@@ -251,7 +332,7 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     const bool is_read = read.is_body || foreign.kind.empty() || foreign.kind == "a height map";
     if (!is_read) {
       findings.add(of_file("picture.unknown-kind", arguments.file, fmt::format("this is {}", foreign.kind),
-                           "a PNG or TIFF picture, an STL file or a height map x,y,z"));
+                           "a PNG, JPEG or TIFF picture, an STL or 3MF file or a height map x,y,z"));
       return std::nullopt;
     }
     SurfaceFaces faces = read_faces(arguments.file, *bytes, findings);
@@ -259,6 +340,11 @@ std::optional<ReliefGrid> read_relief(const CamReliefArguments& arguments, const
     if (!read.is_body && (arguments.up != "z" || arguments.input_units != "mm")) {
       findings.add(of_file("relief.bad-body", arguments.file, "a height map cannot be turned or scaled",
                            "--up and --input-units for a model only"));
+      return std::nullopt;
+    }
+    if (states_its_unit(*bytes) && arguments.input_units != "mm") {
+      findings.add(of_file("relief.bad-body", arguments.file, "a 3MF file states its unit",
+                           "no --input-units; --width scales the model"));
       return std::nullopt;
     }
     turn(arguments, faces.triangles);
@@ -345,6 +431,7 @@ int draw(const std::string& path, const std::string& bytes) {
 int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress) {
   NamedFiles files;
   files.reads("the file", arguments.file);
+  files.reads("--within", arguments.within);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart()) return exit_bad_program;
@@ -355,6 +442,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
     return fail(exit_bad_program,
                 fmt::format("--picture: expected a name that ends with .png, found '{}'", arguments.picture));
   }
+  if (!read_curves(arguments.within, job.program.area.within)) return exit_bad_program;
   Diagnostics findings;
   const std::optional<ReliefGrid> read = read_relief(arguments, job, findings);
   if (!read) {
@@ -371,6 +459,10 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   }
   place(arguments, read->grid, reading, job.program);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
+  if (!meet(job.program.area.within, read->grid, job.program, arguments.within, findings)) {
+    show(findings);
+    return exit_bad_program;
+  }
   const std::string what = std::filesystem::path(arguments.file).filename().string();
   job.program.words = {fmt::format("from {}: {}", what, read->words), grid_words(read->grid)};
 

@@ -39,7 +39,7 @@ std::string end_of_name(const std::string& path) {
 
 bool is_surface(const std::string& path) {
   const std::string end = end_of_name(path);
-  return end == ".stl" || end == ".csv" || end == ".xyz";
+  return end == ".stl" || end == ".3mf" || end == ".csv" || end == ".xyz";
 }
 
 bool is_image(const std::string& path) {
@@ -51,7 +51,7 @@ bool is_image(const std::string& path) {
 std::string refusal_of(const SimulateArguments& arguments) {
   if (is_image(arguments.compare)) {
     return "--compare: " + arguments.compare +
-           " is an image; expected a model (.stl), a height map (.csv) or a program";
+           " is an image; expected a model (.stl, .3mf), a height map (.csv) or a program";
   }
   for (const std::string& picture : arguments.pictures) {
     if (std::string why = refuse_picture(picture); !why.empty()) return why;
@@ -99,7 +99,7 @@ std::optional<CutTarget> read_target(const SimulateArguments& arguments, const W
   Diagnostics findings;
   if (is_surface(arguments.compare)) {
     const auto bytes =
-        read_bytes(arguments.compare, {.area = "surface", .expected = "an STL file or a height map"}, findings);
+        read_bytes(arguments.compare, {.area = "surface", .expected = "an STL or 3MF file or a height map"}, findings);
     SurfaceFaces faces = bytes ? read_faces(arguments.compare, *bytes, findings) : SurfaceFaces();
     show(findings);
     if (findings.any_error()) return std::nullopt;

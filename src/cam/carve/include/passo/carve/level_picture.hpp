@@ -5,7 +5,8 @@
 // colour. Rows are in file order, from top to bottom. For a TIFF file, the first picture is read; signed or
 // floating-point heights are scaled so that they range from black to white. Errors are diagnostics "picture.…".
 //
-// Sources: Portable Network Graphics, W3C, 3rd edition (read by libpng); TIFF, Revision 6.0.
+// Sources: Portable Network Graphics, W3C, 3rd edition (read by libpng); ITU-T T.81, JPEG (read by
+// libjpeg-turbo); TIFF, Revision 6.0.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +37,7 @@ struct LevelPicture {
 LevelPicture read_level_picture(const std::string& name, std::string_view bytes, PixelLevel level,
                                 Diagnostics& diagnostics);
 
-// Returns whether these are the first bytes of a supported picture format: PNG or TIFF.
+// Returns whether these are the first bytes of a supported picture format: PNG, JPEG or TIFF.
 bool is_level_picture(std::string_view bytes);
 
 // Encodes R, G, B bytes per pixel, row by row from the top, as a PNG. Empty on failure.

@@ -30,6 +30,15 @@ enum class FinishStrategy : std::uint8_t { rows, columns, both, spiral, contours
 // The roughing strategy: rows, or offsets of the area that a level removes, from the inside outwards.
 enum class RoughStrategy : std::uint8_t { rows, offsets };
 
+// The direction in which rows are cut: there and back in turn, or always so that a clockwise spindle climb mills or
+// mills conventionally.
+enum class RowDirection : std::uint8_t { there_and_back, climb, conventional };
+
+struct ReliefPoint {
+  Mm x{};
+  Mm y{};
+};
+
 struct ReliefTool {
   Cutter cutter = {};
   Mm step_over{0};  // stepover; 0: derived from `scallop`
@@ -53,13 +62,34 @@ struct ReliefRest {
   Mm least{0.02};  // maximum material that the finishing cutter may leave without rest finishing
 };
 
+// The finishing rows.
+struct ReliefRows {
+  Radians steep{0.785398};  // slope above which contours take their place, if there are contours: 45 degrees
+  RowDirection direction = RowDirection::there_and_back;
+  Radians angle{0};  // from X, counterclockwise; not for columns
+  // Adds rows on slopes, so that ridges are nowhere higher than the scallop height. For cutters with a round tip; not
+  // for rows at an angle.
+  bool has_even_scallops = false;
+};
+
+// The part of the surface that is cut. Not for spirals.
+struct ReliefArea {
+  // Only where a cutter touches material of the model above the floor, and one stepover around it.
+  bool only_on_model = false;
+  // The tips stay within these closed curves, in program coordinates; a curve within a curve is a hole. Empty:
+  // everywhere.
+  std::vector<std::vector<ReliefPoint>> within = {};
+
+  bool is_all() const { return !only_on_model && within.empty(); }
+};
+
 struct ReliefProgramOptions {
   std::string name = {};                // program name, for the first comment
   std::vector<std::string> words = {};  // additional comments
   ReliefTool finish = {};
   FinishStrategy way = FinishStrategy::rows;
-  Radians steep{0.785398};  // slope limit of contours: 45 degrees
-  bool arcs = true;         // use arcs where they save lines
+  bool arcs = true;  // use arcs where they save lines
+  ReliefRows rows = {};
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
   Mm scallop{0.02};                           // scallop height between two rows on a flat area, if no stepover is given
@@ -73,9 +103,7 @@ struct ReliefProgramOptions {
   // Empty: the finishing cutter's radius; for the roughing cutter at least its own radius.
   std::optional<Mm> overrun = {};
   BesideGrid beside = BesideGrid::goes_on;
-  // Cuts only where a cutter touches material of the model above the floor, and one stepover around it. Not for
-  // spirals.
-  bool only_on_model = false;
+  ReliefArea area = {};
   unsigned threads = 1;  // at least 1
 };
 

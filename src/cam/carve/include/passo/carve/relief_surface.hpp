@@ -22,13 +22,18 @@ struct ReliefShape {
   std::optional<Mm> width = {};   // size in X; if `length` is empty, the aspect ratio is kept
   std::optional<Mm> length = {};  // size in Y
   std::optional<Mm> depth = {};   // depth of black; for a model its height. Empty: 3 mm, or the model's own height
-  double gamma = 1;               // height = level^gamma
-  bool invert = false;            // black is at the top
-  bool mirror = false;            // swaps left and right, as for a stamp
-  Mm margin{0};                   // width of a flat border
-  bool margin_at_top = false;     // the border stays at the top; otherwise it is cut down to the depth
-  std::optional<Mm> pitch = {};   // for a model: the sample distance; for a picture: the maximum distance of nodes, by
-                                  // interpolation
+  // Nothing is lower than this distance below the top; heights are cut off there, not scaled.
+  std::optional<Mm> lowest = {};
+  double gamma = 1;  // height = level^gamma
+  Mm smooth{0};      // for a picture: standard deviation of the Gaussian by which it is smoothed
+  // For a picture: what is darker, as a fraction of white, stays at the top.
+  double background = 0;
+  bool invert = false;           // black is at the top
+  bool mirror = false;           // swaps left and right, as for a stamp
+  Mm margin{0};                  // width of a flat border
+  bool margin_at_top = false;    // the border stays at the top; otherwise it is cut down to the depth
+  std::optional<Mm> pitch = {};  // for a model: the sample distance; for a picture: the maximum distance of nodes, by
+                                 // interpolation
   // The maximum spacing of the nodes if `pitch` is empty, unless that needs more than `most_fine_nodes` nodes. A model
   // gets at least 1,400 nodes along its longest side, but none closer than `finest_pitch`.
   std::optional<Mm> wished_pitch = {};

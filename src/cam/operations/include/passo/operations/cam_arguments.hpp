@@ -195,10 +195,14 @@ struct CamReliefArguments {
   std::string width;    // empty: derived from `length`, otherwise 100 mm or the size of the model
   std::string length;
   std::string depth;               // a negative Z; empty: 3 mm below the top, or the height of the model
+  std::string lowest_z;            // a negative Z below which nothing is cut; empty: the depth
   std::string up = "z";            // axis of the model that points up: z, -z, x, -x, y or -y
   std::string input_units = "mm";  // unit of the model: mm, cm, m or inch
   std::string area = "all";        // or model: only where the model stands
+  std::string within;              // a drawing: the tips stay within its closed curves; empty: everywhere
   double gamma = 1;
+  std::string smooth = "0mm";  // radius of the smoothing of a picture
+  double background = 0;       // percent; darker parts of a picture are not carved
   bool invert = false;
   bool mirror = false;
   std::string channel = "luminance";  // or alpha
@@ -207,10 +211,13 @@ struct CamReliefArguments {
   std::string pitch;                    // empty: as fine as the cutters require
   std::string origin = "lower-left";    // a corner, center or X,Y
   std::string cutter = "ball:3";
-  std::string way = "rows";    // columns, both, spiral or contours
-  double steep = 45;           // degrees; slope limit of contours
-  std::string moves = "arcs";  // or lines
-  std::string step;            // stepover; empty: derived from `scallop`
+  std::string way = "rows";      // columns, both, spiral or contours
+  double angle = 0;              // degrees; of rows, from X
+  std::string one_way = "no";    // or climb, conventional
+  std::string spacing = "even";  // or slope: closer rows on slopes
+  double steep = 45;             // degrees; slope limit of contours
+  std::string moves = "arcs";    // or lines
+  std::string step;              // stepover; empty: derived from `scallop`
   std::string scallop = "0.02mm";
   std::string tolerance = "0.01mm";
   std::string clearance = "5mm";

@@ -1,11 +1,11 @@
-// read_surface: reads a Surface from a file: a model (STL, text or binary) or a height map (CSV). The format is
+// read_surface: reads a Surface from a file: a model (STL, text or binary, or 3MF) or a height map (CSV). The format is
 // detected from the contents.
 //
 // A height map has a line x,y,z for each point of a grid. Between the points its surface is that of HeightMap
 // (levelling/height_map.hpp), so a program that is levelled by a map fits the surface of that map.
 //
-// Files are in millimetres. Limits apply to the file size, the number of triangles and the coordinates. Errors are
-// diagnostics "surface.…".
+// STL files and height maps are in millimetres; a 3MF file states its unit. Limits apply to the file size, the number
+// of triangles and the coordinates. Errors are diagnostics "surface.…".
 #pragma once
 
 #include <cstddef>
@@ -39,10 +39,12 @@ SurfaceFaces read_faces(const std::string& name, std::string_view bytes, Diagnos
 // Returns the number of edges that do not belong to two triangles (or four, six…). 0: the model is closed.
 std::size_t open_edges(const std::vector<SurfaceTriangle>& triangles);
 
-// Reads the triangles of a model (STL). Reports errors in `diagnostics`, also for other file formats.
+// Reads the triangles of a model (STL or 3MF). Reports errors in `diagnostics`, also for other file formats.
 std::vector<SurfaceTriangle> read_triangles(const std::string& path, Diagnostics& diagnostics);
 
-// Returns whether the bytes are a model (STL) rather than a height map.
+// Returns whether the bytes are a model (STL or 3MF) rather than a height map.
 bool looks_like_body(std::string_view bytes);
+// Returns whether the format of this model states a unit (3MF).
+bool states_its_unit(std::string_view bytes);
 
 }  // namespace passo
