@@ -122,8 +122,9 @@ bool AirfoilReader::smooth() {
   // Points that begin elsewhere are turned, so that they begin and end there.
   if (most != points_.begin() && points_.back().x < most->x && points_.front().x < most->x) {
     if (is_same(points_.front(), points_.back())) points_.pop_back();
-    std::rotate(points_.begin(), std::max_element(points_.begin(), points_.end(),
-                                                  [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; }),
+    std::rotate(points_.begin(),
+                std::max_element(points_.begin(), points_.end(),
+                                 [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; }),
                 points_.end());
     points_.push_back(points_.front());
   }

@@ -156,8 +156,8 @@ bool GerberPlotter::find_arc(DrawnPoint to, const ArcWords& words, GerberArc& ar
   const Offset start = offset_of(at_);
   arc = {at_, to, {start.x + words.ij.x, start.y + words.ij.y}, 0};
   const double angle = angle_at(at_, arc.centre);
-  arc.sweep =
-      at_ == to ? (counterclockwise ? 2 * pi : -2 * pi) : sweep_between(angle, angle_at(to, arc.centre), counterclockwise);
+  arc.sweep = at_ == to ? (counterclockwise ? 2 * pi : -2 * pi)
+                        : sweep_between(angle, angle_at(to, arc.centre), counterclockwise);
   const double off = std::abs(radius_at(at_, arc.centre) - radius_at(to, arc.centre));
   constexpr double noticed = 10'000;  // nm: more than coordinates are rounded
   if (off > noticed)

@@ -49,7 +49,8 @@ PieceEnds directions_of(const PathPoint& from, const PathPoint& to) {
   const double lean = sweep_of(from.bulge) / 2;
   const double c = std::cos(lean) / length;
   const double s = std::sin(lean) / length;
-  return {{chord.x * c + chord.y * s, chord.y * c - chord.x * s}, {chord.x * c - chord.y * s, chord.y * c + chord.x * s}};
+  return {{chord.x * c + chord.y * s, chord.y * c - chord.x * s},
+          {chord.x * c - chord.y * s, chord.y * c + chord.x * s}};
 }
 
 class PlotPlanner {

@@ -51,7 +51,8 @@ class StrokeJoiner {
     const bool is_ahead = piece.from == whole.to;
     if (!is_ahead) std::ranges::reverse(piece.points);
     for (const MillPoint& point : piece.points) {
-      const bool is_same = !whole.points.empty() && whole.points.back().at == point.at && whole.points.back().z == point.z;
+      const bool is_same =
+          !whole.points.empty() && whole.points.back().at == point.at && whole.points.back().z == point.z;
       if (!is_same) whole.points.push_back(point);
     }
     whole.to = is_ahead ? piece.to : piece.from;
@@ -81,7 +82,8 @@ class PieceFitter {
   }
 
  private:
-  // Each piece is proved of all its points, so their number is found by leaps: twice as far each time, then half as far.
+  // Each piece is proved of all its points, so their number is found by leaps: twice as far each time, then half as
+  // far.
   template <class Piece>
   FittedPiece longest_of(std::size_t first, std::size_t fewest, Piece piece_to) const {
     FittedPiece found{first + 1, 0};
@@ -100,9 +102,7 @@ class PieceFitter {
   }
 
   double height(std::size_t i) const { return static_cast<double>(points_[i].z.count); }
-  bool is_near(double off_xy, double off_z) const {
-    return off_xy + fit_.slope * std::abs(off_z) <= fit_.tolerance_nm;
-  }
+  bool is_near(double off_xy, double off_z) const { return off_xy + fit_.slope * std::abs(off_z) <= fit_.tolerance_nm; }
   // Along a piece the cutter moves ahead, as along the points.
   std::optional<FittedPiece> line_to(std::size_t first, std::size_t last) const;
   std::optional<FittedPiece> arc_to(std::size_t first, std::size_t last) const;

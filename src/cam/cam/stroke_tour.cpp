@@ -132,8 +132,8 @@ void ReturnChooser::find_costs(std::size_t node) {
       for (std::size_t ends = 0; ends <= most_free_ends; ++ends) {
         for (std::size_t twice = 0; twice < 2; ++twice) {
           for (std::size_t of_child = 0; ends + of_child <= most_free_ends; ++of_child) {
-            const double cost = sum[odd][ends] + nodes_[child].costs[twice][of_child] +
-                                static_cast<double>(twice) * lengths_[stroke];
+            const double cost =
+                sum[odd][ends] + nodes_[child].costs[twice][of_child] + static_cast<double>(twice) * lengths_[stroke];
             double& best = next[odd ^ twice][ends + of_child];
             if (cost >= best) continue;
             best = cost;
@@ -232,7 +232,7 @@ class StrokeTourist {
 
   const std::vector<CutterStroke>& strokes_;
   const StrokeTour& tour_;
-  std::vector<std::vector<std::size_t>> at_node_;   // strokes
+  std::vector<std::vector<std::size_t>> at_node_;  // strokes
   std::vector<TourStep> steps_;
   std::vector<std::vector<std::size_t>> steps_at_;  // by node
   std::vector<bool> is_gone_;                       // steps

@@ -21,7 +21,8 @@ struct StrokeTour {
   double lift_nm = 0;  // length of a return that takes as long as a lift
 };
 
-// Returns the runs; those of connected strokes follow each other. `nodes`: number of nodes; all node indices are smaller.
+// Returns the runs; those of connected strokes follow each other. `nodes`: number of nodes; all node indices are
+// smaller.
 std::vector<MillRun> tour_strokes(const std::vector<CutterStroke>& strokes, std::size_t nodes, const StrokeTour& tour);
 
 }  // namespace passo

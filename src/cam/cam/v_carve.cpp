@@ -149,8 +149,7 @@ void VCarvePlanner::clip(const MedialPiece& piece) {
 }
 
 // A branch ends at a corner of the floor. There the ring goes through its end, so that the cutter stays down.
-void VCarvePlanner::add_floor_ring(const DrawnRing& ring,
-                                   const std::vector<std::pair<DrawnPoint, std::size_t>>& ends) {
+void VCarvePlanner::add_floor_ring(const DrawnRing& ring, const std::vector<std::pair<DrawnPoint, std::size_t>>& ends) {
   constexpr Nanometres reach{12'000};
   constexpr std::size_t no_node = static_cast<std::size_t>(-1);
   MillRun points;
@@ -159,7 +158,8 @@ void VCarvePlanner::add_floor_ring(const DrawnRing& ring,
   for (std::size_t i = 0; i < ring.size(); ++i) {
     points.push_back({ring[i], 0, plan_.floor_z});
     double nearest = static_cast<double>(reach.count);
-    const auto from = std::ranges::lower_bound(ends, ring[i].x - reach, {}, [](const auto& end) { return end.first.x; });
+    const auto from =
+        std::ranges::lower_bound(ends, ring[i].x - reach, {}, [](const auto& end) { return end.first.x; });
     for (auto end = from; end != ends.end() && end->first.x < ring[i].x + reach; ++end) {
       const double away = distance_nm(end->first, ring[i]);
       if (away > nearest || (i > 0 && points[i - 1].at == end->first)) continue;

@@ -1,8 +1,10 @@
 #include "passo/cam/wire_core.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "flat_vector.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/edge_loops.hpp"
@@ -12,6 +14,42 @@ namespace passo {
 namespace {
 
 constexpr Nanometres core_chords{500};
+
+// Leaves out what is almost in line: an offset has corners whose edges are so short that their directions mean nothing.
+// Source: D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points (1973).
+DrawnRing without_tiny_edges(DrawnRing ring) {
+  constexpr double least_nm = 2'000;
+  // From the point of greatest X around to the same point.
+  const auto first = std::ranges::max_element(ring, {}, &DrawnPoint::x);
+  std::rotate(ring.begin(), first, ring.end());
+  ring.push_back(ring.front());
+  std::vector<bool> is_kept(ring.size(), false);
+  std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, ring.size() - 1}};
+  while (!parts.empty()) {
+    const auto [from, to] = parts.back();
+    parts.pop_back();
+    is_kept[from] = true;
+    const FlatVector chord = from_to(ring[from], ring[to]);
+    const double length = std::hypot(chord.x, chord.y);
+    double farthest = least_nm;
+    std::size_t middle = from;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const FlatVector at = from_to(ring[from], ring[i]);
+      const double off = length > 0 ? std::abs(cross(chord, at)) / length : std::hypot(at.x, at.y);
+      if (off <= farthest) continue;
+      farthest = off;
+      middle = i;
+    }
+    if (middle == from) continue;
+    parts.emplace_back(from, middle);
+    parts.emplace_back(middle, to);
+  }
+  DrawnRing kept;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    if (is_kept[i]) kept.push_back(ring[i]);
+  }
+  return kept;
+}
 
 class CoreMaker {
  public:
@@ -31,7 +69,7 @@ class CoreMaker {
       if (!cut(spar)) return std::nullopt;
     }
     WireProfile profile;
-    for (const DrawnPoint& at : foam_.rings.front()) profile.points.push_back({at, 0});
+    for (const DrawnPoint& at : without_tiny_edges(foam_.rings.front())) profile.points.push_back({at, 0});
     return profile;
   }
 

@@ -85,10 +85,11 @@ std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
   };
 }
 
-std::vector<CamOption> trace_rows(CamEngraveArguments& a) {
+std::vector<CamOption> trace_rows(CamTraceArguments& a) {
   using enum CamKind;
   return {
-      {"trace", &a.trace, flag, "the files are pictures (PNG or TIFF): trace the outlines of their dark areas (potrace)"},
+      {"trace", &a.trace, flag,
+       "the files are pictures (PNG or TIFF): trace the outlines of their dark areas (potrace)"},
       {"threshold",
        &a.threshold,
        percent,
@@ -133,7 +134,8 @@ std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
 std::vector<CamOption> cam_options_of(CamEngraveArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or HPGL; closed contours are carved out. With --trace: pictures"}},
+      {{"FILE", &a.files, drawings,
+        "drawings: SVG, DXF or HPGL; closed contours are carved out. With --trace: pictures"}},
       letter_rows(a),
       trace_rows(a),
       carving_rows(a),

@@ -35,8 +35,8 @@ std::vector<CamOption> cam_options_of(CamWireArguments& a) {
       {"chord", &a.chord, length, "chord of an airfoil: one length, or LEFT,RIGHT"},
       {"skin", &a.skin, length, "thickness of the skin that is glued onto the core: the foam is smaller by it"},
       {"spar", &a.spars, text,
-       "AT,WIDTH,DEPTH or AT,WIDTH,DEPTH,below: slot for a spar, from above or below; AT is the X of its middle or % of "
-       "the chord, for both sides or LEFT:RIGHT; can be repeated"},
+       "AT,WIDTH,DEPTH[,below]: slot for a spar; AT: X of its middle, or % of the chord, or LEFT:RIGHT; can be "
+       "repeated"},
       {"straight", &a.straight, flag, "straight lines between the points of an airfoil, instead of a smooth curve",
        experts_only},
       {"right-at", &a.right_at, length, "X,Y: offset of the right profile"},

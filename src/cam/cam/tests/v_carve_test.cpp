@@ -203,7 +203,8 @@ double milled_mm(const VCarvePlan& plan) {
 TEST(VCarve, stays_down_in_all_that_hangs_together) {
   PathPoints comb = {corner(0, 0)};
   for (int tooth = 0; tooth < 5; ++tooth) {
-    for (const PathPoint& point : {corner(4 * tooth + 3, 0), corner(4 * tooth + 3, 6 + tooth % 2), corner(4 * tooth + 4, 6)}) {
+    for (const PathPoint& point :
+         {corner(4 * tooth + 3, 0), corner(4 * tooth + 3, 6 + tooth % 2), corner(4 * tooth + 4, 6)}) {
       comb.push_back(point);
     }
     comb.push_back(corner(4 * tooth + 4, 0));
@@ -262,7 +263,8 @@ TEST(VCarve, returns_and_lifts_are_as_short_as_possible) {
 TEST(VCarve, descends_along_the_way_no_faster_than_it_plunges) {
   const Region area = enclosed_by({test::box(0, 0, 10, 4)});
   const Carved result = carved(area, {.angle_degrees = 30, .widest = to_nanometres(Mm(10))});
-  const std::string program = write_mill_program(result.plan.mill, {.feed = {300'000'000}, .plunge_feed = {70'000'000}});
+  const std::string program =
+      write_mill_program(result.plan.mill, {.feed = {300'000'000}, .plunge_feed = {70'000'000}});
   double at[3] = {0, 0, 0};
   double feed = 0;
   int descents = 0;

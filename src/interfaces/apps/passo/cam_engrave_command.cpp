@@ -138,10 +138,10 @@ EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& j
 // The outlines of pictures, as one drawing.
 std::optional<Drawing> traced(const CamEngraveArguments& arguments) {
   LengthArguments lengths(*mm_of_unit(arguments.units));
-  const TraceOptions options{.threshold = arguments.threshold / 100,
-                             .invert = arguments.invert,
-                             .turdsize = static_cast<std::uint32_t>(arguments.turdsize),
-                             .width = to_mm(lengths.above_0("--width", arguments.width))};
+  const PictureTraceOptions options{.threshold = arguments.threshold / 100,
+                                    .invert = arguments.invert,
+                                    .turdsize = static_cast<std::uint32_t>(arguments.turdsize),
+                                    .width = to_mm(lengths.above_0("--width", arguments.width))};
   constexpr Mm widest(4000);
   if (options.width > widest) lengths.refuse("--width: expected at most 4 m");
   if (!lengths.message().empty()) {

@@ -86,15 +86,20 @@ int draw_plot(const CamPlotArguments& arguments, const MillJob& job, const PlotP
                         .mark_name = "Dot",
                         .park = job.program.park,
                         .sheet = job.sheet};
-  return write_picture(
-      arguments.picture, job.program.name,
-      [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+  return write_picture(arguments.picture, job.program.name, [&](const PictureOptions& picture, OutputFile& file) {
+    return draw_mill_plan(scene, picture, file);
+  });
 }
 
-// The lines as thin areas.
+// The lines as thin areas. Those of a large plot would take longer than all the rest; the pen's way shows them, too.
 Region drawn_of(const EdgeLoops& lines) {
   constexpr Nanometres thin{100'000};
   constexpr Nanometres tolerance{10'000};
+  constexpr std::size_t most_points = 20'000;
+  std::size_t points = 0;
+  for (const auto& line : lines.open) points += line.size();
+  for (const auto& line : lines.loops) points += line.size();
+  if (points > most_points) return {};
   std::vector<DrawnRing> rows;
   for (const auto& line : lines.open) rows.push_back(chords_of_path(line, false, tolerance));
   for (const auto& line : lines.loops) {
@@ -138,8 +143,8 @@ int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress) {
   const double drawn = plan.drawn_nm / nanometres_per_mm;
   const double travel = plan.travel_nm / nanometres_per_mm;
   if (arguments.json) {
-    const nlohmann::ordered_json json = {{"closed", plan.closed}, {"open", plan.open},      {"dots", plan.dots},
-                                         {"drawn_mm", drawn},     {"travel_mm", travel}};
+    const nlohmann::ordered_json json = {
+        {"closed", plan.closed}, {"open", plan.open}, {"dots", plan.dots}, {"drawn_mm", drawn}, {"travel_mm", travel}};
     fmt::print("{}\n", json.dump(2));
   } else if (!arguments.output.empty() && arguments.output != "-") {
     fmt::print("{}, {} and {}: {:.1f} mm drawn, {:.1f} mm of travels\n{}", counted(plan.closed, "closed line"),

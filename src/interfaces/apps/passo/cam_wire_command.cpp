@@ -21,7 +21,7 @@ namespace {
 
 // Where a spar is in one profile.
 struct SparPlace {
-  Nanometres x{};      // if there are no percent
+  Nanometres x{};                    // if there are no percent
   std::optional<double> share = {};  // of the width of the profile, from 0 to 1
 };
 struct SparArgument {
@@ -50,7 +50,8 @@ SparArgument spar_of(const std::string& text, LengthArguments& lengths) {
   SparArgument argument;
   argument.spar.is_below = words.size() == 4 && words[3] == "below";
   if (words.size() != 3 && !argument.spar.is_below) {
-    lengths.refuse(fmt::format("--spar: expected AT,WIDTH,DEPTH or AT,WIDTH,DEPTH,below, e.g. 30%,6,8, found '{}'", text));
+    lengths.refuse(
+        fmt::format("--spar: expected AT,WIDTH,DEPTH or AT,WIDTH,DEPTH,below, e.g. 30%,6,8, found '{}'", text));
     return argument;
   }
   const std::size_t colon = words[0].find(':');
@@ -101,7 +102,8 @@ void choose_core(const CamWireArguments& arguments, WireJob& job, LengthArgument
     job.spars.push_back(spar_of(text, lengths));
     const double kerf = kerf_at(job.cut.kerf, job.cut.feed);
     if (lengths.message().empty() && to_mm(job.spars.back().spar.width).value() <= kerf) {
-      lengths.refuse(fmt::format("--spar: the wire melts {:.3g} mm, so expected a wider slot than in '{}'", kerf, text));
+      lengths.refuse(
+          fmt::format("--spar: the wire melts {:.3g} mm, so expected a wider slot than in '{}'", kerf, text));
     }
   }
   if (job.cut.keeps != WireKeeps::inside && (job.skin.count > 0 || !job.spars.empty())) {

@@ -25,7 +25,7 @@ constexpr int white = 65'535;
 
 // A picture with one bit for each pixel (PBM). A dark pixel is 1.
 std::string bitmap_of(const LevelPicture& picture, const std::vector<std::uint16_t>& alphas,
-                      const TraceOptions& options) {
+                      const PictureTraceOptions& options) {
   std::string bitmap = fmt::format("P4\n{} {}\n", picture.columns, picture.rows);
   const double threshold = options.threshold * white;
   const std::size_t bytes = (picture.columns + 7) / 8;
@@ -45,7 +45,7 @@ std::string bitmap_of(const LevelPicture& picture, const std::vector<std::uint16
 
 class PictureTracer {
  public:
-  PictureTracer(const std::string& path, const TraceOptions& options, Diagnostics& diagnostics)
+  PictureTracer(const std::string& path, const PictureTraceOptions& options, Diagnostics& diagnostics)
       : path_(path), options_(options), diagnostics_(diagnostics) {}
 
   Drawing trace() {
@@ -68,7 +68,7 @@ class PictureTracer {
   std::optional<std::string> run_potrace(const std::string& bitmap);
 
   const std::string& path_;
-  const TraceOptions& options_;
+  const PictureTraceOptions& options_;
   Diagnostics& diagnostics_;
 };
 
@@ -130,7 +130,7 @@ std::optional<std::string> PictureTracer::run_potrace(const std::string& bitmap)
 
 }  // namespace
 
-Drawing trace_picture(const std::string& path, const TraceOptions& options, Diagnostics& diagnostics) {
+Drawing trace_picture(const std::string& path, const PictureTraceOptions& options, Diagnostics& diagnostics) {
   return PictureTracer(path, options, diagnostics).trace();
 }
 

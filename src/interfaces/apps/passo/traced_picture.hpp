@@ -15,15 +15,15 @@ namespace passo {
 
 inline constexpr std::size_t most_traced_pixels = std::size_t{16} * 1024 * 1024;
 
-struct TraceOptions {
-  double threshold = 0.5;  // brightness below which a pixel is dark, from 0 to 1; transparent pixels are white
-  bool invert = false;     // traces the bright areas instead
+struct PictureTraceOptions {
+  double threshold = 0.5;      // brightness below which a pixel is dark, from 0 to 1; transparent pixels are white
+  bool invert = false;         // traces the bright areas instead
   std::uint32_t turdsize = 2;  // spots of at most so many pixels are ignored
-  Mm width{100};           // of the picture
+  Mm width{100};               // of the picture
 };
 
 // Reads a PNG or TIFF file and traces it: closed outlines, with the picture's lower left corner at X0 Y0. Reports
 // errors in `diagnostics`: "trace.…", "picture.…" and those of read_svg().
-Drawing trace_picture(const std::string& path, const TraceOptions& options, Diagnostics& diagnostics);
+Drawing trace_picture(const std::string& path, const PictureTraceOptions& options, Diagnostics& diagnostics);
 
 }  // namespace passo

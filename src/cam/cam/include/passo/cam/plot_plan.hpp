@@ -18,10 +18,10 @@
 namespace passo {
 
 struct PlotOptions {
-  Nanometres knife{};              // distance from the axis to the blade's tip; 0: a pen
-  double swivel_degrees = 20;      // at corners that turn by more, the blade swivels on an arc
-  Nanometres overcut{};            // how far a closed line is cut beyond its start; only with a knife
-  DrawnPoint park = {};            // where the travels begin and end
+  Nanometres knife{};                      // distance from the axis to the blade's tip; 0: a pen
+  double swivel_degrees = 20;              // at corners that turn by more, the blade swivels on an arc
+  Nanometres overcut{};                    // how far a closed line is cut beyond its start; only with a knife
+  DrawnPoint park = {};                    // where the travels begin and end
   std::uint64_t route_steps = 20'000'000;  // maximum number of steps of shorten_route()
 };
 

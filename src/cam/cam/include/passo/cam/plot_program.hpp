@@ -29,9 +29,9 @@ struct PlotProgramOptions {
   std::optional<PenServo> servo = {};  // empty: Z moves the pen
   Nanometres up{3'000'000};
   Nanometres down{};
-  Nanometres feed{1'500'000'000};        // drawing feed, nm/min
-  Nanometres plunge_feed{600'000'000};   // feed of the pen's descent, nm/min
-  double dot_seconds = 0.1;              // how long the pen stays down at a dot
+  Nanometres feed{1'500'000'000};       // drawing feed, nm/min
+  Nanometres plunge_feed{600'000'000};  // feed of the pen's descent, nm/min
+  double dot_seconds = 0.1;             // how long the pen stays down at a dot
   DrawnPoint park = {};
 };
 

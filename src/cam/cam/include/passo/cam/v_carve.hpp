@@ -40,7 +40,7 @@ struct VCarveOptions {
   Nanometres tolerance{2'000};   // tolerance of curves, in depth and in XY
   Nanometres fit{4'000};         // how far lines and arcs may leave the curves, across their walls
   Nanometres longest_return{20'000'000};  // length of a return in a groove that takes as long as a lift
-  std::string words = {};        // tool name for the operator
+  std::string words = {};                 // tool name for the operator
   DrawnPoint park = {};
 };
 

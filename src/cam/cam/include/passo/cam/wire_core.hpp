@@ -1,4 +1,5 @@
-// wire_core: makes the foam core of a wing from its section: smaller by the skin that is glued on, with slots for spars.
+// wire_core: makes the foam core of a wing from its section: smaller by the skin that is glued on, with slots for
+// spars.
 //
 // A slot is a rectangle, open upwards or downwards. Its depth is measured from the surface of the core at the middle of
 // the slot. The wire cuts it on its way around the section, so it is at least as wide as the kerf.
@@ -13,9 +14,9 @@
 namespace passo {
 
 struct WireSpar {
-  Nanometres at{};     // X of its middle
-  Nanometres width{};  // above 0
-  Nanometres depth{};  // above 0
+  Nanometres at{};        // X of its middle
+  Nanometres width{};     // above 0
+  Nanometres depth{};     // above 0
   bool is_below = false;  // whether it is open downwards
 };
 
