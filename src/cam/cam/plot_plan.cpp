@@ -223,8 +223,7 @@ std::vector<DrawnPoint> take_dots(Drawing& drawing) {
   }
   std::erase_if(drawing.paths, is_dot);
   std::ranges::sort(dots);
-  const auto again = std::ranges::unique(dots);
-  dots.erase(again.begin(), again.end());
+  dots.erase(std::unique(dots.begin(), dots.end()), dots.end());
   return dots;
 }
 
