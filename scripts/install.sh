@@ -54,6 +54,7 @@ test_packages=(
   mosquitto                  # a broker for the tests of passo serve --mqtt
   bcnc xvfb xdotool imagemagick  # a sender, its screen, its keys and its pictures, for the tests of passo serve
   python3-ezdxf librecad-data openscad-testing-data  # reads DXF drawings beside passo's reader; 1,368 drawings
+  potrace                    # traces pictures for passo cam engrave --trace
   jq                         # the table of scripts/motion_table.sh
   curl netcat-openbsd        # a web page's request to the sender port of passo serve
   chromium                   # the stories of the page of passo serve

@@ -1,6 +1,11 @@
 // passo cam profile and passo cam pocket, as a user starts them: from a drawing to a program that a machine can run.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -98,6 +103,79 @@ TEST_F(CamPart, lines_of_letters_and_plots_are_followed) {
   EXPECT_THAT(passo("cam engrave --text A --arc 90 --around 9").err, HasSubstr("--arc: expected FROM,TO"));
 }
 
+// A grey TIFF picture without compression, of one strip. It is bright beyond 200 pixels.
+std::string grey_tiff(unsigned columns, unsigned rows, const std::function<bool(unsigned, unsigned)>& is_dark) {
+  std::string bytes = "II";
+  const auto add = [&](unsigned value, int count) {
+    for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFF);
+  };
+  add(42, 2);
+  add(8, 4);
+  constexpr unsigned entries = 8;
+  const unsigned pixels_at = 8 + 2 + 12 * entries + 4;
+  add(entries, 2);
+  const std::pair<unsigned, unsigned> tags[entries] = {
+      {256, columns}, {257, rows}, {258, 8}, {259, 1}, {262, 1}, {273, pixels_at}, {278, rows}, {279, columns * rows}};
+  for (const auto& [tag, value] : tags) {
+    add(tag, 2);
+    add(4, 2);
+    add(1, 4);
+    add(value, 4);
+  }
+  add(0, 4);
+  bytes.resize(pixels_at + columns * rows, '\xF0');
+  for (unsigned row = 0; row < std::min(rows, 200U); ++row) {
+    for (unsigned column = 0; column < std::min(columns, 200U); ++column) {
+      if (is_dark(column, row)) bytes[pixels_at + row * columns + column] = '\x10';
+    }
+  }
+  return bytes;
+}
+
+TEST_F(CamPart, the_dark_areas_of_a_picture_are_traced_and_carved) {
+  const auto in_disc = [](unsigned x, unsigned y) { return std::hypot(x + 0.5 - 100, y + 0.5 - 60) < 50; };
+  const std::string picture = write("disc.tif", grey_tiff(200, 120, in_disc));
+  const std::string trace = "cam engrave " + picture + " --angle 90 --tool 40 --width 40 --json -o " + path("d.ngc");
+  EXPECT_EQ(passo(trace).code, 2) << "a picture is no drawing";
+  const Outcome made = passo(trace + " --trace");
+  if (made.err.find("potrace: not found; apt install potrace") != std::string::npos) {
+    EXPECT_EQ(made.code, 2);
+    EXPECT_THAT(made.err, HasSubstr("[trace.no-potrace]"));
+    GTEST_SKIP() << "potrace is not installed";
+  }
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto json = nlohmann::json::parse(made.out);
+  EXPECT_NEAR(json["area_mm2"], M_PI * 10 * 10, 4);
+  EXPECT_NEAR(json["deepest_mm"], -10, 0.1);
+  const auto inverted = nlohmann::json::parse(passo(trace + " --trace --invert").out);
+  EXPECT_NEAR(inverted["area_mm2"], 40 * 24 - M_PI * 10 * 10, 4);
+  EXPECT_THAT(passo(trace + " --trace --threshold 0").err, HasSubstr("[trace.nothing]"));
+  EXPECT_THAT(passo("cam engrave " + bracket + " --trace").err, HasSubstr("[trace.no-picture]"));
+  EXPECT_THAT(passo("cam engrave --text A --trace").err, HasSubstr("--trace: expected a picture"));
+  const std::string large = write("large.tif", grey_tiff(4200, 4000, in_disc));
+  EXPECT_THAT(passo("cam engrave " + large + " --trace").err, HasSubstr("[trace.too-large]"));
+}
+
+TEST_F(CamPart, plots_are_drawn_by_a_pen_or_cut_by_a_knife) {
+  const std::string svg = write(
+      "p.svg", "<svg width='40mm' height='40mm' viewBox='0 0 40 40'><path d='M5 5H15V25H35V35H5z M20 5H30'/></svg>");
+  const Outcome pen = passo("cam plot " + svg + " --pen-down -0.4 -o " + path("p.ngc") + " -p " + path("p.png"));
+  EXPECT_EQ(pen.code, 0) << pen.err;
+  EXPECT_THAT(pen.out, HasSubstr("1 closed line, 1 open line and 0 dots: 130.0 mm drawn"));
+  EXPECT_THAT(passo("check " + path("p.ngc") + on_router).out, HasSubstr("no errors"));
+  EXPECT_THAT(read(path("p.ngc")), Not(HasSubstr("M3")));
+  const Outcome knife = passo("cam plot " + svg + " --knife 0.25 --servo 90,30 --json -o " + path("k.ngc"));
+  EXPECT_EQ(knife.code, 0) << knife.err;
+  EXPECT_THAT(knife.out, HasSubstr("\"closed\": 1"));
+  EXPECT_THAT(read(path("k.ngc")), HasSubstr("\nM3 S90\nG4 P0.2\n"));
+  EXPECT_THAT(read(path("k.ngc")), Not(HasSubstr("G0 Z")));
+  EXPECT_THAT(read(path("k.ngc")), Not(HasSubstr("G1 Z")));
+  EXPECT_THAT(passo("check " + path("k.ngc") + on_router).out, HasSubstr("no errors"));
+  EXPECT_THAT(passo("cam plot " + svg + " --servo up").err, HasSubstr("--servo: expected DOWN or DOWN,UP"));
+  EXPECT_THAT(passo("cam plot " + svg + " --pen-up -1").err, HasSubstr("--pen-up: expected a Z above --pen-down"));
+  EXPECT_EQ(passo("cam plot " + write("no.svg", "<svg width='40mm' height='40mm'/>")).code, 2);
+}
+
 TEST_F(CamPart, an_inlay_has_a_pocket_and_a_mirrored_plug) {
   const std::string svg =
       write("l.svg", "<svg width='40mm' height='40mm' viewBox='0 0 40 40'><path d='M5 5H15V25H35V35H5z'/></svg>");
@@ -126,6 +204,19 @@ TEST_F(CamPart, the_floor_of_an_inlay_is_flat_where_the_flat_cutter_is_too_wide)
   const Outcome cut =
       passo("simulate " + path("bar.ngc") + " --tool vee:60:6 --cell 0.05 --stock X0:40,Y0:10,Z-4:0 --json");
   EXPECT_EQ(cut.code, 0) << cut.out << cut.err;
+}
+
+TEST_F(CamPart, the_core_of_a_wing_has_room_for_skin_and_spars) {
+  const std::string wing = "cam wire " + checkout + "/examples/foam/naca2412.dat --chord 220 ";
+  const std::string out = " -o " + path("c.ngc");
+  const Outcome made = passo(wing + "--skin 1.5 --spar 30%,6,5 --spar 30%,6,5,below" + out);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("mm² of the part lost"));
+  EXPECT_THAT(passo(wing + "--skin 30" + out).err, HasSubstr("[wire.thick-skin]"));
+  EXPECT_THAT(passo(wing + "--spar 30%,6,40" + out).err, HasSubstr("[wire.no-spar]"));
+  EXPECT_THAT(passo(wing + "--spar 30%,0.5,5" + out).err, HasSubstr("expected a wider slot"));
+  EXPECT_THAT(passo(wing + "--spar 30%" + out).err, HasSubstr("--spar: expected AT,WIDTH,DEPTH"));
+  EXPECT_THAT(passo(wing + "--spar 130%,6,5" + out).err, HasSubstr("from 0% to 100%"));
 }
 
 TEST_F(CamPart, foam_is_cut_by_two_ends_of_a_wire) {

@@ -107,7 +107,9 @@ export function formFor(names: readonly string[], atHand: Form | undefined): For
   const kinds = names.map(kindOf);
   const fits = (form: Form): boolean => kinds.every((kind) => takes(form, kind));
   const several = forms.value.find((form) => form.parts.length > 0 && kinds.length > 1 && fits(form) && kinds.some((kind) => kind !== '.txt'));
-  const all = (first: Form | undefined): readonly Form[] => (first === undefined ? forms.value : [first, ...forms.value]);
+  // Where files are only one of the inputs, they lead to another form first: a picture to a relief, not to engraving.
+  const byFiles = [...forms.value.filter((form) => form.withoutFiles === undefined), ...forms.value.filter((form) => form.withoutFiles !== undefined)];
+  const all = (first: Form | undefined): readonly Form[] => (first === undefined ? byFiles : [first, ...byFiles]);
   return all(several ?? atHand).find(fits) ?? all(atHand).find((form) => takes(form, kinds.at(-1) ?? '')) ?? atHand;
 }
 // Whether a file is a drawing or a picture, and no G-code.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "airfoil_spline.hpp"
 #include "drawing_builder.hpp"
 #include "text_lines.hpp"
 #include <fmt/format.h>
@@ -17,11 +18,6 @@ namespace {
 
 constexpr std::size_t fewest_of_airfoil = 5;  // points
 constexpr double farthest_of_airfoil = 1e5;
-
-struct AirfoilPoint {
-  double x = 0;
-  double y = 0;
-};
 
 // Two numbers, and nothing else.
 std::optional<AirfoilPoint> airfoil_point(std::string_view line) {
@@ -45,11 +41,12 @@ class AirfoilReader {
   AirfoilReader(const std::string& name, std::string_view text, Diagnostics& diagnostics)
       : name_(name), lines_(text), diagnostics_(diagnostics), builder_(name, diagnostics) {}
 
-  Drawing read(Mm chord);
+  Drawing read(Mm chord, AirfoilCurve curve);
 
  private:
   bool read_points();
   bool order_sides();
+  bool smooth();
   void refuse(SourceLocation place, std::string_view line, std::string message, std::string expected);
 
   const std::string& name_;
@@ -115,7 +112,31 @@ bool AirfoilReader::order_sides() {
   return false;
 }
 
-Drawing AirfoilReader::read(Mm chord) {
+// A spline from the trailing edge around to the trailing edge.
+bool AirfoilReader::smooth() {
+  const auto is_same = [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x == b.x && a.y == b.y; };
+  points_.erase(std::unique(points_.begin(), points_.end(), is_same), points_.end());
+  const auto [least, most] = std::minmax_element(
+      points_.begin(), points_.end(), [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; });
+  const double width = most->x - least->x;
+  // Points that begin elsewhere are turned, so that they begin and end there.
+  if (most != points_.begin() && points_.back().x < most->x && points_.front().x < most->x) {
+    if (is_same(points_.front(), points_.back())) points_.pop_back();
+    std::rotate(points_.begin(),
+                std::max_element(points_.begin(), points_.end(),
+                                 [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; }),
+                points_.end());
+    points_.push_back(points_.front());
+  }
+  constexpr double fine = 1e-5;  // of the chord
+  if (points_.size() < 3) return true;
+  std::vector<AirfoilPoint> curve = airfoil_spline(points_, fine * width);
+  if (!builder_.has_room_for(curve.size(), {}, "")) return false;
+  points_ = std::move(curve);
+  return true;
+}
+
+Drawing AirfoilReader::read(Mm chord, AirfoilCurve curve) {
   if (!read_points() || !order_sides()) return builder_.take();
   const auto [least, most] = std::minmax_element(
       points_.begin(), points_.end(), [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; });
@@ -124,6 +145,7 @@ Drawing AirfoilReader::read(Mm chord) {
     refuse({}, "", "all points of the airfoil have the same X", "X from the leading to the trailing edge");
     return builder_.take();
   }
+  if (curve == AirfoilCurve::spline && !smooth()) return builder_.take();
   DrawnPath path{.is_closed = true, .layer = builder_.layer("")};
   for (const AirfoilPoint& point : points_) {
     const auto at = builder_.point(Mm(point.x * chord.value() / width), Mm(point.y * chord.value() / width), {}, "");
@@ -137,8 +159,9 @@ Drawing AirfoilReader::read(Mm chord) {
 
 }  // namespace
 
-Drawing read_airfoil(const std::string& name, std::string_view text, Mm chord, Diagnostics& diagnostics) {
-  return AirfoilReader(name, text, diagnostics).read(chord);
+Drawing read_airfoil(const std::string& name, std::string_view text, Mm chord, Diagnostics& diagnostics,
+                     AirfoilCurve curve) {
+  return AirfoilReader(name, text, diagnostics).read(chord, curve);
 }
 
 bool looks_like_airfoil(std::string_view text) {

@@ -13,7 +13,7 @@ using std::numbers::pi;
 constexpr std::size_t most_frames = 32;
 constexpr std::size_t longest_swept = 64;  // points; a longer stroke is drawn in pieces
 
-double sweep_of(double from, double to, bool counterclockwise) {
+double sweep_between(double from, double to, bool counterclockwise) {
   double sweep = counterclockwise ? to - from : from - to;
   while (sweep < 0) sweep += 2 * pi;
   while (sweep > 2 * pi) sweep -= 2 * pi;
@@ -36,7 +36,7 @@ bool find_quarter(DrawnPoint from, DrawnPoint to, Offset ij, bool counterclockwi
     for (const double up : {1.0, -1.0}) {
       const Offset start = offset_of(from);
       const Offset centre{start.x + across * std::abs(ij.x), start.y + up * std::abs(ij.y)};
-      const double sweep = sweep_of(angle_at(from, centre), angle_at(to, centre), counterclockwise);
+      const double sweep = sweep_between(angle_at(from, centre), angle_at(to, centre), counterclockwise);
       const double off = std::abs(radius_at(from, centre) - radius_at(to, centre));
       if (std::abs(sweep) > pi / 2 * 1.01 || off >= best) continue;
       best = off;
@@ -156,8 +156,8 @@ bool GerberPlotter::find_arc(DrawnPoint to, const ArcWords& words, GerberArc& ar
   const Offset start = offset_of(at_);
   arc = {at_, to, {start.x + words.ij.x, start.y + words.ij.y}, 0};
   const double angle = angle_at(at_, arc.centre);
-  arc.sweep =
-      at_ == to ? (counterclockwise ? 2 * pi : -2 * pi) : sweep_of(angle, angle_at(to, arc.centre), counterclockwise);
+  arc.sweep = at_ == to ? (counterclockwise ? 2 * pi : -2 * pi)
+                        : sweep_between(angle, angle_at(to, arc.centre), counterclockwise);
   const double off = std::abs(radius_at(at_, arc.centre) - radius_at(to, arc.centre));
   constexpr double noticed = 10'000;  // nm: more than coordinates are rounded
   if (off > noticed)

@@ -1,6 +1,7 @@
 #include "passo/cam/mill_program.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "program_text.hpp"
@@ -31,10 +32,17 @@ class MillProgram {
   void change_tool(std::size_t number);
   void mill(const MillRun& run);
   void go(const MillPoint& from, const MillPoint& to);
+  Nanometres feed_along(const MillPoint& from, const MillPoint& to) const;
   void feed(Nanometres feed) {
-    if (feed == feed_) return;
+    if (feed != feed_) text_.line("F{}", text_.number(feed));
     feed_ = feed;
-    text_.line("F{}", text_.number(feed));
+  }
+  // The feed of a steep descent stands in its line, that of all other moves before it.
+  std::string feed_word(Nanometres next) {
+    if (next >= options_.feed) feed(options_.feed);
+    if (next == feed_) return "";
+    feed_ = next;
+    return " F" + text_.number(next);
   }
 
   const MillPlan& plan_;
@@ -72,6 +80,18 @@ void MillProgram::mill(const MillRun& run) {
   text_.line("G0 Z{}", text_.number(options_.clearance));
 }
 
+// The feed of a descent is so low that the cutter goes down at the plunge feed at most.
+Nanometres MillProgram::feed_along(const MillPoint& from, const MillPoint& to) const {
+  const auto down = static_cast<double>(from.z.count - to.z.count);
+  if (down <= 0) return options_.feed;
+  const double length = std::hypot(way_nm(from.at, to.at, from.bulge), down);
+  const double most = static_cast<double>(options_.plunge_feed.count) * (length / down);
+  if (most >= static_cast<double>(options_.feed.count)) return options_.feed;
+  constexpr std::int64_t digits = 1'000'000;  // nm/min, so that the program has few feeds
+  const auto whole = static_cast<std::int64_t>(most);
+  return {whole > digits ? whole / digits * digits : whole};
+}
+
 void MillProgram::go(const MillPoint& from, const MillPoint& to) {
   const std::string place = text_.place(to.at);
   const std::string z = from.z == to.z ? "" : " Z" + text_.number(to.z);
@@ -81,13 +101,14 @@ void MillProgram::go(const MillPoint& from, const MillPoint& to) {
     text_.line("G1{}", z);
     return;
   }
-  feed(options_.feed);
+  const std::string feed = feed_word(feed_along(from, to));
   if (from.bulge == 0) {
-    text_.line("G1 {}{}", place, z);
+    text_.line("G1 {}{}{}", place, z, feed);
     return;
   }
   const DrawnPoint centre = to_centre(from.at, to.at, from.bulge);
-  text_.line("{} {}{} I{} J{}", from.bulge > 0 ? "G3" : "G2", place, z, text_.number(centre.x), text_.number(centre.y));
+  text_.line("{} {}{} I{} J{}{}", from.bulge > 0 ? "G3" : "G2", place, z, text_.number(centre.x),
+             text_.number(centre.y), feed);
 }
 
 }  // namespace

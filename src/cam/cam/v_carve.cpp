@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "medial_axis.hpp"
 #include "nested_loops.hpp"
-#include "stroke_walk.hpp"
+#include "stroke_fit.hpp"
+#include "stroke_tour.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -46,13 +48,12 @@ class VCarvePlanner {
     for (const MedialPiece& piece : axis->pieces) clip(piece);
     // Beside its tip the cutter mills as wide as it is deep there: the drawing itself.
     MillTool tool{options_.tip, options_.words, {}};
-    tool.runs = walk_strokes(std::move(strokes_), nodes_, options_.park);
+    go_around_floors();
     progress.update(0.9);
-    go_around_floors(tool.runs);
-    for (const MillRun& run : tool.runs) {
-      for (const MillPoint& point : run) plan_.deepest = std::min(plan_.deepest, point.z);
+    for (const CutterStroke& stroke : strokes_) {
+      for (const MillPoint& point : stroke.points) plan_.deepest = std::min(plan_.deepest, point.z);
     }
-    if (options_.step.count > 0) tool.runs = in_layers(std::move(tool.runs));
+    tool.runs = in_layers();
     progress.update(0.95);
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     if (options_.tip.count > 0) {
@@ -88,8 +89,10 @@ class VCarvePlanner {
     return {options_.start.count - std::llround((std::clamp(clearance, least_, most_) - least_) / slope_)};
   }
   void clip(const MedialPiece& piece);
-  void go_around_floors(std::vector<MillRun>& runs);
-  std::vector<MillRun> in_layers(std::vector<MillRun> runs);
+  void go_around_floors();
+  void add_floor_ring(const DrawnRing& ring, const std::vector<std::pair<DrawnPoint, std::size_t>>& ends);
+  void append_runs(std::vector<CutterStroke> strokes, std::vector<MillRun>& runs) const;
+  std::vector<MillRun> in_layers();
 
   const Region& area_;
   const VCarveOptions& options_;
@@ -145,16 +148,53 @@ void VCarvePlanner::clip(const MedialPiece& piece) {
   if (!stroke.points.empty()) end(piece.to);
 }
 
-void VCarvePlanner::go_around_floors(std::vector<MillRun>& runs) {
+// A branch ends at a corner of the floor. There the ring goes through its end, so that the cutter stays down.
+void VCarvePlanner::add_floor_ring(const DrawnRing& ring, const std::vector<std::pair<DrawnPoint, std::size_t>>& ends) {
+  constexpr Nanometres reach{12'000};
+  constexpr std::size_t no_node = static_cast<std::size_t>(-1);
+  MillRun points;
+  std::vector<std::size_t> nodes(ring.size(), no_node);
+  std::size_t first = ring.size();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    points.push_back({ring[i], 0, plan_.floor_z});
+    double nearest = static_cast<double>(reach.count);
+    const auto from =
+        std::ranges::lower_bound(ends, ring[i].x - reach, {}, [](const auto& end) { return end.first.x; });
+    for (auto end = from; end != ends.end() && end->first.x < ring[i].x + reach; ++end) {
+      const double away = distance_nm(end->first, ring[i]);
+      if (away > nearest || (i > 0 && points[i - 1].at == end->first)) continue;
+      nearest = away;
+      points[i].at = end->first;
+      nodes[i] = end->second;
+    }
+    if (nodes[i] != no_node) first = std::min(first, i);
+  }
+  if (first == ring.size()) {
+    first = 0;
+    nodes[0] = nodes_++;
+  }
+  CutterStroke stroke{nodes[first], 0, {points[first]}};
+  for (std::size_t k = 1; k <= ring.size(); ++k) {
+    const std::size_t i = (first + k) % ring.size();
+    stroke.points.push_back(points[i]);
+    if (nodes[i] == no_node) continue;
+    stroke.to = nodes[i];
+    strokes_.push_back(std::move(stroke));
+    stroke = {nodes[i], 0, {points[i]}};
+  }
+}
+
+void VCarvePlanner::go_around_floors() {
   plan_.floor_z = depth_at(most_);
   // A little beyond, so that a stroke of just this width has no floor.
   plan_.floor = grown(area_, {-std::llround(most_) - options_.tolerance.count}, options_.tolerance);
-  for (const DrawnRing& ring : plan_.floor.rings) {
-    MillRun run;
-    for (const DrawnPoint& point : ring) run.push_back({point, 0, plan_.floor_z});
-    run.push_back({ring.front(), 0, plan_.floor_z});
-    runs.push_back(std::move(run));
+  std::vector<std::pair<DrawnPoint, std::size_t>> ends;
+  for (const CutterStroke& stroke : strokes_) {
+    if (stroke.points.front().z == plan_.floor_z) ends.emplace_back(stroke.points.front().at, stroke.from);
+    if (stroke.points.back().z == plan_.floor_z) ends.emplace_back(stroke.points.back().at, stroke.to);
   }
+  std::ranges::sort(ends);
+  for (const DrawnRing& ring : plan_.floor.rings) add_floor_ring(ring, ends);
 }
 
 // The place of a straight way at which it passes a depth.
@@ -166,11 +206,20 @@ MillPoint at_depth(const MillPoint& from, const MillPoint& to, Nanometres z) {
   return {{between(from.at.x, to.at.x), between(from.at.y, to.at.y)}, 0, z};
 }
 
-// A layer of a run: its parts below `above`, no deeper than `limit`.
-void add_layer(const MillRun& run, Nanometres above, Nanometres limit, std::vector<MillRun>& layer) {
+// A layer of a stroke: its parts below `above`, no deeper than `limit`.
+void add_layer(const CutterStroke& stroke, Nanometres above, Nanometres limit, std::size_t& nodes,
+               std::vector<CutterStroke>& layer) {
+  const MillRun& run = stroke.points;
   MillRun part;
+  bool is_first = true;
   const auto end = [&] {
-    if (part.size() > 1) layer.push_back(std::move(part));
+    if (part.size() > 1) {
+      const bool has_start = is_first && part.front().at == run.front().at;
+      const bool has_end = part.back().at == run.back().at;
+      const std::size_t from = has_start ? stroke.from : nodes++;
+      layer.push_back({from, has_end ? stroke.to : nodes++, std::move(part)});
+    }
+    is_first = false;
     part.clear();
   };
   const auto add = [&](MillPoint point) {
@@ -202,21 +251,33 @@ void add_layer(const MillRun& run, Nanometres above, Nanometres limit, std::vect
   end();
 }
 
-std::vector<MillRun> VCarvePlanner::in_layers(std::vector<MillRun> runs) {
+void VCarvePlanner::append_runs(std::vector<CutterStroke> strokes, std::vector<MillRun>& runs) const {
+  const StrokeFit fit{static_cast<double>(options_.fit.count), slope_};
+  const StrokeTour tour{runs.empty() ? options_.park : runs.back().back().at,
+                        static_cast<double>(options_.longest_return.count)};
+  std::ranges::move(tour_strokes(fit_strokes(std::move(strokes), nodes_, fit), nodes_, tour), std::back_inserter(runs));
+}
+
+std::vector<MillRun> VCarvePlanner::in_layers() {
   const Nanometres deepest = plan_.deepest;
-  const Nanometres step{std::max<std::int64_t>(options_.step.count, 1)};
-  plan_.layers = static_cast<std::size_t>(std::max<std::int64_t>(1, (-deepest.count + step.count - 1) / step.count));
-  if (plan_.layers == 1) return runs;
-  std::vector<MillRun> all;
+  const std::int64_t step = options_.step.count;
+  if (step > 0) plan_.layers = static_cast<std::size_t>(std::max<std::int64_t>(1, (-deepest.count + step - 1) / step));
+  std::vector<MillRun> runs;
+  if (plan_.layers == 1) {
+    append_runs(std::move(strokes_), runs);
+    return runs;
+  }
   for (std::size_t i = 0; i < plan_.layers; ++i) {
     const auto depth = [&](std::size_t layer) {
-      return Nanometres{std::max(deepest.count, -static_cast<std::int64_t>(layer) * step.count)};
+      return Nanometres{std::max(deepest.count, -static_cast<std::int64_t>(layer) * step)};
     };
     // All ways begin in the first layer, those at the face too.
     const Nanometres above = i == 0 ? Nanometres{1} : depth(i);
-    for (const MillRun& run : runs) add_layer(run, above, depth(i + 1), all);
+    std::vector<CutterStroke> layer;
+    for (const CutterStroke& stroke : strokes_) add_layer(stroke, above, depth(i + 1), nodes_, layer);
+    append_runs(std::move(layer), runs);
   }
-  return all;
+  return runs;
 }
 
 }  // namespace

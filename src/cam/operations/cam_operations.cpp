@@ -43,6 +43,7 @@ constexpr const char* engrave_examples =
   passo cam engrave plot.hpgl --on-line --depth -0.2 -o plot.ngc               the lines that a pen plotter would draw
   passo cam engrave logo.svg --angle 90 --tool 6 --depth -2 --clear 2 -p logo.png -o logo.ngc
                                                            a 2 mm flat cutter clears wide areas first
+  passo cam engrave logo.png --trace --width 60 --angle 60 -o logo.ngc         the dark areas of a picture, by potrace
   passo cam engrave sign.svg --angle 60 --tool 12 --step 2 -o sign.ngc         deep letters, in layers of 2 mm
   passo cam engrave star.svg --inlay pocket --clear 3 -o pocket.ngc            an inlay: the pocket, and the plug that fills it
   passo cam engrave star.svg --inlay plug --clear 3 -o plug.ngc
@@ -132,6 +133,17 @@ Examples:
 
 All options, and what is guaranteed: docs/manual/relief.md.)";
 
+constexpr const char* plot_examples =
+    R"(Lengths: a number in the unit of --units, or with a unit of its own: 6mm, 0.3cm, 1/8in.
+
+Examples:
+  passo cam plot drawing.svg --pen-up 2 --pen-down -0.5 -o drawing.ngc     Z moves the pen
+  passo cam plot plot.hpgl --servo 90,30 --layer "pen 1" -o plot.ngc       M3 S90 lowers the pen, M3 S30 raises it
+  passo cam plot sticker.svg --knife 0.25 --overcut 0.5 --pen-down -0.3 -p sticker.png -o sticker.ngc
+                                                                           a drag knife, whose blade trails by 0.25 mm
+
+All options: docs/manual/plotting.md.)";
+
 constexpr const char* wire_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 6mm, 0.3cm, 1/8in.
 
@@ -160,8 +172,8 @@ constexpr std::array operations = {
                  .examples = pocket_examples,
                  .options = options_with_defaults<CamPocketArguments>},
     CamOperation{.name = "engrave",
-                 .purpose = "carve text and drawings with a V-shaped cutter",
-                 .accepts = ".svg,.dxf,.hpgl,.plt,.ttf,.otf,.lff,.jhf",
+                 .purpose = "carve text, drawings and traced pictures with a V-shaped cutter",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.ttf,.otf,.lff,.jhf,.png,.tif,.tiff",
                  .examples = engrave_examples,
                  .options = options_with_defaults<CamEngraveArguments>,
                  .instead_of_files = "text"},
@@ -194,6 +206,11 @@ constexpr std::array operations = {
                  .examples = relief_examples,
                  .options = options_with_defaults<CamReliefArguments>,
                  .picture_ending = ".png"},
+    CamOperation{.name = "plot",
+                 .purpose = "draw with a pen, or cut foil with a drag knife, along the lines of a drawing",
+                 .accepts = ".svg,.dxf,.hpgl,.plt",
+                 .examples = plot_examples,
+                 .options = options_with_defaults<CamPlotArguments>},
     CamOperation{.name = "wire",
                  .purpose = "cut foam with a hot wire along one profile, or along one for each end of the wire",
                  .accepts = ".svg,.dxf,.hpgl,.plt,.dat",

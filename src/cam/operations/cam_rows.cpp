@@ -109,7 +109,7 @@ std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
       {"conventional", &a.conventional, flag, "conventional milling (default: climb milling)"},
       clearance_row(a.clearance, "clearance height: rapids run this far above the work"),
       {"feed", &a.feed, feed, "feed rate along the toolpath, per minute"},
-      {"plunge-feed", &a.plunge_feed, feed, "feed rate straight down, per minute"},
+      {"plunge-feed", &a.plunge_feed, feed, "highest feed rate downwards, also along the toolpath, per minute"},
       spindle_row(a.spindle),
       park_row(a.park),
   };

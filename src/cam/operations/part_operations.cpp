@@ -86,6 +86,26 @@ std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
   };
 }
 
+std::vector<CamOption> trace_rows(CamTraceArguments& a) {
+  using enum CamKind;
+  return {
+      {"trace", &a.trace, flag,
+       "the files are pictures (PNG or TIFF): trace the outlines of their dark areas (potrace)"},
+      {"threshold",
+       &a.threshold,
+       percent,
+       "trace: brightness below which a pixel is dark, % of white",
+       {.range = CamRange{0, 100}}},
+      {"invert", &a.invert, flag, "trace: carve the bright areas instead"},
+      {"turdsize",
+       &a.turdsize,
+       number,
+       "trace: ignore spots of at most this many pixels",
+       {.range = CamRange{0, 1e6}, .matters_to = experts}},
+      {"width", &a.width, length, "trace: width of the picture"},
+  };
+}
+
 std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
   using enum CamKind;
   return {
@@ -115,8 +135,10 @@ std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
 std::vector<CamOption> cam_options_of(CamEngraveArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or HPGL; closed contours are carved out"}},
+      {{"FILE", &a.files, drawings,
+        "drawings: SVG, DXF or HPGL; closed contours are carved out. With --trace: pictures"}},
       letter_rows(a),
+      trace_rows(a),
       carving_rows(a),
       mill_rows(a),
       {sheet_row(a.sheet)},

@@ -33,6 +33,12 @@ std::vector<CamOption> cam_options_of(CamWireArguments& a) {
       {"block-at", &a.block_at, length, "distance from the left tower to the left profile (default: block centred)",
        experts_only},
       {"chord", &a.chord, length, "chord of an airfoil: one length, or LEFT,RIGHT"},
+      {"skin", &a.skin, length, "thickness of the skin that is glued onto the core: the foam is smaller by it"},
+      {"spar", &a.spars, text,
+       "AT,WIDTH,DEPTH[,below]: slot for a spar; AT: X of its middle, or % of the chord, or LEFT:RIGHT; can be "
+       "repeated"},
+      {"straight", &a.straight, flag, "straight lines between the points of an airfoil, instead of a smooth curve",
+       experts_only},
       {"right-at", &a.right_at, length, "X,Y: offset of the right profile"},
       {"right-turn",
        &a.right_turn,

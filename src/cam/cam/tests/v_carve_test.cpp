@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 
+#include "../stroke_tour.hpp"
 #include "closed_lines.hpp"
 #include "random_star.hpp"
 #include <gmock/gmock.h>
 
 #include "passo/cam/edge_loops.hpp"
+#include "passo/cam/mill_program.hpp"
 
 namespace passo {
 namespace {
@@ -48,6 +51,22 @@ struct VDisc {
   double y;
   double radius;  // at the face
 };
+// The place at this share of a line or an arc, mm. Straight from what a bulge means: the tangent of a quarter of the
+// angle that the arc turns by, counterclockwise.
+std::pair<double, double> place_on(const MillPoint& from, const MillPoint& to, double share) {
+  const double x = to_mm(from.at.x).value();
+  const double y = to_mm(from.at.y).value();
+  const double dx = to_mm(to.at.x).value() - x;
+  const double dy = to_mm(to.at.y).value() - y;
+  if (from.bulge == 0) return {x + share * dx, y + share * dy};
+  const double turn = 4 * std::atan(from.bulge);
+  const double off = 0.5 / std::tan(turn / 2);
+  const double cx = x + dx / 2 - dy * off;
+  const double cy = y + dy / 2 + dx * off;
+  const double c = std::cos(turn * share);
+  const double s = std::sin(turn * share);
+  return {cx + (x - cx) * c - (y - cy) * s, cy + (x - cx) * s + (y - cy) * c};
+}
 // What the cutter takes at the face, at many places of its way.
 std::vector<VDisc> discs_of(const VCarvePlan& plan, double slope, double tip) {
   std::vector<VDisc> discs;
@@ -57,11 +76,9 @@ std::vector<VDisc> discs_of(const VCarvePlan& plan, double slope, double tip) {
         const int parts = 1 + static_cast<int>(distance_nm(run[i].at, run[i + 1].at) / 2e4);
         for (int k = 0; k <= parts; ++k) {
           const double s = static_cast<double>(k) / parts;
-          const auto mix = [&](Nanometres a, Nanometres b) {
-            return to_mm(a).value() * (1 - s) + to_mm(b).value() * s;
-          };
-          discs.push_back({mix(run[i].at.x, run[i + 1].at.x), mix(run[i].at.y, run[i + 1].at.y),
-                           tip / 2 - mix(run[i].z, run[i + 1].z) * slope});
+          const auto [x, y] = place_on(run[i], run[i + 1], s);
+          const double z = to_mm(run[i].z).value() * (1 - s) + to_mm(run[i + 1].z).value() * s;
+          discs.push_back({x, y, tip / 2 - z * slope});
         }
       }
     }
@@ -72,7 +89,7 @@ std::vector<VDisc> discs_of(const VCarvePlan& plan, double slope, double tip) {
 void expect_carved(const Region& area, const VCarvePlan& plan, double slope, double tip, double left) {
   const std::vector<VDisc> discs = discs_of(plan, slope, tip);
   ASSERT_FALSE(discs.empty());
-  for (std::size_t i = 0; i < discs.size(); i += 7) {
+  for (std::size_t i = 0; i < discs.size(); i += 3) {
     ASSERT_LE(discs[i].radius, to_edge_mm(area, discs[i].x, discs[i].y) + 0.006) << discs[i].x << ", " << discs[i].y;
   }
   std::mt19937_64 random(5);
@@ -176,6 +193,101 @@ TEST(VCarve, a_plug_fits_the_pocket_of_the_same_lines) {
   options.widest = {6'000'000};
   EXPECT_TRUE(plan_v_carve(plug, options, findings).mill.tools.empty());
   EXPECT_THAT(render(findings, false), testing::HasSubstr("[engrave.narrow-cutter]"));
+}
+
+double milled_mm(const VCarvePlan& plan) {
+  return lengths_of(plan.mill.tools.at(0), {}).milled_nm / nanometres_per_mm;
+}
+
+// Teeth with two corners each: a branch into every corner. Where lifts are dear the cutter comes down once.
+TEST(VCarve, stays_down_in_all_that_hangs_together) {
+  PathPoints comb = {corner(0, 0)};
+  for (int tooth = 0; tooth < 5; ++tooth) {
+    for (const PathPoint& point :
+         {corner(4 * tooth + 3, 0), corner(4 * tooth + 3, 6 + tooth % 2), corner(4 * tooth + 4, 6)}) {
+      comb.push_back(point);
+    }
+    comb.push_back(corner(4 * tooth + 4, 0));
+  }
+  comb.insert(comb.end(), {corner(23, 0), corner(23, -3), corner(0, -3)});
+  const Region area = enclosed_by({comb, test::box(30, 0, 4, 4)});
+  VCarveOptions options{.angle_degrees = 60, .widest = to_nanometres(Mm(20)), .longest_return = to_nanometres(Mm(100))};
+  const Carved down = carved(area, options);
+  EXPECT_EQ(down.plan.mill.tools.at(0).runs.size(), 2U);  // two areas
+  expect_carved(area, down.plan, std::tan(M_PI / 6), 0, 0);
+  options.longest_return = {1};
+  const Carved up = carved(area, options);
+  EXPECT_GT(up.plan.mill.tools.at(0).runs.size(), 8U);
+  expect_carved(area, up.plan, std::tan(M_PI / 6), 0, 0);
+  EXPECT_GT(milled_mm(down.plan), milled_mm(up.plan));
+  EXPECT_LT(milled_mm(down.plan), 2 * milled_mm(up.plan));
+  // Branches into the corners of a floor begin where the cutter goes around it.
+  options = {.angle_degrees = 60, .widest = to_nanometres(Mm(20)), .deepest = to_nanometres(Mm(-0.7))};
+  const Carved flat = carved(area, options);
+  EXPECT_FALSE(flat.plan.floor.empty());
+  EXPECT_LE(flat.plan.mill.tools.at(0).runs.size(), flat.plan.floor.rings.size() + 1);
+  expect_carved(area, flat.plan, std::tan(M_PI / 6), 0, 0);
+}
+
+TEST(VCarve, curves_become_arcs_and_helices) {
+  const Region crescent = enclosed_by({{corner(10, 0, 1), corner(-10, 0, -0.6)}});
+  const Carved result = carved(crescent, {.angle_degrees = 60, .widest = to_nanometres(Mm(20))});
+  std::size_t helices = 0;
+  std::size_t moves = 0;
+  for (const MillRun& run : result.plan.mill.tools.at(0).runs) {
+    for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+      ++moves;
+      if (run[i].bulge != 0 && run[i].z != run[i + 1].z) ++helices;
+    }
+  }
+  EXPECT_GT(helices, 3U);
+  EXPECT_LT(moves, 60U);
+  expect_carved(crescent, result.plan, std::tan(M_PI / 6), 0, 0);
+}
+
+// Four legs of 10 mm: the second pair is reached by two returns, or by a lift if that is shorter.
+TEST(VCarve, returns_and_lifts_are_as_short_as_possible) {
+  std::vector<CutterStroke> legs;
+  for (int i = 0; i < 4; ++i) {
+    const auto [x, y] = std::pair{std::lround(10 * std::cos(i * M_PI / 2)), std::lround(10 * std::sin(i * M_PI / 2))};
+    legs.push_back({0, static_cast<std::size_t>(i) + 1, {{corner(0, 0).at}, {corner(double(x), double(y)).at}}});
+  }
+  const auto tour = [&](double lift_mm) {
+    const std::vector<MillRun> runs = tour_strokes(legs, 5, {.lift_nm = lift_mm * nanometres_per_mm});
+    return std::pair{runs.size(), std::lround(lengths_of({.runs = runs}, {}).milled_nm / nanometres_per_mm)};
+  };
+  EXPECT_EQ(tour(21), (std::pair{std::size_t{1}, 60L}));
+  EXPECT_EQ(tour(19), (std::pair{std::size_t{2}, 40L}));
+}
+
+TEST(VCarve, descends_along_the_way_no_faster_than_it_plunges) {
+  const Region area = enclosed_by({test::box(0, 0, 10, 4)});
+  const Carved result = carved(area, {.angle_degrees = 30, .widest = to_nanometres(Mm(10))});
+  const std::string program =
+      write_mill_program(result.plan.mill, {.feed = {300'000'000}, .plunge_feed = {70'000'000}});
+  double at[3] = {0, 0, 0};
+  double feed = 0;
+  int descents = 0;
+  std::istringstream lines(program);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("F")) feed = std::stod(line.substr(1));
+    if (!line.starts_with("G1 ") && !line.starts_with("G0 ")) continue;
+    double to[3] = {at[0], at[1], at[2]};
+    std::istringstream words(line.substr(2));
+    for (std::string word; words >> word;) {
+      const double value = std::stod(word.substr(1));
+      if (word[0] == 'F') feed = value;
+      if (word[0] >= 'X') to[word[0] - 'X'] = value;
+    }
+    const double length = std::hypot(to[0] - at[0], to[1] - at[1], to[2] - at[2]);
+    const double down = feed * (at[2] - to[2]) / length;
+    std::ranges::copy(to, at);
+    if (line.starts_with("G0") || length == 0) continue;
+    EXPECT_LE(down, 70.1) << line;
+    EXPECT_TRUE(down > 68 || feed == 300 || down <= 0) << line;
+    descents += down > 68 ? 1 : 0;
+  }
+  EXPECT_GT(descents, 2);
 }
 
 TEST(VCarve, in_layers_takes_no_more_than_a_step_and_leaves_nothing) {

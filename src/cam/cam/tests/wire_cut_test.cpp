@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "passo/cam/airfoil.hpp"
+#include "passo/cam/wire_core.hpp"
 #include "passo/cam/wire_program.hpp"
 
 namespace passo {
@@ -147,7 +148,7 @@ TEST(WireProgram, has_a_time_for_each_move_of_four_axes_and_arcs_of_two) {
 
 Drawing read_section(std::string_view text, std::string& words) {
   Diagnostics findings;
-  Drawing drawing = read_airfoil("wing.dat", text, Mm(100), findings);
+  Drawing drawing = read_airfoil("wing.dat", text, Mm(100), findings, AirfoilCurve::lines);
   words = findings.all().empty() ? "" : render(findings, false);
   return drawing;
 }
@@ -179,6 +180,83 @@ TEST(Airfoils, what_is_wrong_is_told) {
   EXPECT_TRUE(looks_like_airfoil("EPPLER 387\n1.0 0.0\n0.9 0.01\n0.8,0.02\n"));
   EXPECT_FALSE(looks_like_airfoil("G1 X1 Y2\nG1 X2 Y2\n"));
   EXPECT_FALSE(looks_like_airfoil("0\nSECTION\n2\nENTITIES\n"));
+}
+
+// NACA 0012 from its formula, and from few points of it.
+double naca_half(double x) {
+  return 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
+}
+
+TEST(Airfoils, a_spline_goes_through_sparse_points) {
+  std::string text = "NACA 0012\n";
+  const std::vector<double> stations = {1, 0.9, 0.75, 0.55, 0.35, 0.2, 0.1, 0.04, 0.01};
+  for (const double x : stations) text += std::to_string(x) + " " + std::to_string(naca_half(x)) + "\n";
+  text += "0 0\n";
+  for (auto x = stations.rbegin(); x != stations.rend(); ++x)
+    text += std::to_string(*x) + " " + std::to_string(-naca_half(*x)) + "\n";
+  Diagnostics findings;
+  double worst[2] = {0, 0};
+  for (const AirfoilCurve curve : {AirfoilCurve::spline, AirfoilCurve::lines}) {
+    const Drawing wing = read_airfoil("a.dat", text, Mm(200), findings, curve);
+    EXPECT_TRUE(findings.all().empty());
+    ASSERT_EQ(wing.paths.size(), 1U);
+    const auto& points = wing.paths[0].points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const double x = (to_mm(points[i].at.x) + to_mm(points[i + 1].at.x)).value() / 400;
+      const double y = (to_mm(points[i].at.y) + to_mm(points[i + 1].at.y)).value() / 400;
+      if (x < 0.02) continue;
+      double& off = worst[curve == AirfoilCurve::spline ? 0 : 1];
+      off = std::max(off, 200 * std::abs(std::abs(y) - naca_half(x)));
+    }
+    EXPECT_EQ(points.front().at.x, to_nanometres(Mm(200)));  // the trailing edge stays a corner
+  }
+  EXPECT_LT(worst[0], 0.12);
+  EXPECT_GT(worst[1], 0.25);
+}
+
+TEST(WireCore, is_smaller_by_the_skin_and_has_slots_for_spars) {
+  Diagnostics findings;
+  const WireCore core{
+      .skin = to_nanometres(Mm(2)),
+      .spars = {{.at = to_nanometres(Mm(30)), .width = to_nanometres(Mm(6)), .depth = to_nanometres(Mm(4))},
+                {.at = to_nanometres(Mm(60)),
+                 .width = to_nanometres(Mm(5)),
+                 .depth = to_nanometres(Mm(3)),
+                 .is_below = true}}};
+  const auto foam = wire_core(box_profile(100, 20), core, findings);
+  ASSERT_TRUE(foam);
+  DrawnRing ring;
+  for (const PathPoint& point : foam->points) ring.push_back(point.at);
+  EXPECT_NEAR(area_mm2(ring), 96 * 16 - 6 * 4 - 5 * 3, 1e-6);
+  const auto at = [](double x, double y) { return DrawnPoint{to_nanometres(Mm(x)), to_nanometres(Mm(y))}; };
+  const Region inside = filled({ring});
+  EXPECT_FALSE(contains(inside, at(30, 14.1)));
+  EXPECT_TRUE(contains(inside, at(30, 13.9)));
+  EXPECT_FALSE(contains(inside, at(57.6, 4.9)));
+  EXPECT_TRUE(contains(inside, at(57.4, 4.9)));
+  // The wire goes into the slots: what it sweeps leaves the core whole.
+  WireOptions options = wire_options(1);
+  const WirePlan plan = plan_wire_cut(*foam, *foam, options, findings);
+  EXPECT_NEAR(plan.left.lost_mm2, 0, 1e-3);
+  EXPECT_TRUE(findings.all().empty());
+  double lowest = 100;
+  for (const WirePlace& place : plan.faces) {
+    const bool is_in_slot = std::abs(to_mm(place.left.x).value() - 30) < 2.6 && to_mm(place.left.y).value() > 10;
+    if (is_in_slot) lowest = std::min(lowest, to_mm(place.left.y).value());
+  }
+  EXPECT_NEAR(lowest, 14.5, 0.01);
+}
+
+TEST(WireCore, says_what_does_not_fit) {
+  Diagnostics findings;
+  EXPECT_FALSE(wire_core(box_profile(100, 20), {.skin = to_nanometres(Mm(10))}, findings));
+  EXPECT_THAT(render(findings, false), testing::HasSubstr("[wire.thick-skin]"));
+  for (const double x : {500.0, 50.0}) {
+    Diagnostics spar;
+    const WireSpar deep{.at = to_nanometres(Mm(x)), .width = to_nanometres(Mm(5)), .depth = to_nanometres(Mm(21))};
+    EXPECT_FALSE(wire_core(box_profile(100, 20), {.spars = {deep}}, spar));
+    EXPECT_THAT(render(spar, false), testing::HasSubstr("[wire.no-spar]"));
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cam_part.hpp"
+#include "traced_picture.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/sensible_number.hpp"
@@ -94,6 +95,15 @@ void choose_inlay(const CamEngraveArguments& arguments, EngraveJob& engrave, Len
   }
 }
 
+// A lift takes about a third of a second, and the time for the last half millimetre down, and for as much into the
+// stock. A return in that time is as good, and leaves no mark.
+Nanometres longest_return_of(const MillProgramOptions& program) {
+  constexpr double to_accelerate = 1.0 / 180;  // min
+  constexpr double down = 1e6;                 // nm
+  const double minutes = to_accelerate + down / static_cast<double>(program.plunge_feed.count);
+  return {std::llround(std::min(minutes * static_cast<double>(program.feed.count), 1e9))};
+}
+
 EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& job, LengthArguments& lengths) {
   EngraveJob engrave;
   VCarveOptions& carving = engrave.carving;
@@ -113,6 +123,7 @@ EngraveJob engrave_job_of(const CamEngraveArguments& arguments, const MillJob& j
   carving.words = fmt::format("V of {:g} degrees, {:.4g} mm", arguments.angle, to_mm(carving.widest).value());
   if (carving.tip.count > 0) carving.words += fmt::format(", tip {:.4g} mm", to_mm(carving.tip).value());
   carving.park = job.program.park;
+  carving.longest_return = longest_return_of(job.program);
   engrave.clears = !arguments.clear.empty();
   if (engrave.clears) {
     engrave.clearing.cutter = lengths.above_0("--clear", arguments.clear);
@@ -136,8 +147,34 @@ std::string font_path(const std::string& font, Lettering& lettering, Diagnostics
   return installed->path;
 }
 
+// The outlines of pictures, as one drawing.
+std::optional<Drawing> traced(const CamEngraveArguments& arguments) {
+  LengthArguments lengths(*mm_of_unit(arguments.units));
+  const PictureTraceOptions options{.threshold = arguments.threshold / 100,
+                                    .invert = arguments.invert,
+                                    .turdsize = static_cast<std::uint32_t>(arguments.turdsize),
+                                    .width = to_mm(lengths.above_0("--width", arguments.width))};
+  constexpr Mm widest(4000);
+  if (options.width > widest) lengths.refuse("--width: expected at most 4 m");
+  if (!lengths.message().empty()) {
+    fail(exit_bad_program, lengths.message());
+    return std::nullopt;
+  }
+  Diagnostics findings;
+  Drawing all;
+  for (const std::string& file : arguments.files) {
+    Drawing one = trace_picture(file, options, findings);
+    all.file = file;
+    std::ranges::move(one.paths, std::back_inserter(all.paths));
+  }
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  return all;
+}
+
 // The letters or the files as a drawing. Letters of single lines are followed, not carved.
 std::optional<Drawing> drawing_of(const CamEngraveArguments& arguments, const MillJob& job, EngraveJob& engrave) {
+  if (arguments.trace) return traced(arguments);
   if (arguments.text.empty()) return read_drawings(arguments, job);
   Diagnostics findings;
   Drawing drawing;
@@ -237,6 +274,7 @@ int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progre
   if (arguments.text.empty() == arguments.files.empty()) {
     return fail(exit_bad_program, "expected either a drawing (FILE) or --text");
   }
+  if (arguments.trace && arguments.files.empty()) return fail(exit_bad_program, "--trace: expected a picture (FILE)");
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam engrave", lengths, "stock");
   if (arguments.inlay == "plug" && arguments.mirror.empty()) job.mirror.turned = Mirror::Turned::x;

@@ -7,6 +7,7 @@
 
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
+#include "passo/cam/plot_plan.hpp"
 #include "passo/cam/pocket.hpp"
 #include "passo/cam/profile.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
@@ -55,11 +56,12 @@ std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const Mi
   return all;
 }
 
-std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows) {
-  const bool cuts_dots = open_rows == OpenRows::kept;
+std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows,
+                                   DrawnDots dots) {
+  const bool cuts_dots = open_rows == OpenRows::kept && dots == DrawnDots::ignored;
   const auto points = std::ranges::count_if(
       drawing.holes, [&](const DrawnHole& hole) { return hole.diameter.count <= 0 && !(hole.is_dot && cuts_dots); });
-  if (points > 0) {
+  if (points > 0 && dots == DrawnDots::ignored) {
     note(fmt::format("{} without a diameter {} ignored", counted(static_cast<std::size_t>(points), "point"),
                      points == 1 ? "is" : "are"));
   }
@@ -68,8 +70,10 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
     move_zero_to(job.zero.is_lower_left ? box_of(drawing).least : *job.zero.at, drawing);
   }
   const DrawnBox box = box_of(drawing);
+  std::vector<DrawnPoint> kept;
+  if (dots == DrawnDots::kept) kept = take_dots(drawing);
   Diagnostics findings;
-  PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most};
+  PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most, std::move(kept)};
   for (const DrawnHole& hole : drawing.holes) {
     if (hole.is_dot && cuts_dots) part.loops.open.push_back({{hole.at, 0}});
   }

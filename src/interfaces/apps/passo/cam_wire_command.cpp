@@ -1,5 +1,7 @@
 // passo cam wire: a program that cuts foam with a hot wire.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -9,12 +11,56 @@
 
 #include "passo/base/sensible_number.hpp"
 #include "passo/cam/airfoil.hpp"
+#include "passo/cam/wire_core.hpp"
 #include "passo/cam/wire_program.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 #include "passo/report/wire_picture.hpp"
 
 namespace passo {
 namespace {
+
+// Where a spar is in one profile.
+struct SparPlace {
+  Nanometres x{};                    // if there are no percent
+  std::optional<double> share = {};  // of the width of the profile, from 0 to 1
+};
+struct SparArgument {
+  WireSpar spar;
+  std::array<SparPlace, 2> at;  // left and right
+};
+
+SparPlace spar_place(const std::string& text, LengthArguments& lengths) {
+  if (!text.ends_with('%')) return {.x = lengths.any("--spar", text)};
+  double percent = -1;
+  const auto end = std::from_chars(text.data(), text.data() + text.size() - 1, percent);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size() - 1 || !(percent >= 0 && percent <= 100)) {
+    lengths.refuse(fmt::format("--spar: expected a place from 0% to 100%, found '{}'", text));
+  }
+  return {.share = percent / 100};
+}
+
+// --spar AT,WIDTH,DEPTH[,below].
+SparArgument spar_of(const std::string& text, LengthArguments& lengths) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  SparArgument argument;
+  argument.spar.is_below = words.size() == 4 && words[3] == "below";
+  if (words.size() != 3 && !argument.spar.is_below) {
+    lengths.refuse(
+        fmt::format("--spar: expected AT,WIDTH,DEPTH or AT,WIDTH,DEPTH,below, e.g. 30%,6,8, found '{}'", text));
+    return argument;
+  }
+  const std::size_t colon = words[0].find(':');
+  argument.at[0] = spar_place(words[0].substr(0, colon), lengths);
+  argument.at[1] = colon == std::string::npos ? argument.at[0] : spar_place(words[0].substr(colon + 1), lengths);
+  argument.spar.width = lengths.above_0("--spar", words[1]);
+  argument.spar.depth = lengths.above_0("--spar", words[2]);
+  return argument;
+}
 
 struct WireJob {
   WireOptions cut;
@@ -24,6 +70,9 @@ struct WireJob {
   double right_turn = 0;  // radians
   Nanometres join = {};
   std::optional<DrawnBox> block = {};
+  AirfoilCurve curve = AirfoilCurve::spline;
+  Nanometres skin = {};
+  std::vector<SparArgument> spars = {};
 };
 
 // Where the profiles lie along the wire.
@@ -39,6 +88,26 @@ void find_span(const CamWireArguments& arguments, WireJob& job, LengthArguments&
   job.cut.right_face = job.cut.left_face + width;
   if (job.cut.left_face.count < 0 || job.cut.right_face > job.cut.span) {
     lengths.refuse("--width, --block-at: the block must be between the towers (--span)");
+  }
+}
+
+void choose_core(const CamWireArguments& arguments, WireJob& job, LengthArguments& lengths) {
+  if (arguments.straight) job.curve = AirfoilCurve::lines;
+  job.skin = lengths.any("--skin", arguments.skin);
+  if (job.skin.count < 0) lengths.refuse("--skin: expected a length of 0 or more");
+  constexpr std::size_t most_spars = 100;
+  if (arguments.spars.size() > most_spars) lengths.refuse("--spar: expected at most 100 slots");
+  for (const std::string& text : arguments.spars) {
+    if (!lengths.message().empty()) return;
+    job.spars.push_back(spar_of(text, lengths));
+    const double kerf = kerf_at(job.cut.kerf, job.cut.feed);
+    if (lengths.message().empty() && to_mm(job.spars.back().spar.width).value() <= kerf) {
+      lengths.refuse(
+          fmt::format("--spar: the wire melts {:.3g} mm, so expected a wider slot than in '{}'", kerf, text));
+    }
+  }
+  if (job.cut.keeps != WireKeeps::inside && (job.skin.count > 0 || !job.spars.empty())) {
+    lengths.refuse("--skin and --spar are for the core of a wing, so expected --keep inside");
   }
 }
 
@@ -71,6 +140,7 @@ WireJob wire_job_of(const CamWireArguments& arguments, LengthArguments& lengths)
   job.right_at = lengths.place("--right-at", arguments.right_at);
   job.right_turn = arguments.right_turn / 180 * std::numbers::pi;
   job.join = lengths.any("--join", arguments.join);
+  choose_core(arguments, job, lengths);
   if (!arguments.block.empty()) {
     const std::vector<Nanometres> corners = lengths.list("--block", arguments.block);
     if (corners.size() != 4 || corners[0] >= corners[2] || corners[1] >= corners[3]) {
@@ -95,7 +165,7 @@ std::optional<Drawing> read_side(const std::string& file, std::size_t side, cons
       return std::nullopt;
     }
     const Nanometres chord = wire.chords[std::min(side, wire.chords.size() - 1)];
-    drawing = read_airfoil(file, *bytes, to_mm(chord), findings);
+    drawing = read_airfoil(file, *bytes, to_mm(chord), findings, wire.curve);
   } else if (bytes) {
     drawing = read_drawing(file, job.reading, findings);
   }
@@ -125,6 +195,25 @@ std::optional<WireProfile> profile_of(const std::string& file, const Drawing& dr
   return std::nullopt;
 }
 
+// The foam within the skin, with the slots for spars. Findings are shown; then the answer is empty.
+std::optional<WireProfile> core_of(const std::string& file, const WireJob& wire, std::size_t side,
+                                   const WireProfile& profile) {
+  if (wire.skin.count == 0 && wire.spars.empty()) return profile;
+  const DrawnBox box = box_of(chords_of_path(profile.points, true, wire.cut.tolerance));
+  WireCore core{wire.skin, {}};
+  for (const SparArgument& argument : wire.spars) {
+    WireSpar spar = argument.spar;
+    const SparPlace& at = argument.at[side];
+    const auto width = static_cast<double>(box.most.x.count - box.least.x.count);
+    spar.at = at.share ? Nanometres{box.least.x.count + std::llround(*at.share * width)} : at.x;
+    core.spars.push_back(spar);
+  }
+  Diagnostics findings;
+  std::optional<WireProfile> made = wire_core(profile, core, findings);
+  show(findings, file);
+  return made;
+}
+
 void place_right(const WireJob& wire, WireProfile& profile) {
   const double c = std::cos(wire.right_turn);
   const double s = std::sin(wire.right_turn);
@@ -152,7 +241,9 @@ std::optional<std::vector<WireProfile>> read_profiles(const CamWireArguments& ar
     if (zero) {
       for (PathPoint& point : profile->points) point.at = {point.at.x - zero->x, point.at.y - zero->y};
     }
-    profiles.push_back(std::move(*profile));
+    std::optional<WireProfile> core = core_of(arguments.files[side], wire, side, *profile);
+    if (!core) return std::nullopt;
+    profiles.push_back(std::move(*core));
   }
   if (profiles.size() == 1) profiles.push_back(profiles.front());
   if (profiles[0].is_closed != profiles[1].is_closed) {

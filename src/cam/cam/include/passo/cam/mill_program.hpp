@@ -24,7 +24,7 @@ struct MillProgramOptions {
   ProgramUnits units = ProgramUnits::mm;
   Nanometres clearance{2'000'000};            // clearance height above the board
   Nanometres feed{200'000'000};               // cutting feed, nm/min
-  Nanometres plunge_feed{60'000'000};         // plunge feed, nm/min
+  Nanometres plunge_feed{60'000'000};         // plunge feed, nm/min; descents along the way are no faster
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
   DrawnPoint park = {};                       // tool position at the start, at tool changes and at the end
 };

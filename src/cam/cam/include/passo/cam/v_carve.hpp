@@ -8,6 +8,9 @@
 // around it once at full depth, and `floor` is the remaining area, for an end mill. Strokes narrower than the cutter's
 // tip are reported as `unreached`.
 //
+// The cutter stays down as far as it can: from the end of a branch it returns along the groove that it has just carved,
+// unless a lift is quicker. Lines and arcs replace the points of the axis; an arc may be a helix.
+//
 // With a `step` the cutter works in layers, each deeper by `step`, along the points that are deeper than the previous
 // layer. Every point is finally cut at its exact depth.
 //
@@ -35,7 +38,9 @@ struct VCarveOptions {
   Nanometres step{};             // depth per layer, above 0; 0: a single layer
   Nanometres start{};            // depth of the outlines below the surface, 0 or negative; the walls continue above
   Nanometres tolerance{2'000};   // tolerance of curves, in depth and in XY
-  std::string words = {};        // tool name for the operator
+  Nanometres fit{4'000};         // how far lines and arcs may leave the curves, across their walls
+  Nanometres longest_return{20'000'000};  // length of a return in a groove that takes as long as a lift
+  std::string words = {};                 // tool name for the operator
   DrawnPoint park = {};
 };
 

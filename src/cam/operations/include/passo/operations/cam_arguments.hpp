@@ -122,7 +122,16 @@ struct CamPocketArguments : CamMillArguments {
 };
 std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
 
-struct CamEngraveArguments : CamMillArguments {
+// Pictures whose outlines are traced.
+struct CamTraceArguments {
+  bool trace = false;           // the files are pictures, whose dark areas are carved
+  double threshold = 50;        // percent of white; what is darker is carved
+  bool invert = false;          // the bright areas are carved
+  double turdsize = 2;          // pixels; smaller spots are ignored
+  std::string width = "100mm";  // of the picture
+};
+
+struct CamEngraveArguments : CamMillArguments, CamTraceArguments {
   std::string text;  // empty: the files are carved
   std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
   std::string height = "10mm";      // capital letter height
@@ -149,6 +158,23 @@ struct CamEngraveArguments : CamMillArguments {
 };
 std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
 
+struct CamPlotArguments : CamMillArguments {
+  CamPlotArguments() {
+    feed = "1500mm";
+    plunge_feed = "600mm";
+  }
+  std::string pen_up = "3mm";
+  std::string pen_down = "0mm";
+  std::string servo;         // DOWN or DOWN,UP: S words; empty: Z moves the pen
+  double servo_delay = 0.2;  // seconds
+  double dot = 0.1;          // seconds
+  std::string knife;         // offset of the blade; empty: a pen
+  double swivel = 20;        // degrees
+  std::string overcut = "1mm";
+  std::string join = "0.1mm";
+};
+std::vector<CamOption> cam_options_of(CamPlotArguments& arguments);
+
 struct CamWireArguments : CamMillArguments {
   std::string axes;             // XY or XYUV; empty: as the profiles require
   std::string keep = "inside";  // outside or line
@@ -159,8 +185,11 @@ struct CamWireArguments : CamMillArguments {
   std::string block_at;  // empty: centred
   std::string chord;     // chord length of airfoils: one value, or LEFT,RIGHT
   std::string right_at = "0,0";
-  double right_turn = 0;  // degrees
-  std::string block;      // X,Y,X,Y; empty: not drawn
+  double right_turn = 0;           // degrees
+  std::string skin = "0mm";        // thickness of the skin around the core
+  std::vector<std::string> spars;  // AT,WIDTH,DEPTH or AT,WIDTH,DEPTH,below; AT: X, or LEFT:RIGHT, or in percent
+  bool straight = false;           // lines between the points of airfoils
+  std::string block;               // X,Y,X,Y; empty: not drawn
   std::string lead = "10mm";
   std::string tolerance = "0.01mm";
   std::string join = "0.1mm";
