@@ -31,6 +31,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
       {"mill", &a.mill, length, "diameter of a milling cutter, which makes the wider holes and all slots"},
       {"mill-step", &a.mill_step, length, "depth of one helical turn of the milling cutter", experts_only},
       clearance_row(a.clearance, "clearance height: rapids run this far above the board"),
+      {"feed-height", &a.feed_height, length, "height above the board down to which the drill goes by rapid",
+       experts_only},
       {"depth", &a.depth, length, "depth of the holes, a negative Z", {.is_of_machine = true}},
       {"peck", &a.peck, length, "peck depth: the drill retracts out of the hole after each peck"},
       {"feed", &a.feed, feed, "feed rate of drilling, per minute"},

@@ -34,6 +34,7 @@ struct CamDrillArguments {
   std::string mill;   // diameter of the milling cutter; empty: none
   std::string mill_step = "0.5mm";
   std::string clearance = "2mm";
+  std::string feed_height = "0.5mm";  // at most `clearance`
   std::string depth = "-2mm";
   std::string peck;  // empty: none
   std::string feed = "100mm";
