@@ -98,6 +98,8 @@ constexpr const char* board_examples =
   passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and estimated times
   passo cam board gerbers/ --probe-holes --heights 9x6 -o job
                                      probing finds the flipped board, and measures its height map
+  passo cam board gerbers/ --copies 3x4 --gap 6 -o job         twelve boards on one blank, tool by tool
+  passo cam board gerbers/ --mask 0.4 --stencil 0.3 -o job     also the solder mask's openings and a paste stencil
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
 
