@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
-#include <optional>
+#include <numeric>
 #include <utility>
 
 #include "arc_fit.hpp"
@@ -30,7 +31,6 @@ struct OutlineCut {
   std::size_t around = 0;   // how many cuts lie around it
   bool is_of_slug = false;  // mills a slug away
   bool has_tabs = true;
-  std::optional<ClosedToolpath> track = {};
 };
 
 class OutlinePlanner {
@@ -47,10 +47,9 @@ class OutlinePlanner {
     find_cuts();
     if (options_.tabs > 0) find_slugs();
     MillTool tool{options_.cutter, options_.words, slot_runs()};
-    for (OutlineCut& cut : cuts_) cut.track = track_of(std::move(cut.ring), !cut.is_of_slug);
-    order(tool.runs.empty() ? options_.park : tool.runs.back().back().at);
     std::vector<ClosedToolpath> tracks;
-    for (OutlineCut& cut : cuts_) tracks.push_back(std::move(*cut.track));
+    for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring), !cut.is_of_slug));
+    order(tool.runs.empty() ? options_.park : tool.runs.back().back().at, tracks);
     put_tabs(tracks);
     plan_.slots = options_.slots.size();
     for (const ClosedToolpath& track : tracks) tool.runs.push_back(run_of(track));
@@ -66,7 +65,7 @@ class OutlinePlanner {
   void find_cuts();
   void find_slugs();
   bool mill_slug(std::size_t opening, const Region& inside);
-  void order(DrawnPoint from);
+  void order(DrawnPoint from, std::vector<ClosedToolpath>& tracks);
   ClosedToolpath track_of(DrawnRing ring, bool may_have_dog_bones) const;
   void add_dog_bones(DrawnRing& ring) const;
   void put_tabs(std::vector<ClosedToolpath>& tracks);
@@ -184,23 +183,30 @@ bool OutlinePlanner::mill_slug(std::size_t opening, const Region& inside) {
 }
 
 // The innermost first; of those as deep inside, by the shortest way.
-void OutlinePlanner::order(DrawnPoint from) {
-  std::ranges::stable_sort(cuts_, [](const OutlineCut& a, const OutlineCut& b) { return a.around > b.around; });
-  std::vector<OutlineCut> ordered;
+void OutlinePlanner::order(DrawnPoint from, std::vector<ClosedToolpath>& tracks) {
+  std::vector<std::size_t> all(cuts_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const auto depth = [this](std::size_t i) { return cuts_[i].around; };
+  std::ranges::stable_sort(all, std::ranges::greater{}, depth);
+  std::vector<OutlineCut> cuts;
+  std::vector<ClosedToolpath> ordered;
   DrawnPoint at = from;
-  for (auto first = cuts_.begin(); first != cuts_.end();) {
-    const auto end =
-        std::find_if(first, cuts_.end(), [&](const OutlineCut& cut) { return cut.around != first->around; });
+  for (auto first = all.begin(); first != all.end();) {
+    const std::size_t around = depth(*first);
+    const auto end = std::find_if(first, all.end(), [&](std::size_t i) { return depth(i) != around; });
     std::vector<DrawnPoint> places;
-    for (auto cut = first; cut != end; ++cut) places.push_back(cut->track->at(0));
+    for (auto cut = first; cut != end; ++cut) places.push_back(tracks[*cut].at(0));
     constexpr std::uint64_t steps = 1'000'000;
     for (const std::uint32_t index : shorten_route(places, at, options_.park, steps)) {
-      ordered.push_back(std::move(*(first + static_cast<std::ptrdiff_t>(index))));
+      const std::size_t cut = *(first + static_cast<std::ptrdiff_t>(index));
+      cuts.push_back(std::move(cuts_[cut]));
+      ordered.push_back(std::move(tracks[cut]));
     }
-    at = ordered.back().track->at(0);
+    at = ordered.back().at(0);
     first = end;
   }
-  cuts_ = std::move(ordered);
+  cuts_ = std::move(cuts);
+  tracks = std::move(ordered);
 }
 
 // At an inner corner the cutter goes on, until it touches the corner, and back.

@@ -7,7 +7,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
   using enum CamKind;
   return {
       {"FILE", &a.files, drawings,
-       "DXF drawings, drill files or KiCad boards; the format is detected from the contents", are_needed},
+       "DXF drawings, drill files or boards of KiCad, EAGLE or EasyEDA; the format is detected from the contents",
+       are_needed},
       output_row(a.output),
       picture_row(a.picture, "picture of holes, tools and rapids (FILE.svg or FILE.png)"),
       units_row(a.units),
@@ -53,7 +54,8 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
   return all_of({
       {
           {"COPPER", &a.files, drawings,
-           "copper layers, which are combined: Gerber, KiCad board, or DXF with filled areas", are_needed},
+           "copper layers, which are combined: Gerber, a board of KiCad, EAGLE or EasyEDA, or DXF with filled areas",
+           are_needed},
           {"edge", &a.edge, file, "board outline; nothing outside it is milled (Gerber, KiCad or DXF)", of_one_job},
           {"join",
            &a.join,
@@ -95,7 +97,8 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
 std::vector<CamOption> cam_options_of(CamOutlineArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"EDGE", &a.files, drawings, "drawings of the board outline: Gerber, KiCad board, DXF or SVG", are_needed}},
+      {{"EDGE", &a.files, drawings,
+        "drawings of the board outline: Gerber, DXF, SVG, or a board of KiCad, EAGLE or EasyEDA", are_needed}},
       edge_rows(a),
       mill_rows(a),
   });
@@ -104,8 +107,8 @@ std::vector<CamOption> cam_options_of(CamOutlineArguments& a) {
 std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
   using enum CamKind;
   return {
-      {"JOB", &a.paths, drawings, "Gerber and drill files, folders of them, a zip archive, or a KiCad board",
-       are_needed},
+      {"JOB", &a.paths, drawings,
+       "Gerber and drill files, folders of them, a zip archive, or a board of KiCad, EAGLE or EasyEDA", are_needed},
       {"output", &a.output, file, "folder for programs, pictures and board.html", {.matters_to = cli, .letter = "o"}},
       {"profile",
        &a.profile,
