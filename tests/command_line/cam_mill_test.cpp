@@ -1,5 +1,6 @@
 // passo cam isolate, outline and board, as a user starts them: from Gerber files to programs that run.
 #include "kit/command_line.hpp"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -350,6 +351,85 @@ TEST_F(CamMill, a_wrong_profile_is_told) {
   const Outcome made = cam("board " + copper() + " --profile " + profile + " -o " + path("job"));
   EXPECT_EQ(made.code, 2);
   EXPECT_THAT(made.err, HasSubstr("[isolate]"));
+}
+
+TEST_F(CamMill, copies_in_a_grid_are_made_tool_by_tool_in_one_report) {
+  const std::string board = "board " + copper() + " " + edge() + " " + drills() + " -o " + path("panel");
+  const Outcome made = cam(board + " --copies 3x2 --gap 6");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("18 nets (3 in each of 6 copies), all apart"));
+  EXPECT_THAT(made.out, HasSubstr("12 holes"));
+  EXPECT_THAT(made.out, HasSubstr("6 outlines and 0 openings"));
+  EXPECT_THAT(made.out, HasSubstr("24 tabs"));
+  const std::string drilling = read(path("panel/1-drill.ngc"));
+  // The first hole of the last copy: two boards and two gaps to the right, one up.
+  EXPECT_THAT(drilling, HasSubstr(fmt::format("X{} Y{}", 10 + 5 + 2 * 26, 10 + 5 + 21)));
+  EXPECT_THAT(drilling, Not(HasSubstr("T2 M6")));
+  EXPECT_THAT(read(path("panel/board.html")), HasSubstr("6 boards of 20 x 15 mm in 3 columns and 2 rows, 6 mm apart"));
+  for (const char* const program : {"1-drill.ngc", "2-isolate-front.ngc", "3-outline.ngc"})
+    EXPECT_EQ(check(path("panel/") + program).code, 0);
+  const Outcome narrow = cam(board + " --copies 3x2 --gap 4.9");
+  EXPECT_EQ(narrow.code, 2);
+  EXPECT_THAT(narrow.err, HasSubstr("--gap: expected at least 5 mm"));
+  for (const char* const wrong : {"3", "0x2", "3x4x5", "101x1", "-1x2"}) {
+    const Outcome refused = cam(board + " --copies=" + wrong);
+    EXPECT_EQ(refused.code, 2) << wrong;
+    EXPECT_THAT(refused.err, HasSubstr("--copies: expected COLUMNSxROWS"));
+  }
+}
+
+TEST_F(CamMill, joined_nets_of_a_panel_are_told_by_copy) {
+  const std::string named =
+      write("named-F_Cu.gbr", "%TF.FileFunction,Copper,L1,Top*%\n" + std::string(begin) +
+                                  "%ADD10R,2.0X2.0*%\nD10*\n%TO.N,GND*%\nX5000000Y5000000D03*\n%TO.N,VCC*%\n"
+                                  "X7050000Y5000000D03*\nM02*\n");
+  const Outcome made = cam("board " + named + " " + edge() + " --copies 2x1 -o " + path("panel"));
+  EXPECT_EQ(made.code, 1);
+  EXPECT_THAT(made.out, HasSubstr("4 nets (2 in each of 2 copies), 4 of them still joined in 2 pieces"));
+  EXPECT_THAT(made.err, HasSubstr("GND of copy 2 and VCC of copy 2 are still joined"));
+}
+
+TEST_F(CamMill, the_flip_is_shown_with_its_holes_and_the_back_is_mirrored_about_their_middle) {
+  const Outcome made = cam("board " + copper() + " " + copper("board-B_Cu.gbr", "Copper,L2,Bot") + " " + edge() + " " +
+                           drills() + " --pins 4 --accept-joined --json -o " + path("two"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  const nlohmann::json report = nlohmann::json::parse(made.out);
+  const nlohmann::json& holes = report["registration"]["holes"];
+  const double axis = report["registration"]["axis_mm"];
+  EXPECT_NEAR(axis, 20, 1e-9);
+  EXPECT_NEAR(holes[0]["x_mm"].get<double>(), 6, 1e-9);
+  EXPECT_NEAR(holes[0]["x_mm"].get<double>() + holes[1]["x_mm"].get<double>(), 2 * axis, 1e-9);
+  EXPECT_EQ(holes[0]["y_mm"], holes[1]["y_mm"]);
+  const std::string drilling = read(path("two/1-drill.ngc"));
+  EXPECT_THAT(drilling, HasSubstr("X6 Y17.5"));
+  EXPECT_THAT(drilling, HasSubstr("X34 Y17.5"));
+  EXPECT_THAT(read(path("two/3-flip.svg")), HasSubstr("After: the back is up"));
+  EXPECT_THAT(read(path("two/board.html")), HasSubstr("after the flip, hole 1 is where hole 2 was"));
+}
+
+TEST_F(CamMill, a_mask_is_cleared_after_each_side_and_a_stencil_is_cut_last) {
+  const std::string mask = write(
+      "board-F_Mask.gbr", "%TF.FileFunction,Soldermask,Top*%\n%TF.FilePolarity,Negative*%\n" + std::string(begin) +
+                              "%ADD10R,2.2X2.2*%\n%ADD11R,0.35X0.35*%\nD10*\n"
+                              "X5000000Y5000000D03*\nX15000000Y5000000D03*\nD11*\n"
+                              "X10000000Y10000000D03*\nM02*\n");
+  const std::string paste = write("board-F_Paste.gbr", "%TF.FileFunction,Paste,Top*%\n" + std::string(begin) +
+                                                           "%ADD10R,1.8X1.8*%\nD10*\nX5000000Y5000000D03*\nM02*\n");
+  const std::string files = copper() + " " + edge() + " ";
+  const Outcome made =
+      cam("board " + files + mask + " " + paste + " --mask 0.4 --stencil 0.3 --accept-joined -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("3 openings of 9.803 mm² in the solder mask cleared"));
+  EXPECT_THAT(made.out, HasSubstr("1 of 1 opening in the film, 3.24 mm²"));
+  EXPECT_THAT(made.err, HasSubstr("an opening is narrower than the cutter and stays closed; --mask 0.3mm was tried"));
+  const std::string clearing = read(path("job/2-mask-front.ngc"));
+  EXPECT_THAT(clearing, HasSubstr("Z-0.05"));
+  EXPECT_THAT(read(path("job/4-stencil-front.ngc")), HasSubstr("Z-0.15"));
+  EXPECT_EQ(check(path("job/2-mask-front.ngc")).code, 0);
+  EXPECT_EQ(check(path("job/4-stencil-front.ngc")).code, 0);
+  const Outcome without = cam("board " + files + " --mask 0.4 -o " + path("none"));
+  EXPECT_EQ(without.code, 2);
+  EXPECT_THAT(without.err, HasSubstr("--mask: expected a solder mask layer"));
 }
 
 }  // namespace

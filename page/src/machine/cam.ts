@@ -18,7 +18,20 @@ export interface Cam {
   page: boolean; // what to do when, as a file of its own
 }
 // What `passo cam board --json` tells.
-export type BoardStepKind = 'blank' | 'drill' | 'heights-front' | 'heights-back' | 'front' | 'turn' | 'find-holes' | 'back' | 'edge';
+export type BoardStepKind =
+  | 'blank'
+  | 'drill'
+  | 'heights-front'
+  | 'heights-back'
+  | 'front'
+  | 'mask-front'
+  | 'turn'
+  | 'find-holes'
+  | 'back'
+  | 'mask-back'
+  | 'edge'
+  | 'stencil-front'
+  | 'stencil-back';
 export interface BoardStep {
   step: BoardStepKind;
   title: string;
@@ -39,6 +52,8 @@ export interface BoardReport {
   files: BoardFile[];
   left_out: string[];
   board: { across_mm: number; up_mm: number };
+  copies?: { count: number; across_mm: number; up_mm: number }; // of the board on one blank
+  registration?: { holes: { x_mm: number; y_mm: number }[]; axis_mm: number }; // the holes about which the board is flipped
   margin_mm: number;
   up: 'front' | 'back';
   turn: '' | 'x' | 'y';

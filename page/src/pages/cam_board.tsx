@@ -68,10 +68,14 @@ export function BoardLayers() {
 function wordsOf(report: BoardReport, step: BoardStep): string[] {
   const length = (mm: number): string => lengthText(mm, 2);
   const turned = report.turn === '' ? [] : [say(`cam.do.turn.${report.turn}`)];
+  const size = (of: { across_mm: number; up_mm: number }): string => `${length(of.across_mm)} × ${length(of.up_mm)} ${lengthUnit()}`;
+  const places = (report.registration?.holes ?? []).map((hole) => `X${length(hole.x_mm)} Y${length(hole.y_mm)}`);
+  const holes = places.length === 2 ? [say('cam.do.holes', { one: places[0] ?? '', two: places[1] ?? '' })] : [];
   switch (step.step) {
     case 'blank':
       return [
-        say('cam.do.size', { size: `${length(report.board.across_mm)} × ${length(report.board.up_mm)} ${lengthUnit()}` }),
+        say('cam.do.size', { size: size(report.board) }),
+        ...(report.copies === undefined ? [] : [say('cam.do.copies', { count: report.copies.count, size: size(report.copies) })]),
         say(`cam.do.up.${report.up}`),
         say('cam.do.zero', { margin: `${length(report.margin_mm)} ${lengthUnit()}` }),
       ];
@@ -81,12 +85,18 @@ function wordsOf(report: BoardReport, step: BoardStep): string[] {
     case 'heights-back':
       return [say('cam.do.heights'), say('cam.do.level')];
     case 'turn':
-      return [...turned, ...(report.holes === 'pins' ? [say('cam.do.pins.in')] : [say('cam.do.again')])];
+      return [...turned, ...(report.holes === 'pins' ? [say('cam.do.pins.in'), ...holes] : [say('cam.do.again')])];
     case 'find-holes':
       return [...turned, say('cam.do.clamp'), say('cam.do.find'), say('cam.do.again')];
     case 'front':
     case 'back':
       return [say('cam.do.cutter'), say('cam.do.run')];
+    case 'mask-front':
+    case 'mask-back':
+      return [say('cam.do.mask')];
+    case 'stencil-front':
+    case 'stencil-back':
+      return [say('cam.do.film'), say('cam.do.tool'), say('cam.do.run')];
     case 'edge':
       return [say('cam.do.tool'), say('cam.do.run'), say('cam.do.tabs')];
     default:
@@ -103,7 +113,7 @@ function Tool({ words }: { words: string }) {
 
 // Which steps somebody has ticked off, of which making.
 const done = signal<{ made: number; steps: readonly number[] }>({ made: -1, steps: [] });
-const withPicture: readonly string[] = ['blank', 'drill', 'front', 'back', 'edge'];
+const withPicture: readonly string[] = ['blank', 'drill', 'front', 'back', 'mask-front', 'mask-back', 'edge', 'stencil-front', 'stencil-back'];
 const secretOf = (): string => (token.value === '' ? '' : `&token=${token.value}`);
 
 function Step({ report, step, at, program, number }: { report: BoardReport; step: BoardStep; at: number; program: number | null; number: number | null }) {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "passo/cam/board_layer.hpp"
+#include "passo/cam/design_board.hpp"
 #include "passo/cam/excellon.hpp"
-#include "passo/cam/kicad_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
@@ -31,7 +31,7 @@ class JobReader {
   void read_folder(const std::string& path);
   void read_file(const std::string& path);
   void add(const std::string& name, const std::string& bytes);
-  void add_kicad(const std::string& name, const std::string& bytes);
+  void add_design(const std::string& name, const std::string& bytes);
   bool has_room_for(const std::string& path, std::size_t bytes);
 
   Diagnostics& diagnostics_;
@@ -81,7 +81,9 @@ void JobReader::read_folder(const std::string& path) {
 
 void JobReader::read_file(const std::string& path) {
   const std::optional<std::string> bytes = read_bytes(
-      path, {.area = "board", .expected = "a Gerber file, a drill file, a KiCad board, a folder or a zip archive"},
+      path,
+      {.area = "board",
+       .expected = "a Gerber file, a drill file, a board of KiCad, EAGLE or EasyEDA, a folder or a zip archive"},
       diagnostics_);
   if (!bytes || !has_room_for(path, bytes->size())) return;
   if (!looks_like_zip(*bytes)) return add(path, *bytes);
@@ -98,8 +100,8 @@ void JobReader::add(const std::string& name, const std::string& bytes) {
     file.layer = read_gerber(name, bytes, diagnostics_);
     file.kind = kind_by_function(file.layer->function);
     if (file.kind.role == BoardRole::unknown) file.kind = kind_by_name(fs::path(name).filename().string());
-  } else if (looks_like_kicad_board(bytes)) {
-    add_kicad(name, bytes);
+  } else if (looks_like_design_board(bytes)) {
+    add_design(name, bytes);
     return;
   } else if (looks_like_excellon(bytes)) {
     file.drills = read_excellon(name, bytes, {}, diagnostics_);
@@ -112,22 +114,25 @@ void JobReader::add(const std::string& name, const std::string& bytes) {
 }
 
 // Each layer is a file of the job. Copper with nothing on it is none.
-void JobReader::add_kicad(const std::string& name, const std::string& bytes) {
-  KicadBoard board = read_kicad_board(name, bytes, diagnostics_);
+void JobReader::add_design(const std::string& name, const std::string& bytes) {
+  DesignBoard board = read_design_board(name, bytes, diagnostics_);
   const auto add_layer = [&](const std::string& layer, BoardFileKind kind, GerberLayer content) {
     kind.told_by = "content";
     job_.files.push_back({name + ": " + layer, kind, std::move(content), {}, name});
   };
   std::uint32_t number = 0;  // as in the attributes of Gerber files
-  for (KicadLayer& one : board.copper) {
+  for (DesignLayer& one : board.copper) {
     ++number;
     if (one.layer.dark.empty() && one.layer.strokes.notes.empty()) continue;
-    const BoardSide side = one.name == "F.Cu"   ? BoardSide::top
-                           : one.name == "B.Cu" ? BoardSide::bottom
-                                                : BoardSide::inner;
+    const auto is_one_of = [&](std::initializer_list<const char*> names) {
+      return std::ranges::find(names, one.name) != names.end();
+    };
+    const BoardSide side = is_one_of({"F.Cu", "Top", "TopLayer"})         ? BoardSide::top
+                           : is_one_of({"B.Cu", "Bottom", "BottomLayer"}) ? BoardSide::bottom
+                                                                          : BoardSide::inner;
     add_layer(one.name, {BoardRole::copper, side, side == BoardSide::inner ? number : 0U}, std::move(one.layer));
   }
-  if (!board.edge.strokes.paths.empty()) add_layer("Edge.Cuts", {BoardRole::outline}, std::move(board.edge));
+  if (!board.edge.strokes.paths.empty()) add_layer(board.edge_name, {BoardRole::outline}, std::move(board.edge));
   if (board.drills.holes.empty() && board.drills.paths.empty()) return;
   job_.files.push_back(
       {name + ": holes", {BoardRole::drill, BoardSide::both, 0, "content"}, {}, std::move(board.drills), name});
@@ -145,7 +150,7 @@ BoardJob JobReader::take(const std::string& path) {
                    [&](const BoardFile& a, const BoardFile& b) { return rank(a) < rank(b); });
   if (job_.files.empty() && !diagnostics_.any_error()) {
     diagnostics_.add(of_file("board.no-layers", job_.left_out.empty() ? path : job_.left_out.front(),
-                             "there is no Gerber file, drill file or KiCad board",
+                             "there is no Gerber file, drill file or board of KiCad, EAGLE or EasyEDA",
                              "the files that the layout program exports"));
   }
   return std::move(job_);
@@ -172,7 +177,7 @@ void refuse_two_boards(const BoardJob& job, Diagnostics& diagnostics) {
   if (other == job.files.end()) return;
   diagnostics.add(of_file("board.two-boards", other->name,
                           fmt::format("this file does not belong to '{}', which is a whole board", whole->board),
-                          "one board: the KiCad file, or the folder with its layers"));
+                          "one board: its own file, or the folder with its layers"));
 }
 
 Region board_face(const BoardJob& job) {

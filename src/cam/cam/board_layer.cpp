@@ -4,7 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "passo/cam/kicad_board.hpp"
+#include "passo/cam/design_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
@@ -46,7 +46,7 @@ std::vector<NetPlace> net_places_of(const GerberLayer& layer) {
 namespace {
 
 // The layers of the board that are chosen; none is chosen: the edge, or the only one with copper.
-BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFileOptions& options,
+BoardLayer layer_of(DesignBoard board, const std::string& path, const DrawingFileOptions& options,
                     Diagnostics& diagnostics) {
   BoardLayer layer;
   layer.lines.file = path;
@@ -58,10 +58,10 @@ BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFile
     std::ranges::move(from.strokes.notes, std::back_inserter(layer.lines.notes));
   };
   std::vector<std::string> wanted = options.dxf.layers;
-  if (wanted.empty() && options.is_edge) wanted = {"Edge.Cuts"};
+  if (wanted.empty() && options.is_edge) wanted = {board.edge_name};
   std::string known;  // layers that have something on them
   std::size_t with_copper = 0;
-  for (const KicadLayer& one : board.copper) {
+  for (const DesignLayer& one : board.copper) {
     if (one.layer.dark.empty()) continue;
     known += (known.empty() ? "--layer " : " or ") + one.name;
     if (++with_copper == 1 && options.dxf.layers.empty() && !options.is_edge) wanted = {one.name};
@@ -71,13 +71,13 @@ BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFile
     return layer;
   }
   for (const std::string& name : wanted) {
-    const auto found = std::ranges::find_if(board.copper, [&](const KicadLayer& one) { return one.name == name; });
-    if (name != "Edge.Cuts" && found == board.copper.end()) {
+    const auto found = std::ranges::find_if(board.copper, [&](const DesignLayer& one) { return one.name == name; });
+    if (name != board.edge_name && found == board.copper.end()) {
       diagnostics.add(of_file("kicad.no-layer", path, "there is no copper layer '" + name + "'",
-                              known + (known.empty() ? "--layer Edge.Cuts" : " or Edge.Cuts")));
+                              known + (known.empty() ? "--layer " : " or ") + board.edge_name));
       return layer;
     }
-    take(name == "Edge.Cuts" ? board.edge : found->layer);
+    take(name == board.edge_name ? board.edge : found->layer);
   }
   layer.face = faces.size() == 1 ? std::move(faces.front()) : united(faces);
   return layer;
@@ -88,11 +88,12 @@ BoardLayer layer_of(KicadBoard board, const std::string& path, const DrawingFile
 BoardLayer read_board_layer(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics) {
   BoardLayer layer;
   layer.lines.file = path;
-  const FileKind kind{.area = "drawing", .expected = "a Gerber, DXF or drill file, or a KiCad board"};
+  const FileKind kind{.area = "drawing",
+                      .expected = "a Gerber, DXF or drill file, or a board of KiCad, EAGLE or EasyEDA"};
   const std::optional<std::string> bytes = read_bytes(path, kind, diagnostics);
   if (!bytes) return layer;
-  if (looks_like_kicad_board(*bytes)) {
-    KicadBoard board = read_kicad_board(path, *bytes, diagnostics);
+  if (looks_like_design_board(*bytes)) {
+    DesignBoard board = read_design_board(path, *bytes, diagnostics);
     return diagnostics.any_error() ? layer : layer_of(std::move(board), path, options, diagnostics);
   }
   if (!looks_like_gerber(*bytes)) {

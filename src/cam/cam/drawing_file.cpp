@@ -2,7 +2,7 @@
 
 #include "gunzip.hpp"
 
-#include "passo/cam/kicad_board.hpp"
+#include "passo/cam/design_board.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
@@ -25,9 +25,9 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
     }
   }
   if (looks_like_dxf(*bytes)) return read_dxf(path, *bytes, options.dxf, diagnostics);
+  if (looks_like_design_board(*bytes)) return read_design_board(path, *bytes, diagnostics).drills;
   if (looks_like_svg(*bytes)) return read_svg(path, *bytes, options.svg, diagnostics);
   if (looks_like_hpgl(*bytes)) return read_hpgl(path, *bytes, options.hpgl, diagnostics);
-  if (looks_like_kicad_board(*bytes)) return read_kicad_board(path, *bytes, diagnostics).drills;
   if (looks_like_excellon(*bytes)) return read_excellon(path, *bytes, options.excellon, diagnostics);
   diagnostics.add(of_file("drawing.unknown-kind", path,
                           "this is not a DXF or SVG drawing, HPGL plot, drill file or KiCad board",

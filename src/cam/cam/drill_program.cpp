@@ -31,12 +31,14 @@ class DrillProgram {
   }
   void begin();
   void write_tool(const DrillTool& tool, std::size_t number);
-  void drill(const DrillTarget& target, bool is_first);
-  void drill_by_moves(const DrillTarget& target);
+  static bool may_stay_low(const DrillTarget& target, const DrillTarget& next);
+  void drill(const DrillTarget& target, bool is_first, bool stays_low);
+  void drill_by_moves(const DrillTarget& target, bool stays_low);
   void mill(const DrillTarget& target);
   void go_along(const std::vector<PathPoint>& points, bool is_closed, bool backwards);
   void arc(DrawnPoint from, DrawnPoint to, double bulge);
   std::vector<Nanometres> depths() const;
+  Nanometres feed_height() const { return std::min(options_.clearance, options_.feed_height); }
 
   std::string number(Nanometres length) const { return text_.number(length); }
   std::string place(DrawnPoint at) const { return text_.place(at); }
@@ -47,6 +49,7 @@ class DrillProgram {
   const DrillPlan& plan_;
   const DrillProgramOptions& options_;
   ProgramText text_;
+  bool rises_ = true;  // to the clearance height after the present hole
 };
 
 std::string contents_of(const DrillTool& tool) {
@@ -73,7 +76,10 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
                     options_.clearance});
   line("F{}", number(tool.is_mill ? options_.mill_feed : options_.feed));
   bool in_cycle = false;
-  for (const DrillTarget& target : tool.targets) {
+  rises_ = true;
+  for (std::size_t i = 0; i < tool.targets.size(); ++i) {
+    const DrillTarget& target = tool.targets[i];
+    const bool stays_low = i + 1 < tool.targets.size() && may_stay_low(target, tool.targets[i + 1]);
     const bool is_hole = target.kind == DrillTarget::Kind::hole;
     if (in_cycle && !is_hole) {
       line("G80");
@@ -82,41 +88,51 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
     if (!is_hole) {
       mill(target);
     } else if (options_.canned) {
-      drill(target, !in_cycle);
+      drill(target, !in_cycle, stays_low);
       in_cycle = true;
     } else {
-      drill_by_moves(target);
+      drill_by_moves(target, stays_low);
     }
   }
   if (in_cycle) line("G80");
 }
 
-void DrillProgram::drill(const DrillTarget& target, bool is_first) {
+// Whether the drill goes from one hole to the next at the feed height.
+bool DrillProgram::may_stay_low(const DrillTarget& target, const DrillTarget& next) {
+  constexpr double farthest = 5e6;  // nm
+  return target.kind == DrillTarget::Kind::hole && next.kind == DrillTarget::Kind::hole &&
+         distance_nm(target.points.front().at, next.points.front().at) <= farthest;
+}
+
+void DrillProgram::drill(const DrillTarget& target, bool is_first, bool stays_low) {
   const std::string at = place(target.points.front().at);
+  const bool was_rising = std::exchange(rises_, !stays_low);
+  const char* const retract = stays_low ? "G99" : "G98";
   if (!is_first) {
-    line("{}", at);
+    line("{}{}", was_rising == rises_ ? "" : fmt::format("{} ", retract), at);
     return;
   }
-  const std::string heights = "Z" + number(options_.depth) + " R" + number(options_.clearance);
+  const std::string heights = "Z" + number(options_.depth) + " R" + number(feed_height());
   if (options_.peck) {
-    line("G98 G83 {} {} Q{}", at, heights, number(*options_.peck));
+    line("{} G83 {} {} Q{}", retract, at, heights, number(*options_.peck));
   } else {
-    line("G98 G81 {} {}", at, heights);
+    line("{} G81 {} {}", retract, at, heights);
   }
 }
 
-void DrillProgram::drill_by_moves(const DrillTarget& target) {
+void DrillProgram::drill_by_moves(const DrillTarget& target, bool stays_low) {
   line("G0 {}", place(target.points.front().at));
+  if (std::exchange(rises_, !stays_low) && feed_height() < options_.clearance) line("G0 Z{}", number(feed_height()));
   Nanometres down{};
   while (options_.peck && down.count - options_.peck->count > options_.depth.count) {
     down = down - *options_.peck;
     line("G1 Z{}", number(down));
     line("G0 Z{}", number(options_.clearance));
     constexpr Nanometres above{250'000};  // where the next peck's feed begins
-    line("G0 Z{}", number(down + above));
+    line("G0 Z{}", number(std::min(feed_height(), down + above)));
   }
   line("G1 Z{}", number(options_.depth));
-  line("G0 Z{}", number(options_.clearance));
+  line("G0 Z{}", number(stays_low ? feed_height() : options_.clearance));
 }
 
 std::vector<Nanometres> DrillProgram::depths() const {
@@ -135,7 +151,7 @@ void DrillProgram::mill(const DrillTarget& target) {
   const bool is_circle = target.kind == DrillTarget::Kind::circle;
   const DrawnPoint begin = is_circle ? DrawnPoint{centre.x + target.radius, centre.y} : centre;
   line("G0 {}", place(begin));
-  line("G0 Z{}", number({std::min<std::int64_t>(options_.clearance.count, 500'000)}));
+  line("G0 Z{}", number(feed_height()));
   line("G1 Z0 F{}", number(options_.feed));
   line("F{}", number(options_.mill_feed));
   if (is_circle) {

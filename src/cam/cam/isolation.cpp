@@ -10,6 +10,7 @@
 #include "edge_grid.hpp"
 #include "mill_order.hpp"
 #include "narrow_gaps.hpp"
+#include "ring_groups.hpp"
 #include "voronoi_lines.hpp"
 #include <fmt/format.h>
 
@@ -329,9 +330,8 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
   if (ways.empty()) return;
 
   const EdgeGrid copper_rim = grid_over(grown(copper_, {off(cutter).count - chord_room.count / 2}, options_.tolerance));
-  Region kept;  // where a way is within the rim
-  for (const Region& one : plan_.kept) kept.rings.insert(kept.rings.end(), one.rings.begin(), one.rings.end());
-  const EdgeGrid kept_rim = grid_over(grown(kept, radius + Nanometres{chord_room.count / 2}));
+  // Where a way is within the rim.
+  const EdgeGrid kept_rim = grid_over(grown(gathered(plan_.kept), radius + Nanometres{chord_room.count / 2}));
   const EdgeGrid outer_rim = grid_over(outermost);
   const auto may_link = [&](DrawnPoint from, DrawnPoint to) {
     constexpr double longest = 3e6;  // nm; a longer way takes more time than lifting

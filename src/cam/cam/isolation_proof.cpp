@@ -275,8 +275,7 @@ IsolationProof prove_isolation(const Region& copper, const MillPlan& plan, const
   constexpr Nanometres beyond{10'000'000};  // around all, where copper goes on without end
   const std::vector<SweptWay> ways = swept_ways(plan);
   const ProvedLayer layer(copper);
-  Region all_kept;
-  for (const Region& one : kept) all_kept.rings.insert(all_kept.rings.end(), one.rings.begin(), one.rings.end());
+  const Region all_kept = gathered(kept);
   const ProvedLayer kept_layer(all_kept);
   std::optional<DrawnBox> around = bounds(copper);
   for (const SweptWay& one : ways)

@@ -36,7 +36,7 @@ class KicadBoardReader {
     drills_.layers = {"plated", "not plated"};
   }
 
-  KicadBoard read();
+  DesignBoard read();
 
  private:
   void read_layers(KicadItem item);
@@ -393,8 +393,8 @@ GerberLayer KicadBoardReader::layer_of(Sheet& sheet) {
   return layer;
 }
 
-KicadBoard KicadBoardReader::read() {
-  KicadBoard board;
+DesignBoard KicadBoardReader::read() {
+  DesignBoard board;
   if (!text_.begins_with("kicad_pcb")) return board;
   while (!text_.full() && !is_full_) {
     const KicadItem item = text_.next();
@@ -437,7 +437,7 @@ bool looks_like_kicad_board(std::string_view text) {
   return first != std::string_view::npos && text.substr(first).starts_with(begin_of_board);
 }
 
-KicadBoard read_kicad_board(const std::string& name, std::string_view text, Diagnostics& diagnostics) {
+DesignBoard read_kicad_board(const std::string& name, std::string_view text, Diagnostics& diagnostics) {
   return KicadBoardReader(name, text, diagnostics).read();
 }
 

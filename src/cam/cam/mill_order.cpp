@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "piece_order.hpp"
 #include "place_tree.hpp"
 
 #include "passo/cam/route.hpp"
@@ -23,9 +24,16 @@ class WayOrderer {
       : ways_(ways), order_(order), progress_(progress) {}
 
   std::vector<MillRun> runs() {
+    constexpr std::size_t rounds = 3;
     chain();
-    shorten();
-    for (int round = 0; round < 2; ++round) turn_loops();
+    for (std::size_t round = 0; round < rounds; ++round) {
+      const double before = rapids(chains_);
+      shorten(progress_.part(0.4, 1).stage(round, rounds));
+      shorten_directed();
+      for (int turn = 0; turn < 4; ++turn) turn_loops();
+      constexpr double worthwhile = 0.999;
+      if (rapids(chains_) > worthwhile * before) break;
+    }
     std::vector<MillRun> runs;
     runs.reserve(chains_.size());
     for (const Chain& chain : chains_) runs.push_back(run_of(chain));
@@ -39,11 +47,15 @@ class WayOrderer {
     const DrawnRing& points = way(entered).points;
     return way(entered).is_closed ? start(entered) : entered.entry == 0 ? points.back() : points.front();
   }
+  void turn(EnteredWay& open) const {
+    open.entry = open.entry == 0 ? static_cast<std::uint32_t>(way(open).points.size() - 1) : 0;
+  }
   DrawnPoint start(const Chain& chain) const { return start(chain.front()); }
   DrawnPoint end(const Chain& chain) const { return end(chain.back()); }
 
   void chain();
-  void shorten();
+  void shorten(const WorkProgress& progress);
+  void shorten_directed();
   void turn_loops();
   double rapids(const std::vector<Chain>& chains) const;
   MillRun run_of(const Chain& chain) const;
@@ -93,16 +105,30 @@ double WayOrderer::rapids(const std::vector<Chain>& chains) const {
   return length + distance_nm(at, order_.park);
 }
 
-void WayOrderer::shorten() {
+// Each chain counts as the place where it begins.
+void WayOrderer::shorten(const WorkProgress& progress) {
   std::vector<DrawnPoint> places;
   for (const Chain& chain : chains_) places.push_back(start(chain));
   constexpr std::uint64_t enough_a_place = 5'000;
   const std::uint64_t steps = std::min(order_.route_steps, enough_steps(places.size(), enough_a_place));
   std::vector<Chain> shorter;
-  for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps, progress_.part(0.4, 1))) {
+  for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps, progress)) {
     shorter.push_back(chains_[index]);
   }
   if (rapids(shorter) < rapids(chains_)) chains_ = std::move(shorter);
+}
+
+// A chain ends elsewhere than it begins, and only one open way may be turned.
+void WayOrderer::shorten_directed() {
+  std::vector<RoutePiece> pieces;
+  for (const Chain& chain : chains_)
+    pieces.push_back({start(chain), end(chain), chain.size() == 1 && way(chain.front()).may_be_turned});
+  std::vector<Chain> shorter;
+  for (const PlacedPiece& placed : shorten_piece_order(pieces, order_.park, order_.route_steps)) {
+    Chain& chain = shorter.emplace_back(std::move(chains_[placed.piece]));
+    if (placed.is_turned) turn(chain.front());
+  }
+  chains_ = std::move(shorter);
 }
 
 // A loop on its own begins where the way to it and on from it is shortest.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "medial_axis.hpp"
+#include "ring_groups.hpp"
 #include "voronoi_lines.hpp"
 
 namespace passo {
@@ -62,13 +63,6 @@ std::vector<Region> kept_of(const std::vector<Region>& islands, const std::vecto
     if (kept.back().empty()) kept.back() = islands[i];  // a dot
   }
   return kept;
-}
-
-// All of them together; they do not touch.
-Region gathered(const std::vector<Region>& islands) {
-  Region all;
-  for (const Region& island : islands) all.rings.insert(all.rings.end(), island.rings.begin(), island.rings.end());
-  return all;
 }
 
 }  // namespace

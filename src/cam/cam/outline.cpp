@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
-#include <optional>
+#include <numeric>
 #include <utility>
 
 #include "arc_fit.hpp"
@@ -11,6 +12,7 @@
 #include "edge_grid.hpp"
 #include "flat_vector.hpp"
 #include "outline_tabs.hpp"
+#include "piece_order.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
@@ -44,12 +46,11 @@ class OutlinePlanner {
     refuse_narrow_openings();
     find_cuts();
     if (options_.tabs > 0) find_slugs();
-    order();
+    MillTool tool{options_.cutter, options_.words, slot_runs()};
     std::vector<ClosedToolpath> tracks;
     for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring), !cut.is_of_slug));
+    order(tool.runs.empty() ? options_.park : tool.runs.back().back().at, tracks);
     put_tabs(tracks);
-    MillTool tool{options_.cutter, options_.words, {}};
-    for (const DrawnRing& slot : options_.slots) tool.runs.push_back(slot_of(slot));
     plan_.slots = options_.slots.size();
     for (const ClosedToolpath& track : tracks) tool.runs.push_back(run_of(track));
     measure_loss();
@@ -64,12 +65,13 @@ class OutlinePlanner {
   void find_cuts();
   void find_slugs();
   bool mill_slug(std::size_t opening, const Region& inside);
-  void order();
+  void order(DrawnPoint from, std::vector<ClosedToolpath>& tracks);
   ClosedToolpath track_of(DrawnRing ring, bool may_have_dog_bones) const;
   void add_dog_bones(DrawnRing& ring) const;
   void put_tabs(std::vector<ClosedToolpath>& tracks);
   MillRun run_of(const ClosedToolpath& track);
   MillRun slot_of(const DrawnRing& line) const;
+  std::vector<MillRun> slot_runs() const;
   bool is_clear(DrawnPoint from, DrawnPoint to, double bulge) const;
   std::vector<DrawnPoint> lead_of(const ClosedToolpath& track) const;
   void keep_way(const ClosedToolpath& track, const std::vector<DrawnPoint>& lead, double quarter);
@@ -181,23 +183,30 @@ bool OutlinePlanner::mill_slug(std::size_t opening, const Region& inside) {
 }
 
 // The innermost first; of those as deep inside, by the shortest way.
-void OutlinePlanner::order() {
-  std::ranges::stable_sort(cuts_, [](const OutlineCut& a, const OutlineCut& b) { return a.around > b.around; });
-  std::vector<OutlineCut> ordered;
-  DrawnPoint at = options_.park;
-  for (auto first = cuts_.begin(); first != cuts_.end();) {
-    const auto end =
-        std::find_if(first, cuts_.end(), [&](const OutlineCut& cut) { return cut.around != first->around; });
+void OutlinePlanner::order(DrawnPoint from, std::vector<ClosedToolpath>& tracks) {
+  std::vector<std::size_t> all(cuts_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const auto depth = [this](std::size_t i) { return cuts_[i].around; };
+  std::ranges::stable_sort(all, std::ranges::greater{}, depth);
+  std::vector<OutlineCut> cuts;
+  std::vector<ClosedToolpath> ordered;
+  DrawnPoint at = from;
+  for (auto first = all.begin(); first != all.end();) {
+    const std::size_t around = depth(*first);
+    const auto end = std::find_if(first, all.end(), [&](std::size_t i) { return depth(i) != around; });
     std::vector<DrawnPoint> places;
-    for (auto cut = first; cut != end; ++cut) places.push_back(cut->ring.front());
+    for (auto cut = first; cut != end; ++cut) places.push_back(tracks[*cut].at(0));
     constexpr std::uint64_t steps = 1'000'000;
     for (const std::uint32_t index : shorten_route(places, at, options_.park, steps)) {
-      ordered.push_back(std::move(*(first + static_cast<std::ptrdiff_t>(index))));
+      const std::size_t cut = *(first + static_cast<std::ptrdiff_t>(index));
+      cuts.push_back(std::move(cuts_[cut]));
+      ordered.push_back(std::move(tracks[cut]));
     }
-    at = ordered.back().ring.front();
+    at = ordered.back().at(0);
     first = end;
   }
-  cuts_ = std::move(ordered);
+  cuts_ = std::move(cuts);
+  tracks = std::move(ordered);
 }
 
 // At an inner corner the cutter goes on, until it touches the corner, and back.
@@ -355,6 +364,20 @@ MillRun OutlinePlanner::slot_of(const DrawnRing& line) const {
     for (const PathPoint& point : with_arcs(points, {})) run.push_back({point.at, point.bulge, z});
   }
   return run;
+}
+
+std::vector<MillRun> OutlinePlanner::slot_runs() const {
+  std::vector<MillRun> runs;
+  std::vector<RoutePiece> pieces;
+  for (const DrawnRing& slot : options_.slots) {
+    runs.push_back(slot_of(slot));
+    pieces.push_back({runs.back().front().at, runs.back().back().at});
+  }
+  std::vector<MillRun> ordered;
+  constexpr std::uint64_t steps = 1'000'000;
+  for (const PlacedPiece& placed : shorten_piece_order(pieces, options_.park, steps))
+    ordered.push_back(std::move(runs[placed.piece]));
+  return ordered;
 }
 
 // A ramp may go around a small opening very often: one lap is enough to know what is cut.

@@ -106,4 +106,10 @@ std::vector<std::vector<std::size_t>> groups_of_edges_apart(const Region& region
   return listed(groups, region.rings.size(), are_told);
 }
 
+Region gathered(const std::vector<Region>& apart) {
+  Region all;
+  for (const Region& one : apart) all.rings.insert(all.rings.end(), one.rings.begin(), one.rings.end());
+  return all;
+}
+
 }  // namespace passo

@@ -7,7 +7,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
   using enum CamKind;
   return {
       {"FILE", &a.files, drawings,
-       "DXF drawings, drill files or KiCad boards; the format is detected from the contents", are_needed},
+       "DXF drawings, drill files or boards of KiCad, EAGLE or EasyEDA; the format is detected from the contents",
+       are_needed},
       output_row(a.output),
       picture_row(a.picture, "picture of holes, tools and rapids (FILE.svg or FILE.png)"),
       units_row(a.units),
@@ -31,6 +32,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
       {"mill", &a.mill, length, "diameter of a milling cutter, which makes the wider holes and all slots"},
       {"mill-step", &a.mill_step, length, "depth of one helical turn of the milling cutter", experts_only},
       clearance_row(a.clearance, "clearance height: rapids run this far above the board"),
+      {"feed-height", &a.feed_height, length, "height above the board down to which the drill goes by rapid",
+       experts_only},
       {"depth", &a.depth, length, "depth of the holes, a negative Z", {.is_of_machine = true}},
       {"peck", &a.peck, length, "peck depth: the drill retracts out of the hole after each peck"},
       {"feed", &a.feed, feed, "feed rate of drilling, per minute"},
@@ -51,7 +54,8 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
   return all_of({
       {
           {"COPPER", &a.files, drawings,
-           "copper layers, which are combined: Gerber, KiCad board, or DXF with filled areas", are_needed},
+           "copper layers, which are combined: Gerber, a board of KiCad, EAGLE or EasyEDA, or DXF with filled areas",
+           are_needed},
           {"edge", &a.edge, file, "board outline; nothing outside it is milled (Gerber, KiCad or DXF)", of_one_job},
           {"join",
            &a.join,
@@ -93,7 +97,8 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
 std::vector<CamOption> cam_options_of(CamOutlineArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"EDGE", &a.files, drawings, "drawings of the board outline: Gerber, KiCad board, DXF or SVG", are_needed}},
+      {{"EDGE", &a.files, drawings,
+        "drawings of the board outline: Gerber, DXF, SVG, or a board of KiCad, EAGLE or EasyEDA", are_needed}},
       edge_rows(a),
       mill_rows(a),
   });
@@ -102,8 +107,8 @@ std::vector<CamOption> cam_options_of(CamOutlineArguments& a) {
 std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
   using enum CamKind;
   return {
-      {"JOB", &a.paths, drawings, "Gerber and drill files, folders of them, a zip archive, or a KiCad board",
-       are_needed},
+      {"JOB", &a.paths, drawings,
+       "Gerber and drill files, folders of them, a zip archive, or a board of KiCad, EAGLE or EasyEDA", are_needed},
       {"output", &a.output, file, "folder for programs, pictures and board.html", {.matters_to = cli, .letter = "o"}},
       {"profile",
        &a.profile,
@@ -124,6 +129,15 @@ std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
       {"margin", &a.margin, length, "X and Y of the board's lower left corner"},
       {"pins", &a.pin_distance, length, "distance of the two alignment holes from the board's edge; 0: no holes"},
       {"probe-holes", &a.probe_holes, flag, "no pins: after the board is flipped, a program probes the two holes"},
+      {"copies", &a.copies, text, "copies of the board in a grid on one blank, COLUMNSxROWS, e.g. 3x4"},
+      {"gap", &a.gap, length, "gap between two copies"},
+      {"mask", &a.mask, length,
+       "diameter of a cutter that clears the openings of a cured solder mask (default:\nno program for the mask)"},
+      {"mask-depth", &a.mask_depth, length, "depth of these openings, a negative Z", experts_only},
+      {"stencil", &a.stencil, length,
+       "diameter of a cutter that cuts a stencil for solder paste (default: no stencil)"},
+      {"stencil-depth", &a.stencil_depth, length, "depth of the cut through the stencil's film, a negative Z",
+       experts_only},
       {"heights", &a.heights, text,
        "grid of a height map, COLUMNSxROWS, e.g. 9x6; adds a probing program for each side"},
       {"join",

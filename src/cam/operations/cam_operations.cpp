@@ -97,9 +97,12 @@ constexpr const char* board_examples =
     R"(Examples:
   passo cam board gerbers/ -o job                    programs with pictures, and job/board.html: the steps in order
   passo cam board board.kicad_pcb -o job             the same for a KiCad board, without an export
+  passo cam board board.brd -o job                   and for one of EAGLE; board.json: one of EasyEDA
   passo cam board board.zip --profile mine.toml -m router.toml -o job      with your options, and estimated times
   passo cam board gerbers/ --probe-holes --heights 9x6 -o job
                                      probing finds the flipped board, and measures its height map
+  passo cam board gerbers/ --copies 3x4 --gap 6 -o job         twelve boards on one blank, tool by tool
+  passo cam board gerbers/ --mask 0.4 --stencil 0.3 -o job     also the solder mask's openings and a paste stencil
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
 
@@ -177,26 +180,27 @@ constexpr std::array operations = {
                  .examples = engrave_examples,
                  .options = options_with_defaults<CamEngraveArguments>,
                  .instead_of_files = "text"},
-    CamOperation{.name = "drill",
-                 .purpose = "drill the holes of DXF drawings, Excellon drill files and KiCad boards",
-                 .accepts = ".drl,.xln,.exc,.txt,.dxf,.kicad_pcb",
-                 .examples = drill_examples,
-                 .options = options_with_defaults<CamDrillArguments>},
+    CamOperation{
+        .name = "drill",
+        .purpose = "drill the holes of DXF drawings, Excellon drill files and boards of KiCad, EAGLE or EasyEDA",
+        .accepts = ".drl,.xln,.exc,.txt,.dxf,.kicad_pcb,.brd,.json",
+        .examples = drill_examples,
+        .options = options_with_defaults<CamDrillArguments>},
     CamOperation{.name = "isolate",
                  .purpose = "isolation milling: mill around the tracks and pads of a copper layer",
-                 .accepts = ".gbr,.gtl,.gbl,.dxf,.top,.bot,.kicad_pcb",
+                 .accepts = ".gbr,.gtl,.gbl,.dxf,.top,.bot,.kicad_pcb,.brd,.json",
                  .examples = isolate_examples,
                  .options = options_with_defaults<CamIsolateArguments>},
     CamOperation{.name = "outline",
                  .purpose = "cut out circuit boards and their openings along the outline",
-                 .accepts = ".gbr,.gko,.gm1,.dxf,.svg,.kicad_pcb",
+                 .accepts = ".gbr,.gko,.gm1,.dxf,.svg,.kicad_pcb,.brd,.json",
                  .examples = outline_examples,
                  .options = options_with_defaults<CamOutlineArguments>},
     CamOperation{
         .name = "board",
         .purpose = "generate all programs of a circuit board (drill, isolate, outline), with step-by-step instructions",
-        .accepts =
-            ".zip,.gbr,.gtl,.gbl,.gko,.gm1,.gts,.gbs,.gto,.gbo,.gtp,.gbp,.top,.bot,.drl,.xln,.exc,.txt,.kicad_pcb",
+        .accepts = ".zip,.gbr,.gtl,.gbl,.gko,.gm1,.gts,.gbs,.gto,.gbo,.gtp,.gbp,.top,.bot,.drl,.xln,.exc,.txt,.kicad_"
+                   "pcb,.brd,.json",
         .examples = board_examples,
         .options = options_with_defaults<CamBoardArguments>,
         .parts = board_parts},

@@ -11,9 +11,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   passo::Diagnostics found;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  const passo::KicadBoard board = passo::read_kicad_board("fuzz.kicad_pcb", bytes, found);
+  const passo::DesignBoard board = passo::read_kicad_board("fuzz.kicad_pcb", bytes, found);
   passo::test::check_findings(found);
-  for (const passo::KicadLayer& one : board.copper) passo::test::check_layer(one.layer);
+  for (const passo::DesignLayer& one : board.copper) passo::test::check_layer(one.layer);
   passo::test::check_layer(board.edge);
   for (const passo::DrawnHole& hole : board.drills.holes) {
     passo::test::check_within(hole.at);

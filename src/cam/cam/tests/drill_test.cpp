@@ -102,7 +102,23 @@ TEST(DrillProgram, one_tool_has_no_change_and_begins_and_ends_parked) {
           {.name = "b(1).ngc", .files = {"board.drl"}, .clearance = mm(2), .depth = mm(-3), .spindle = {}, .park = {}}),
       "(b_1_.ngc: holes, by passo cam drill)\n(from board.drl)\n(tool 1: drill 0.8 mm, 2 holes)\n"
       "(X0 Y0 is the drawing's zero, Z0 the face of the board)\nG17 G21 G40 G80 G90 G94\nG0 Z2\n\n"
-      "(tool 1: drill 0.8 mm, 2 holes)\nF100\nG98 G81 X10 Y0 Z-3 R2\nX20 Y0\nG80\nG0 X0 Y0\nM2\n");
+      "(tool 1: drill 0.8 mm, 2 holes)\nF100\nG98 G81 X10 Y0 Z-3 R0.5\nX20 Y0\nG80\nG0 X0 Y0\nM2\n");
+}
+
+TEST(DrillProgram, the_drill_stays_low_between_near_holes_and_rises_for_the_way_to_a_far_one) {
+  const Planned planned = plan_of(board_of({hole_at(10, 0, 0.8), hole_at(12, 0, 0.8), hole_at(14, 0, 0.8),
+                                            hole_at(30, 0, 0.8), hole_at(32, 0, 0.8)}),
+                                  {});
+  DrillProgramOptions options{.name = "b", .clearance = mm(3), .feed_height = mm(0.4), .depth = mm(-2), .park = {}};
+  EXPECT_THAT(write_drill_program(planned.plan, options),
+              testing::HasSubstr("G99 G81 X10 Y0 Z-2 R0.4\nX12 Y0\nG98 X14 Y0\nG99 X30 Y0\nG98 X32 Y0\nG80\n"));
+  options.canned = false;
+  EXPECT_THAT(write_drill_program(planned.plan, options),
+              testing::HasSubstr("G0 X10 Y0\nG0 Z0.4\nG1 Z-2\nG0 Z0.4\nG0 X12 Y0\nG1 Z-2\nG0 Z0.4\nG0 X14 Y0\nG1 Z-2\n"
+                                 "G0 Z3\nG0 X30 Y0\nG0 Z0.4\nG1 Z-2\nG0 Z0.4\nG0 X32 Y0\nG1 Z-2\nG0 Z3\n"));
+  options.clearance = mm(0.2);  // below the feed height
+  EXPECT_THAT(write_drill_program(planned.plan, options),
+              testing::HasSubstr("G0 X10 Y0\nG1 Z-2\nG0 Z0.2\nG0 X12 Y0\n"));
 }
 
 TEST(DrillProgram, centimetres_and_inches_scale_every_length) {
@@ -110,13 +126,13 @@ TEST(DrillProgram, centimetres_and_inches_scale_every_length) {
   DrillProgramOptions options{.name = "b", .clearance = mm(2), .depth = mm(-3), .peck = mm(1), .feed = mm(254)};
   options.units = ProgramUnits::cm;
   const std::string cm = write_drill_program(planned.plan, options);
-  EXPECT_THAT(cm, testing::HasSubstr("G98 G83 X2.54 Y5.08 Z-0.3 R0.2 Q0.1\n"));
+  EXPECT_THAT(cm, testing::HasSubstr("G98 G83 X2.54 Y5.08 Z-0.3 R0.05 Q0.1\n"));
   EXPECT_THAT(cm, testing::HasSubstr("F25.4\n"));
   EXPECT_THAT(cm, testing::HasSubstr("centimetres"));
   EXPECT_THAT(cm, testing::Not(testing::HasSubstr("G21")));
   options.units = ProgramUnits::inch;
   const std::string inch = write_drill_program(planned.plan, options);
-  EXPECT_THAT(inch, testing::HasSubstr("G98 G83 X1 Y2 Z-0.11811 R0.07874 Q0.03937\n"));
+  EXPECT_THAT(inch, testing::HasSubstr("G98 G83 X1 Y2 Z-0.11811 R0.01969 Q0.03937\n"));
   EXPECT_THAT(inch, testing::HasSubstr("G20"));
 }
 
@@ -125,7 +141,8 @@ TEST(DrillProgram, plain_moves_peck_and_circles_go_down_in_turns) {
   const std::string text = write_drill_program(
       planned.plan,
       {.name = "b", .files = {}, .depth = mm(-1), .peck = mm(0.4), .spindle = 9000, .park = {}, .canned = false});
-  EXPECT_THAT(text, testing::HasSubstr("G0 X1 Y1\nG1 Z-0.4\nG0 Z2\nG0 Z-0.15\nG1 Z-0.8\nG0 Z2\nG0 Z-0.55\nG1 Z-1\n"));
+  EXPECT_THAT(
+      text, testing::HasSubstr("G0 X1 Y1\nG0 Z0.5\nG1 Z-0.4\nG0 Z2\nG0 Z-0.15\nG1 Z-0.8\nG0 Z2\nG0 Z-0.55\nG1 Z-1\n"));
   EXPECT_THAT(text, testing::HasSubstr("(MSG, tool 2: mill 1 mm)\nT2 M6\n"));
   EXPECT_THAT(text, testing::HasSubstr("G3 X6 Y5 Z-0.5 I-1 J0\nG3 X6 Y5 Z-1 I-1 J0\nG3 X6 Y5 I-1 J0\n"));
   EXPECT_THAT(text, testing::HasSubstr("M3 S9000\n"));

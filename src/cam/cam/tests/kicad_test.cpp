@@ -22,9 +22,9 @@ std::string bytes_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-KicadBoard good_board(const std::string& text) {
+DesignBoard good_board(const std::string& text) {
   Diagnostics found;
-  KicadBoard board = read_kicad_board("board.kicad_pcb", text, found);
+  DesignBoard board = read_kicad_board("board.kicad_pcb", text, found);
   EXPECT_TRUE(found.all().empty()) << render(found, false);
   return board;
 }
@@ -59,7 +59,7 @@ void expect_same_face(const Region& ours, const Region& theirs, const std::strin
 
 // The Gerber and drill files beside it were plotted by KiCad 6.0.11.
 TEST(KicadBoard, is_what_kicad_plots) {
-  const KicadBoard board = good_board(bytes_of(kicad_boards / "shapes.kicad_pcb"));
+  const DesignBoard board = good_board(bytes_of(kicad_boards / "shapes.kicad_pcb"));
   ASSERT_EQ(board.copper.size(), 2U);
   EXPECT_EQ(board.copper[0].name, "F.Cu");
   expect_same_face(board.copper[0].layer.dark, gerber_of("shapes-F_Cu.gbr").dark, "F.Cu");
@@ -109,15 +109,15 @@ TEST(KicadBoard, boards_of_kicad_have_the_copper_that_kicad_plots) {
   const fs::path demos = "/usr/share/kicad/demos";
   if (!fs::exists(demos)) GTEST_SKIP() << "no " << demos << ": the Debian package kicad-demos";
   for (const Known& one : known) {
-    const KicadBoard board = good_board(bytes_of(demos / one.file));
-    const auto layer = std::ranges::find(board.copper, one.layer, &KicadLayer::name);
+    const DesignBoard board = good_board(bytes_of(demos / one.file));
+    const auto layer = std::ranges::find(board.copper, one.layer, &DesignLayer::name);
     ASSERT_NE(layer, board.copper.end()) << one.file;
     EXPECT_NEAR(area_mm2(layer->layer.dark) / one.mm2, 1, 1e-4) << one.file << " " << one.layer;
   }
 }
 
 TEST(KicadBoard, reads_what_older_programs_wrote) {
-  const KicadBoard board = good_board(
+  const DesignBoard board = good_board(
       "(kicad_pcb (version 20171130) (host pcbnew 5.0)\n"
       "(layers (0 Component signal) (1 Ground power) (31 Copper signal) (44 Edge.Cuts user))\n"
       "(segment (start 0 0) (end 10 0) (width 1) (layer Copper) (net 0))\n"
@@ -150,7 +150,7 @@ TEST(KicadBoard, reads_what_older_programs_wrote) {
 }
 
 TEST(KicadBoard, notes_what_it_leaves_out) {
-  const KicadBoard board = good_board(board_with(
+  const DesignBoard board = good_board(board_with(
       "(gr_text \"(c) me\" (at 0 0) (layer \"F.Cu\") (effects (font (size 1 1))))\n"
       "(zone (net 1) (layers \"F.Cu\" \"B.Cu\") (min_thickness 0.2) (polygon (pts (xy 0 0) (xy 1 0) (xy 1 1))))\n"
       "(zone (net 0) (layers \"F.Cu\" \"B.Cu\") (keepout (tracks not_allowed)) (polygon (pts (xy 0 0) (xy 1 0))))\n"
@@ -161,7 +161,7 @@ TEST(KicadBoard, notes_what_it_leaves_out) {
 }
 
 TEST(KicadBoard, a_pad_may_have_another_shape_on_another_layer) {
-  const KicadBoard board = good_board(board_with(
+  const DesignBoard board = good_board(board_with(
       "(footprint \"a\" (layer \"F.Cu\") (at 0 0) (pad \"1\" thru_hole circle (at 0 0) (size 2 2) (drill 1)\n"
       "(layers \"*.Cu\") (padstack (mode front_inner_back) (layer \"B.Cu\" (shape rect) (size 3 1)))))"));
   EXPECT_NEAR(area_mm2(board.copper[0].layer.dark), 3.1416, 0.01);
@@ -169,7 +169,7 @@ TEST(KicadBoard, a_pad_may_have_another_shape_on_another_layer) {
 }
 
 TEST(KicadBoard, an_arc_whose_three_points_lie_on_a_line_is_a_line) {
-  const KicadBoard board =
+  const DesignBoard board =
       good_board(board_with("(gr_arc (start 1 1) (mid 5 1) (end 3 1) (layer \"Edge.Cuts\") (width 0.1))"
                             "(gr_arc (start 1 2) (mid 5 2.0000001) (end 3 2) (layer \"Edge.Cuts\") (width 0.1))"));
   ASSERT_EQ(board.edge.strokes.paths.size(), 2U);

@@ -62,16 +62,24 @@ std::string to_json(const BoardPage& page) {
                      {"figures", step.figures},
                      {"time_s", step.time ? nlohmann::ordered_json(step.time->value()) : nlohmann::ordered_json()}});
   }
-  const nlohmann::ordered_json json = {{"name", page.name},
-                                       {"machine", page.machine},
-                                       {"files", std::move(files)},
-                                       {"left_out", page.left_out},
-                                       {"board", {{"across_mm", page.width}, {"up_mm", page.height}}},
-                                       {"margin_mm", page.margin},
-                                       {"up", page.up},
-                                       {"turn", page.turn},
-                                       {"holes", page.holes},
-                                       {"steps", std::move(steps)}};
+  nlohmann::ordered_json json = {{"name", page.name},
+                                 {"machine", page.machine},
+                                 {"files", std::move(files)},
+                                 {"left_out", page.left_out},
+                                 {"board", {{"across_mm", page.width}, {"up_mm", page.height}}},
+                                 {"margin_mm", page.margin},
+                                 {"up", page.up},
+                                 {"turn", page.turn},
+                                 {"holes", page.holes},
+                                 {"steps", std::move(steps)}};
+  if (page.copies > 1) {
+    json["copies"] = {{"count", page.copies}, {"across_mm", page.copy_width}, {"up_mm", page.copy_height}};
+  }
+  if (page.registration) {
+    nlohmann::ordered_json holes = nlohmann::ordered_json::array();
+    for (const auto& [x, y] : page.registration->holes) holes.push_back({{"x_mm", x}, {"y_mm", y}});
+    json["registration"] = {{"holes", std::move(holes)}, {"axis_mm", page.registration->axis}};
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

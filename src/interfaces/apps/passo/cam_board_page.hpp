@@ -3,8 +3,10 @@
 // The page is a single file: it needs no network and runs no script, and all text from files is escaped.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "passo/units/units.hpp"
@@ -13,7 +15,7 @@ namespace passo {
 
 struct BoardStep {
   // For steps with specific instructions: "blank", "drill", "heights-front", "heights-back", "front", "turn",
-  // "find-holes", "back" or "edge".
+  // "find-holes", "back", "mask-front", "mask-back", "edge", "stencil-front" or "stencil-back".
   std::string kind = {};
   std::string title = {};               // "Mill the front"
   std::string program = {};             // its file; empty: a step without a program
@@ -33,6 +35,12 @@ struct BoardPageFile {
 };
 std::string words_for(const BoardPageFile& file);
 
+// The two holes about which the board is flipped, in program coordinates, mm.
+struct BoardRegistration {
+  std::array<std::pair<double, double>, 2> holes = {};  // after the flip each is where the other was
+  double axis = 0;                                      // X or Y of the line about which the back is mirrored
+};
+
 struct BoardPage {
   std::string name;
   std::string machine;                // the machine of the time estimates; empty: none
@@ -43,7 +51,11 @@ struct BoardPage {
   double margin = 0;         // distance of its lower left corner from X0 and from Y0, mm
   const char* up = "front";  // the side that is up first: "front" or "back"
   const char* turn = "";     // flip direction, "x" or "y"; empty: not flipped
-  const char* holes = "";    // the two holes beside the board: "pins" or "probe"; empty: none
+  std::size_t copies = 1;    // of the board on the blank; `width` and `height` are those of all
+  double copy_width = 0;
+  double copy_height = 0;
+  std::optional<BoardRegistration> registration = {};  // empty: no holes
+  const char* holes = "";                              // the two holes beside the board: "pins" or "probe"; empty: none
   std::vector<BoardStep> steps;
 };
 

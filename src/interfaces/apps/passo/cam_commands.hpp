@@ -19,8 +19,9 @@ namespace passo {
 // The input of a command, if it was already read.
 struct CamSources {
   std::vector<Drawing> drills = {};
-  BoardLayer layer = {};  // the copper, or the edge
-  Region board = {};      // the inside of the edge; empty: none
+  BoardLayer layer = {};   // the copper, or the edge
+  Region board = {};       // the inside of the edge; empty: none
+  std::size_t copies = 1;  // how often the board is there
 };
 
 // The results of a command.

@@ -66,6 +66,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   }
   program.units = program_units_of(arguments.units);
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
+  program.feed_height = lengths.above_0("--feed-height", arguments.feed_height);
   program.depth = lengths.any("--depth", arguments.depth);
   if (program.depth.count >= 0) {
     lengths.refuse(fmt::format("--depth: expected a length below 0, e.g. -2, found '{}'", arguments.depth));

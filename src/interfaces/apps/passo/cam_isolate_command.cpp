@@ -128,15 +128,23 @@ std::string loss_words(double lost_mm2, Nanometres deepest) {
                      to_mm(deepest).value());
 }
 
-std::string proof_words(const IsolationResult& result) {
+// "276 nets (23 in each of 12 copies)"
+std::string net_words(const JoinedNets& nets, std::size_t islands, std::size_t copies) {
+  std::string words = counted(nets.nets, "net");
+  if (copies > 1 && nets.nets % copies == 0)
+    words += fmt::format(" ({} in each of {} copies)", nets.nets / copies, copies);
+  if (islands != nets.nets) words += " in " + counted(islands, "island");
+  return words;
+}
+
+std::string proof_words(const IsolationResult& result, std::size_t copies) {
   const IsolationProof& proof = result.proof;
   const JoinedNets& nets = result.nets;
   std::string text =
       fmt::format("proof: {} mm² milled, {} of {} mm² of copper lost", sensible_number(proof.milled_mm2, 4),
                   proof.lost_mm2 > 0 ? sensible_number(proof.lost_mm2, 2) : "0", sensible_number(proof.copper_mm2, 4));
   if (proof.lost_mm2 > 0) text += fmt::format(", at most {:.3f} mm deep", to_mm(proof.deepest).value());
-  text += "; " + counted(nets.nets, "net");
-  if (proof.islands != nets.nets) text += " in " + counted(proof.islands, "island");
+  text += "; " + net_words(nets, proof.islands, copies);
   text += nets.joined == 0 ? ", all apart"
                            : fmt::format(", {} of them still joined in {}", nets.joined, counted(nets.groups, "piece"));
   if (nets.others > 0) text += fmt::format("; {} without a pad still joined to others", counted(nets.others, "island"));
@@ -378,7 +386,8 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   if (arguments.json) {
     fmt::print("{}\n", as_json(result, options.park).dump(2));
   } else {
-    const std::string words = summary_of(result.plan.mill, options.park, arguments.units) + proof_words(result);
+    const std::string words =
+        summary_of(result.plan.mill, options.park, arguments.units) + proof_words(result, sources->copies);
     if (const int code = tell(arguments.output, result.plan.mill, words, made); code != exit_done) return code;
   }
   if (result.nets.joined == 0 || arguments.accept_joined) return exit_done;

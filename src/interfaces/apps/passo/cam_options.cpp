@@ -25,7 +25,8 @@ constexpr const char* show_examples =
 Attributes or file names identify the layers: docs/manual/cam.md.)";
 
 void add_show_options(CLI::App& show, CamShowArguments& arguments) {
-  show.add_option("FILE", arguments.files, "Gerber and drill files, KiCad boards, folders and zip archives of them")
+  show.add_option("FILE", arguments.files,
+                  "Gerber and drill files, boards of KiCad, EAGLE and EasyEDA, folders and zip archives of them")
       ->required();
   show.add_option("-p,--picture", arguments.picture,
                   "picture of the board from above and from below (FILE.svg or FILE.png)");

@@ -99,7 +99,7 @@ int cam_show(const CamShowArguments& arguments) {
     for (const std::string& words : notes_of(file)) note(file.name + ": " + words);
   }
   if (!job.left_out.empty())
-    note(fmt::format("{} ignored: not Gerber files, drill files or KiCad boards", job.left_out.size()));
+    note(fmt::format("{} ignored: not Gerber files, drill files or boards", job.left_out.size()));
   if (findings.any_error()) {
     show(findings);
     return exit_bad_program;

@@ -19,8 +19,9 @@ bool is_of_a_job(const fs::path& file) {
   const std::size_t dash = stem.find_first_not_of("0123456789");
   if (dash == 0 || dash == std::string::npos || (file.extension() != ".ngc" && file.extension() != ".svg"))
     return false;
-  constexpr std::array<std::string_view, 7> names = {"-drill",         "-isolate-front", "-isolate-back", "-outline",
-                                                     "-heights-front", "-heights-back",  "-find-holes"};
+  constexpr std::array<std::string_view, 12> names = {
+      "-drill",      "-isolate-front", "-isolate-back", "-outline",   "-heights-front", "-heights-back",
+      "-find-holes", "-flip",          "-mask-front",   "-mask-back", "-stencil-front", "-stencil-back"};
   return std::ranges::find(names, std::string_view(stem).substr(dash)) != names.end();
 }
 

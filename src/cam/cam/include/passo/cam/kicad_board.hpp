@@ -13,25 +13,13 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "passo/cam/gerber.hpp"
+#include "passo/cam/design_board.hpp"
 
 namespace passo {
 
-struct KicadLayer {
-  std::string name;        // "F.Cu", independent of the user's layer names
-  GerberLayer layer = {};  // the layer; its notes are in strokes.notes
-};
-
-struct KicadBoard {
-  std::vector<KicadLayer> copper = {};  // the copper layers from top to bottom
-  GerberLayer edge = {};                // Edge.Cuts, as strokes
-  Drawing drills = {};                  // drilled holes; layer 0: plated, layer 1: non-plated
-};
-
 // Reports errors in `diagnostics`.
-KicadBoard read_kicad_board(const std::string& name, std::string_view text, Diagnostics& diagnostics);
+DesignBoard read_kicad_board(const std::string& name, std::string_view text, Diagnostics& diagnostics);
 
 // Returns whether the beginning of the text looks like a KiCad board.
 bool looks_like_kicad_board(std::string_view text);

@@ -34,6 +34,7 @@ struct CamDrillArguments {
   std::string mill;   // diameter of the milling cutter; empty: none
   std::string mill_step = "0.5mm";
   std::string clearance = "2mm";
+  std::string feed_height = "0.5mm";  // at most `clearance`
   std::string depth = "-2mm";
   std::string peck;  // empty: none
   std::string feed = "100mm";
@@ -207,12 +208,18 @@ struct CamBoardArguments {
   std::string margin = "10mm";       // distance of the board's lower left corner from X0 and from Y0
   std::string pin_distance = "5mm";  // distance of the alignment holes from the board's edge; 0: no holes
   bool probe_holes = false;          // the holes are for probing the position of the flipped board
-  std::string heights;               // COLUMNSxROWS probe points of a height map of each side; empty: none
-  std::string join;                  // maximum gap between ends of the edge; empty: as in the outline's options
-  std::vector<std::string> told;     // FILE=LAYER: corrections of the detected layers
-  bool accept_joined = false;        // nets that stay joined are no failure
-  bool json = false;                 // prints a summary as JSON on standard output
-  bool remember = false;             // saves the options of the profile for the machine
+  std::string copies;                // COLUMNSxROWS boards on one blank; empty: one
+  std::string gap = "5mm";           // between two copies
+  std::string mask;                  // diameter of the cutter for the solder mask's openings; empty: none
+  std::string mask_depth = "-0.05mm";
+  std::string stencil;  // diameter of the cutter for a paste stencil; empty: none
+  std::string stencil_depth = "-0.15mm";
+  std::string heights;            // COLUMNSxROWS probe points of a height map of each side; empty: none
+  std::string join;               // maximum gap between ends of the edge; empty: as in the outline's options
+  std::vector<std::string> told;  // FILE=LAYER: corrections of the detected layers
+  bool accept_joined = false;     // nets that stay joined are no failure
+  bool json = false;              // prints a summary as JSON on standard output
+  bool remember = false;          // saves the options of the profile for the machine
 };
 std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 

@@ -1,0 +1,32 @@
+// shorten_piece_order: shortens the way from the park position through all pieces and back, where a piece may end
+// elsewhere than it begins. Private to cam/.
+//
+// It reverses parts of the order (2-opt) and moves up to three pieces elsewhere (Or-opt), as long as either helps. A
+// piece that may not be turned keeps its direction. The work is limited by steps, so equal input gives equal output.
+//
+// Source: J. L. Bentley, Fast algorithms for geometric traveling salesman problems (1992).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "passo/cam/drawing.hpp"
+
+namespace passo {
+
+struct RoutePiece {
+  DrawnPoint start = {};
+  DrawnPoint end = {};
+  bool may_be_turned = false;
+};
+
+struct PlacedPiece {
+  std::uint32_t piece = 0;  // index of the piece
+  bool is_turned = false;
+};
+
+// Begins with the given order. `steps`: the maximum number of ways compared.
+std::vector<PlacedPiece> shorten_piece_order(const std::vector<RoutePiece>& pieces, DrawnPoint park,
+                                             std::uint64_t steps);
+
+}  // namespace passo
