@@ -284,7 +284,7 @@ TEST(BacklashInMotion, the_tool_stays_within_the_tolerance_on_random_curves) {
     Slides slides(options);
     for (const Segment& one : all) slides.follow(one);
     EXPECT_LE(slides.gap, 1e-9);
-    EXPECT_LE(slides.off_in_motion, tolerance * (1 - options.smoothing_share) * 1.42) << "of each of two axes";
+    EXPECT_LE(slides.off_in_motion, tolerance * (1 - options.smoothing_share) + 2e-4);
     EXPECT_LE(slides.off_elsewhere, 4e-4);
     EXPECT_LE(jumps_in(all).slope, 1e-6);
     EXPECT_EQ(all.back().curve.end(), place);
@@ -292,26 +292,6 @@ TEST(BacklashInMotion, the_tool_stays_within_the_tolerance_on_random_curves) {
         static_cast<int>(std::ranges::count_if(all, [](const Segment& one) { return one.lead.has_value(); }));
   }
   EXPECT_GT(in_motion_taken, 1000);
-}
-
-// Behind the reversal X falls so slowly that the longest window ends near the extreme. If it began farther below, the
-// slide would be at neither flank at its end.
-TEST(BacklashInMotion, a_window_ends_at_the_other_flank_where_the_path_hardly_falls) {
-  using std::numbers::pi;
-  const double wide = 1000;
-  const double turn = 0.05;
-  const Point top = at(0.5, 0);
-  const Point end = at(0.5 - wide * (1 - std::cos(turn)), wide * std::sin(turn));
-  const Segment sharp{.curve = Curve::arc(at(0, -0.5), top, Axis::x, Axis::y, 0, 0, pi / 2), .speed = MmPerSecond(10)};
-  const Segment slow{.curve = Curve::arc(top, end, Axis::x, Axis::y, 0.5 - wide, 0, turn), .speed = MmPerSecond(10)};
-  BacklashOptions options = in_motion(at(0, -0.5));
-  options.backlash[Axis::x] = 0.05;
-  for (double& least : options.least.values) least = 1e-5;
-  const auto all = segments_of({with_tolerance(sharp, 0.1), with_tolerance(slow, 0.1)}, options);
-  EXPECT_TRUE(std::ranges::any_of(all, [](const Segment& one) { return one.lead.has_value(); }));
-  Slides slides(options);
-  for (const Segment& one : all) slides.follow(one);
-  EXPECT_LE(slides.off_elsewhere, 2e-5);
 }
 
 TEST(BacklashInMotion, without_a_tolerance_and_at_an_exact_stop_the_tool_rests) {
