@@ -19,6 +19,9 @@ void add_copper(const BoardFile& file, std::optional<BoardLayer>& side, bool is_
     note(fmt::format("'{}' and '{}' are both {}, so they are milled as one; --as FILE=nothing ignores a file",
                      side->lines.file, file.name, words_for(file.kind)));
   }
+  for (const std::string& words : layer.strokes.notes) {
+    if (is_told) note(file.name + ": " + words);
+  }
   if (!side) side = BoardLayer{};
   side->lines.file = file.name;
   std::ranges::move(net_places_of(layer), std::back_inserter(side->nets));
