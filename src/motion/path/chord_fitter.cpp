@@ -3,26 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passo/base/lanes.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
 
-// Of the tolerance: how far the chords may be from the cubic. The rest is the tube around the cubic. A cubic through
-// few chords follows features of the curve as if they were rounding, and must leave more of the tube.
-constexpr double share_of_tolerance = 0.98;
+// Of the tolerance: how far the chords of a cubic through few of them may be from it. Such a cubic follows features of
+// the curve as if they were rounding, and must leave more of the tube.
 constexpr double share_for_few = 0.5;
 constexpr std::size_t few = 20;
-// Of the tolerance: a misfit below this is no worse than none.
-constexpr double no_misfit = 0.02;
 // The search for a longer fit ends where the error is more than so many times the least. On a coarse grid, where the
 // chords are far from the cubic, the errors of longer windows go up and down.
 constexpr double hopeless = 1.05;
 constexpr double hopeless_if_rounded = 4;
-// A chord's distance is measured at so many places that this share of the tolerance is not noticed between them.
-constexpr double close_enough = 0.02;
-constexpr double most_parts = 64;
 // After a fit so many chords are tried, even if fewer have none.
 constexpr std::size_t patience = 96;
 // A turn that would move a vertex by more than this share of the tolerance is a corner if it is also seen from so far
@@ -35,11 +28,6 @@ constexpr double most_turn = 0.5;
 constexpr double sharpest = -0.3;
 // Of the tolerance: a shorter chord may be a step of rounding in one axis, whichever axes count for the length.
 constexpr double short_chord = 2;
-// The cubic is at least this share of its chords: stairs along a diagonal of the grid are 1.41 times as long as it.
-constexpr double least_length = 0.7;
-// A free end of the cubic is where it comes nearest to the chords in this part of it. Further on it is not known well.
-constexpr double cut_from = 0.6;
-constexpr double cut_to = 0.8;
 // Of the chords of a cubic, so much before its end counts for the next one too, so that both have the same direction.
 constexpr double overlap_share = 0.15;
 constexpr std::size_t most_behind = 128;
@@ -55,14 +43,12 @@ constexpr double short_piece = 128;
 // In tolerances: the distance of a part of an arc from its chord; and how far two centres are apart that are rounded
 // from the same one.
 constexpr double part_beside_chord = 0.05;
+constexpr double most_parts_of_arc = 64;
 constexpr double same_center = 0.25;
 
 // The next window is so many times as long as the last one. The first is so much of that of the fit before.
 constexpr double growth = 1.4;
 constexpr double first_share = 0.5;
-
-// The weight of an end that must be met, among weights whose sum is 1.
-constexpr double pinning = 1e6;
 
 // Where a vertex is off by h, it is seen as a turn of up to h (1/a + 1/b) between chords of the lengths a and b, and
 // twice that where its neighbours are off to the other side. Returns h in tolerances.
@@ -92,28 +78,6 @@ double counted_along(const Point& heading, const Point& way, const SurfaceScale&
   return std::max(0.0, product / length_in(heading, group, surface));
 }
 
-// Legendre's polynomials of the degrees 4 and 6, and of the degrees 5 and 7, at x from -1 to 1.
-struct NextPolynomials {
-  TwoLanes even;
-  TwoLanes odd;
-
-  explicit NextPolynomials(double x) {
-    const TwoLanes y(x * x);
-    even = TwoLanes(3. / 8, -5. / 16) +
-           y * (TwoLanes(-30. / 8, 105. / 16) + y * (TwoLanes(35. / 8, -315. / 16) + y * TwoLanes(0, 231. / 16)));
-    odd = TwoLanes(15. / 8, -35. / 16) +
-          y * (TwoLanes(-70. / 8, 315. / 16) + y * (TwoLanes(63. / 8, -693. / 16) + y * TwoLanes(0, 429. / 16)));
-    odd = odd * x;
-  }
-};
-
-template <std::size_t axes>
-double product(const std::array<double, axes>& a, const std::array<double, axes>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < axes; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 }  // namespace
 
 bool ChordFitter::has(std::uint64_t number) {
@@ -132,7 +96,7 @@ void ChordFitter::read_in(std::uint64_t number) {
   next.is_inside = false;
   const Segment* const segment = segment_at(number);
   if (segment == nullptr) {
-    row_ = 0;
+    row_.count = 0;
     return;
   }
   next.end = segment->curve.end();
@@ -149,18 +113,18 @@ bool ChordFitter::is_in_row(const Segment& segment) {
   const bool is_arc = curve.shape() == Curve::Shape::arc;
   bool goes_on = segment.mode == PathMode::continuous && length <= short_piece * tolerance;
   bool is_new_circle = is_arc;
-  if (is_arc && goes_on && row_ > 0) {
-    const double turn = distance(last_tangent_, curve.tangent(Mm(0)));
-    goes_on = turn_seen(turn, last_length_, length, tolerance) <= sure_share;
+  if (is_arc && goes_on && row_.count > 0) {
+    const double turn = distance(row_.tangent, curve.tangent(Mm(0)));
+    goes_on = turn_seen(turn, row_.length, length, tolerance) <= sure_share;
     const Curve::ArcData& arc = curve.arc_data();
-    const double apart = std::hypot(arc.first_center - last_center_[0], arc.second_center - last_center_[1]);
+    const double apart = std::hypot(arc.first_center - row_.center[0], arc.second_center - row_.center[1]);
     is_new_circle = apart > same_center * tolerance;
   }
-  const bool is_piece = goes_on && row_ >= row_of_a_curve && is_new_circle;
-  row_ = goes_on ? row_ + 1 : 0;
-  last_length_ = length;
-  if (goes_on) last_tangent_ = curve.tangent(curve.length());
-  last_center_ = {is_arc ? curve.arc_data().first_center : far, is_arc ? curve.arc_data().second_center : far};
+  const bool is_piece = goes_on && row_.count >= row_of_a_curve && is_new_circle;
+  row_.count = goes_on ? row_.count + 1 : 0;
+  row_.length = length;
+  if (goes_on) row_.tangent = curve.tangent(curve.length());
+  row_.center = {is_arc ? curve.arc_data().first_center : far, is_arc ? curve.arc_data().second_center : far};
   return is_piece;
 }
 
@@ -169,7 +133,8 @@ void ChordFitter::split_arc(std::uint64_t number) {
   const Segment whole = *segment_at(number);
   const double length = whole.curve.length().value();
   const double beside = part_beside_chord * whole.tolerance.value();
-  const double parts = std::min(most_parts, std::ceil(length * std::sqrt(whole.curve.curvature() / (8 * beside))));
+  const double parts =
+      std::min(most_parts_of_arc, std::ceil(length * std::sqrt(whole.curve.curvature() / (8 * beside))));
   for (double part = 0; part < parts; ++part) {
     Ahead& ahead = part == 0 ? ahead_[number] : ahead_.append();
     ahead.item = whole;
@@ -257,24 +222,6 @@ Point ChordFitter::way_ahead(std::uint64_t number, double distance) {
   return way;
 }
 
-template <std::size_t axes>
-void ChordFitter::Sums::add(const Vertex& vertex, double weight) {
-  double power = vertex.s * weight;
-  for (Point& moment : moments) {
-    for (std::size_t i = 0; i < axes; ++i) moment.values[i] += vertex.way.values[i] * power;
-    power *= vertex.s;
-  }
-  power = vertex.s * vertex.s * weight;
-  for (double& sum : powers) {
-    sum += power;
-    power *= vertex.s;
-  }
-}
-
-void ChordFitter::add_to_sums(const Vertex& vertex, double weight) {
-  wide_ ? sums_.add<axis_count>(vertex, weight) : sums_.add<3>(vertex, weight);
-}
-
 // Of stairs along a grid only what goes along the curve counts for s: else s would go on faster than the curve by
 // up to 1.41, and by another factor where the curve has another direction. The weights in the sums are those of the
 // trapezoidal rule over s: half the chord's length belongs to each of its ends.
@@ -288,7 +235,7 @@ void ChordFitter::add_chord(std::uint64_t number) {
   const double length = counted_along(heading_, way, segment_at(number)->surface);
   double s = length;
   if (!vertices_.empty()) {
-    add_to_sums(vertices_.back(), (last_chord_ + length) / 2);
+    sums_.add(vertices_.back(), (last_chord_ + length) / 2, wide_);
     s += vertices_.back().s;
   }
   vertices_.push_back({.s = s, .way = chord.end - start, .deviation = chord.deviation});
@@ -303,9 +250,9 @@ void ChordFitter::add_what_is_behind() {
     const Point way = behind_[i] - start;
     wide_ = wide_ || moves_more_than_xyz(way);
     const double length = counted_along(first_heading_, after.way - way, surface);
-    if (after.s < 0) add_to_sums(after, length / 2);
+    if (after.s < 0) sums_.add(after, length / 2, wide_);
     after = {.s = after.s - length, .way = way};
-    add_to_sums(after, length / 2);
+    sums_.add(after, length / 2, wide_);
   }
 }
 
@@ -369,179 +316,6 @@ void ChordFitter::add_chords(std::size_t count) {
   heading_ = first_heading_;
   add_what_is_behind();
   for (std::size_t i = 0; i < count; ++i) add_chord(ahead_.first() + i);
-}
-
-// The three normal equations, in u = s / length, by Gauss's elimination.
-ChordFitter::Fit ChordFitter::solved(bool end_is_free) const {
-  const Vertex& last = vertices_.back();
-  const double end_weight = end_is_free ? 0 : pinning;
-  Sums sums = sums_;
-  wide_ ? sums.add<axis_count>(last, last_chord_ / 2) : sums.add<3>(last, last_chord_ / 2);
-  std::array<double, 5> powers{};
-  std::array<double, 3> scales{};
-  double scale = 1 / last.s;
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    scale /= last.s;
-    if (i < scales.size()) scales[i] = scale;
-    powers[i] = sums.powers[i] * (scale / last.s) + end_weight;
-  }
-  const double by_first = powers[1] / powers[0];
-  const double by_first2 = powers[2] / powers[0];
-  const double middle = powers[2] - by_first * powers[1];
-  const double beside = powers[3] - by_first * powers[2];
-  const double by_middle = beside / middle;
-  const double corner = powers[4] - by_first2 * powers[2] - by_middle * beside;
-  Fit fit{.count = vertices_.size(), .end_is_free = end_is_free, .parts = {}};
-  for (std::size_t i = 0; i < (wide_ ? axis_count : 3); ++i) {
-    const double end = last.way.values[i] * end_weight;
-    const double first = sums.moments[0].values[i] * scales[0] + end;
-    const double second = sums.moments[1].values[i] * scales[1] + end - by_first * first;
-    const double third = sums.moments[2].values[i] * scales[2] + end - by_first2 * first - by_middle * second;
-    const double cube = third / corner;
-    const double square = (second - beside * cube) / middle;
-    fit.parts[2].values[i] = cube;
-    fit.parts[1].values[i] = square;
-    fit.parts[0].values[i] = (first - powers[1] * square - powers[2] * cube) / powers[0];
-  }
-  return fit;
-}
-
-template <std::size_t axes>
-inline std::array<double, axes> ChordFitter::Fit::miss_at(double u, const Point& way,
-                                                          std::array<double, axes>& slope) const {
-  std::array<double, axes> miss;
-  for (std::size_t i = 0; i < axes; ++i) {
-    const double first = parts[0].values[i];
-    const double second = parts[1].values[i];
-    const double third = parts[2].values[i];
-    slope[i] = first + (2 * second + 3 * third * u) * u;
-    miss[i] = way.values[i] - (first + (second + third * u) * u) * u;
-  }
-  const double along = product(miss, slope) / product(slope, slope);
-  for (std::size_t i = 0; i < axes; ++i) miss[i] -= slope[i] * along;
-  return miss;
-}
-
-// Returns the distance of the farthest of some places between two vertices.
-template <std::size_t axes>
-double ChordFitter::farthest_inside(const Fit& fit, const Vertex& before, const Vertex& vertex, double parts) const {
-  double square = 0;
-  for (double part = 1; part < parts; ++part) {
-    const double to = part / parts;
-    const Point way = before.way + (vertex.way - before.way) * to;
-    std::array<double, axes> slope;
-    const auto miss = fit.miss_at<axes>((before.s + (vertex.s - before.s) * to) / vertices_.back().s, way, slope);
-    square = std::max(square, product(miss, miss));
-  }
-  return std::sqrt(square);
-}
-
-// Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and, where that may matter,
-// in the chords, and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a
-// chord goes back along it counts as distance.
-template <std::size_t axes>
-[[gnu::flatten]] bool ChordFitter::passes_in(Fit& fit) const {
-  const double whole = vertices_.back().s;
-  const double per_whole = 1 / whole;
-  const double bend =
-      2 * std::max(length_of(fit.parts[1]), length_of(fit.parts[1] + fit.parts[2] * 3)) / (whole * whole);
-  const double most = share_of_tolerance * tolerance_;
-  const double until = fit.end_is_free ? cut_to * whole : whole;
-  const Vertex start;
-  const Vertex* before = &start;
-  double off_before = ahead_.front().moved;
-  double back = 0;
-  std::array<TwoLanes, axes> even{};
-  std::array<TwoLanes, axes> odd{};
-  for (const Vertex* vertex = vertices_.data(); vertex <= &vertices_.back(); before = vertex++) {
-    std::array<double, axes> slope;
-    const double u = vertex->s * per_whole;
-    const auto miss = fit.miss_at<axes>(u, vertex->way, slope);
-    const NextPolynomials polynomials(2 * u - 1);
-    const double weight = ((vertex == &vertices_.back() ? vertex : vertex + 1)->s - before->s) / 2;
-    for (std::size_t i = 0; i < axes; ++i) {
-      even[i] += polynomials.even * (miss[i] * weight);
-      odd[i] += polynomials.odd * (miss[i] * weight);
-    }
-    if (before->s >= until) continue;
-    const double off = std::sqrt(product(miss, miss));
-    double forward = 0;
-    for (std::size_t i = 0; i < axes; ++i) forward += (vertex->way.values[i] - before->way.values[i]) * slope[i];
-    if (back > 0 || forward < 0) back = std::max(0.0, back - forward / std::sqrt(product(slope, slope)));
-    const double chord = vertex->s - before->s;
-    double between = chord * chord * bend / 8;
-    double deviation = std::max(off, off_before) + back;
-    off_before = off;
-    if (deviation + between + vertex->deviation > most / 2) {
-      const double parts = std::min(most_parts, std::ceil(std::sqrt(between / (close_enough * tolerance_))));
-      deviation = std::max(deviation, farthest_inside<axes>(fit, *before, *vertex, parts) + back);
-      between /= std::max(1.0, parts * parts);
-    }
-    deviation += between + vertex->deviation;
-    if (deviation > most) return false;
-    fit.deviation = std::max(fit.deviation, deviation);
-  }
-  TwoLanes even_square;
-  TwoLanes odd_square;
-  for (std::size_t i = 0; i < axes; ++i) {
-    even_square += even[i] * even[i];
-    odd_square += odd[i] * odd[i];
-  }
-  const double square = (even_square * TwoLanes(9, 13) + odd_square * TwoLanes(11, 15)).sum();  // times 2 k + 1
-  fit.error = std::max(std::sqrt(square) * per_whole, no_misfit * tolerance_) / std::sqrt(whole);
-  fit.window = whole;
-
-  // The cubic's parameter counts its length where it is fastest, so that |dP/ds| is at most 1
-  // and the feed need not be reduced anywhere.
-  const SurfaceScale& surface = segment_at(ahead_.first())->surface;
-  const CountedGroup group = counted_group(vertices_.back().way, surface);
-  double longest = 0;
-  for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    longest = std::max(longest, square_in(fit.slope_at(u), group, surface));
-  }
-  fit.length = std::sqrt(longest);
-  return fit.length >= least_length * whole;
-}
-
-// Ends the cubic where it comes nearest to the chords.
-template <std::size_t axes>
-void ChordFitter::cut_in(Fit& fit) const {
-  constexpr double least_rest = 1e-3;  // of a chord: a shorter rest is no chord
-  const double from = cut_from * fit.window;
-  const double to = cut_to * fit.window;
-  double nearest = far;
-  double end = 1;
-  Point way;  // to the chord's point there
-  Vertex before;
-  for (std::size_t i = 0; before.s < to; before = vertices_[i++]) {
-    const Vertex& vertex = vertices_[i];
-    if (vertex.s <= from) continue;
-    std::array<double, axes> slope;
-    const auto miss = fit.miss_at<axes>(before.s / fit.window, before.way, slope);
-    auto change = fit.miss_at<axes>(vertex.s / fit.window, vertex.way, slope);
-    for (std::size_t k = 0; k < axes; ++k) change[k] -= miss[k];
-    const double chord = vertex.s - before.s;
-    const double first = std::max(least_rest, (from - before.s) / chord);
-    const double last = std::min(1.0, (to - before.s) / chord);
-    const double square = product(change, change);
-    double share = square > 0 ? std::max(first, std::min(last, -product(miss, change) / square)) : last;
-    if (share > 1 - least_rest) share = 1;
-    const double off = product(miss, miss) + share * (2 * product(miss, change) + share * square);
-    if (off >= nearest) continue;
-    way = before.way + (vertex.way - before.way) * share;
-    end = (before.s + chord * share) / fit.window;
-    nearest = off;
-    fit.count = share < 1 ? i : i + 1;
-    fit.share = share < 1 ? share : 0;
-  }
-  for (int k = 0; k < 2; ++k) {
-    const Point along = fit.slope_at(end);
-    end += dot(way - fit.way_at(end), along) / dot(along, along);
-  }
-  fit.moved = distance(fit.way_at(end), way);
-  double power = 1;
-  for (Point& part : fit.parts) part = part * (power *= end);
-  fit.length *= end;
 }
 
 void ChordFitter::remember(std::uint64_t end) {

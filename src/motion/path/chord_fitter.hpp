@@ -56,8 +56,7 @@ class ChordFitter {
     std::array<double, 5> powers{};
     std::array<Point, 3> moments{};
 
-    template <std::size_t axes>
-    void add(const Vertex& vertex, double weight);
+    void add(const Vertex& vertex, double weight, bool wide);
   };
   // The cubic start + parts[0] u + parts[1] u² + parts[2] u³, u from 0 to 1.
   struct Fit {
@@ -98,16 +97,15 @@ class ChordFitter {
   void stay_clear_of_the_end();
   Fit best_fit();
   Fit solved(bool end_is_free) const;
-  bool passes(Fit& fit) const { return wide_ ? passes_in<axis_count>(fit) : passes_in<3>(fit); }
+  bool passes(Fit& fit) const;
   template <std::size_t axes>
   bool passes_in(Fit& fit) const;
   template <std::size_t axes>
   double farthest_inside(const Fit& fit, const Vertex& before, const Vertex& vertex, double parts) const;
-  void cut(Fit& fit) const { wide_ ? cut_in<axis_count>(fit) : cut_in<3>(fit); }
+  void cut(Fit& fit) const;
   template <std::size_t axes>
   void cut_in(Fit& fit) const;
   void remember(std::uint64_t end);
-  void add_to_sums(const Vertex& vertex, double weight);
   void move_start(std::uint64_t number, const Point& start);
   void emit_as_is(PathItem& item, double& deviation);
   void emit_cubic(const Fit& fit, PathItem& item, double& deviation);
@@ -117,10 +115,13 @@ class ChordFitter {
   bool at_end_ = false;
   // Of the items read last: how many are short pieces of a curve. And of the last one: its length, its direction at its
   // end, and its centre, if it is an arc.
-  int row_ = 0;
-  double last_length_ = 0;
-  Point last_tangent_;
-  std::array<double, 2> last_center_{};
+  struct Row {
+    int count = 0;
+    double length = 0;
+    Point tangent;
+    std::array<double, 2> center{};
+  };
+  Row row_;
   // The mode of the junction before the next item.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
