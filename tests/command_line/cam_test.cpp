@@ -52,7 +52,7 @@ TEST_F(CamDrill, the_classic_chain_makes_a_program_in_centimetres) {
   const std::string program = read(path("fori.gc"));
   EXPECT_THAT(program, HasSubstr("centimetres"));
   EXPECT_THAT(program, HasSubstr("G0 Z0.2\n"));
-  EXPECT_THAT(program, HasSubstr("Z-0.3 R0.2\n"));
+  EXPECT_THAT(program, HasSubstr("Z-0.3 R0.05\n"));
   EXPECT_THAT(program, HasSubstr("X0.762 Y1.016\n"));
   EXPECT_THAT(program, Not(HasSubstr("M6")));
   EXPECT_GT(std::filesystem::file_size(path("fori.svg")), 1000U);
@@ -98,7 +98,7 @@ TEST_F(CamDrill, tools_change_slots_and_wide_holes_are_milled_and_all_of_it_runs
 TEST_F(CamDrill, the_lower_left_hole_becomes_zero) {
   const Outcome made = drill(drill_file() + " --drill 1 --zero lower-left --plain");
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("G0 X0 Y0\nG1 Z-2\n"));
+  EXPECT_THAT(made.out, HasSubstr("G0 X0 Y0\nG0 Z0.5\nG1 Z-2\n"));
   EXPECT_THAT(made.out, HasSubstr("G0 X35 Y25\n"));
 }
 

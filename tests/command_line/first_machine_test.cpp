@@ -100,7 +100,7 @@ class FirstMachine : public passo::test::CommandLine {
 // Where a program drills, in its units times `scale`.
 std::set<std::pair<long, long>> holes_of(const std::string& program, double scale) {
   std::set<std::pair<long, long>> holes;
-  const std::regex hole(R"(^(?:G98 G81 )?X(-?[0-9.]+) Y(-?[0-9.]+))");
+  const std::regex hole(R"(^(?:G9[89] )?(?:G81 )?X(-?[0-9.]+) Y(-?[0-9.]+))");
   std::istringstream text(program);
   for (std::string line; std::getline(text, line);) {
     std::smatch words;
