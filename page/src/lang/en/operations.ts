@@ -157,6 +157,7 @@ export const operations = {
   'cam.option.area.model': 'only the model',
   'cam.option.lowest-z': 'Lowest Z (heights are cut off, not scaled)',
   'cam.option.within': 'Drawing whose curves bound the cut',
+  'cam.option.within.none': 'no curve',
   'cam.option.smooth': 'Smoothing radius of the picture',
   'cam.option.background': 'Background: darker than this is not carved, %',
   'cam.option.one-way': 'Rows in one direction',

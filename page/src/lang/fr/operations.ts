@@ -159,6 +159,7 @@ export const operations: Same<typeof en> = {
   'cam.option.area.model': 'seulement le modèle',
   'cam.option.lowest-z': 'Z le plus bas (hauteurs coupées, non réduites)',
   'cam.option.within': 'Dessin dont les courbes limitent l’usinage',
+  'cam.option.within.none': 'aucune courbe',
   'cam.option.smooth': 'Rayon de lissage de l’image',
   'cam.option.background': 'Fond : ce qui est plus sombre n’est pas usiné, %',
   'cam.option.one-way': 'Passes dans un seul sens',

@@ -159,6 +159,7 @@ export const operations: Same<typeof en> = {
   'cam.option.area.model': 'solo il modello',
   'cam.option.lowest-z': 'Z più basso (altezze tagliate, non ridotte)',
   'cam.option.within': 'Disegno le cui curve limitano la lavorazione',
+  'cam.option.within.none': 'nessuna curva',
   'cam.option.smooth': 'Raggio di levigatura dell’immagine',
   'cam.option.background': 'Sfondo: ciò che è più scuro non si lavora, %',
   'cam.option.one-way': 'Passate in un solo verso',
