@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "passo/geometry/curve_derivatives.hpp"
+#include "passo/geometry/euclid.hpp"
 #include "passo/geometry/only_turns.hpp"
 
 namespace passo {
@@ -22,6 +23,16 @@ void keep(std::vector<SpeedPart>& parts, const SpeedPart& part, Key key) {
   const auto place = std::ranges::find_if(parts, [&](const SpeedPart& other) { return key(other) < key(part); });
   parts.insert(place, part);
   if (parts.size() > SpeedSurvey::most_parts) parts.pop_back();
+}
+
+// How far the tool moves for each millimetre of s: 1, except on a curve that replaces other segments and has their s, or
+// where the motor takes up backlash.
+double tool_way(const Segment& segment, Mm s, bool turns) {
+  if (turns || segment.curve.shape() == Curve::Shape::line) return 1;
+  Point slope = segment.curve.tangent(s);
+  if (segment.lead) slope[segment.lead->axis] -= segment.lead->slope_at(s.value(), segment.curve.length().value());
+  const double in_xyz = length_in(slope, CountedGroup::xyz, segment.surface);
+  return in_xyz > 0 ? in_xyz : length_in(slope, CountedGroup::uvw);
 }
 
 }  // namespace
@@ -40,7 +51,7 @@ void SpeedSurvey::watch(const PlannedMove& move) {
     only_takes_up_ = takes_up;
     part_.rapid = segment.rapid;
     part_.turns = only_turns(segment.curve, segment.surface);
-    part_.programmed = segment.speed;
+    part_.programmed = MmPerSecond(0);
     if (!part_.rapid) part_.lost = part_.time;
   } else if (!same_line || (segment.rapid != part_.rapid && !takes_up)) {
     end_part();
@@ -48,11 +59,9 @@ void SpeedSurvey::watch(const PlannedMove& move) {
     highest_look_ = MmPerSecond(0);
     part_ = {.line = segment.source.line,
              .rapid = segment.rapid,
-             .turns = only_turns(segment.curve, segment.surface),
-             .programmed = segment.speed};
+             .turns = only_turns(segment.curve, segment.surface)};
     only_takes_up_ = takes_up;
   }
-  if (!takes_up || only_takes_up_) part_.programmed = std::max(part_.programmed, segment.speed);
   if (!takes_up) part_.way += move.to - move.from();
   const double curvature = segment.curve.curvature();
   for (const Phase& phase : move) watch_phase(move, phase, curvature);
@@ -68,6 +77,10 @@ void SpeedSurvey::watch_phase(const PlannedMove& move, const Phase& phase, doubl
   part_.time += phase.duration;
   for (int i = 0; i < looks; ++i) {
     const Seconds t = piece * (i + 0.5);
+    const double way = tool_way(move.segment, phase.position_at(t), part_.turns);
+    if (!move.segment.takes_up_backlash || only_takes_up_) {
+      part_.programmed = std::max(part_.programmed, move.segment.speed * way);
+    }
     const Found found = bound_at(move, phase, t);
     Reached& reached = this->reached(found.bound);
     if (reached.time == Seconds(0)) {
@@ -83,11 +96,12 @@ void SpeedSurvey::watch_phase(const PlannedMove& move, const Phase& phase, doubl
     }
     if (move.segment.takes_up_backlash) continue;
     // Judged at the places of the looks: at its end a ramp is as fast as the even motion after it.
-    if (phase.velocity_at(t) > highest_look_) {
-      highest_look_ = phase.velocity_at(t);
+    if (phase.velocity_at(t) * way > highest_look_) {
+      highest_look_ = phase.velocity_at(t) * way;
       at_highest_ = found.bound;
     }
-    part_.highest = std::max({part_.highest, highest_look_, phase.velocity, phase.velocity_at(phase.duration)});
+    const MmPerSecond at_an_end = std::max(phase.velocity, phase.velocity_at(phase.duration));
+    part_.highest = std::max({part_.highest, highest_look_, at_an_end * way});
   }
 }
 
