@@ -142,7 +142,7 @@ TEST_F(FirstMachine, drills_the_board_of_the_drawing_through_port_and_pic) {
   EXPECT_EQ(holes.size(), holes_of(read(path("inch.ngc")), 25.4).size());
   for (const auto& hole : holes_of(read(path("inch.ngc")), 25.4)) EXPECT_TRUE(holes.contains(hole));
   // The board, the PIC and the rotors.
-  expect_true("holes.json", 10'000);
+  expect_true("holes.json", 9'000);
   EXPECT_EQ(nlohmann::json::parse(read(path("holes.json")))["port"]["relay_closings"], 1);
   const std::string table = document.substr(document.find("Parallel port and PIC, in steps"));
   EXPECT_THAT(as_one_line(outcomes[2].out), HasSubstr(as_one_line(table.substr(0, table.find("```")))));
