@@ -25,8 +25,8 @@ void keep(std::vector<SpeedPart>& parts, const SpeedPart& part, Key key) {
   if (parts.size() > SpeedSurvey::most_parts) parts.pop_back();
 }
 
-// How far the tool moves for each millimetre of s: 1, except on a curve that replaces other segments and has their s, or
-// where the motor takes up backlash.
+// How far the tool moves for each millimetre of s: 1, except on a curve that replaces other segments and has their s,
+// or where the motor takes up backlash.
 double tool_way(const Segment& segment, Mm s, bool turns) {
   if (turns || segment.curve.shape() == Curve::Shape::line) return 1;
   Point slope = segment.curve.tangent(s);
@@ -57,9 +57,7 @@ void SpeedSurvey::watch(const PlannedMove& move) {
     end_part();
     in_part_ = true;
     highest_look_ = MmPerSecond(0);
-    part_ = {.line = segment.source.line,
-             .rapid = segment.rapid,
-             .turns = only_turns(segment.curve, segment.surface)};
+    part_ = {.line = segment.source.line, .rapid = segment.rapid, .turns = only_turns(segment.curve, segment.surface)};
     only_takes_up_ = takes_up;
   }
   if (!takes_up) part_.way += move.to - move.from();
