@@ -25,7 +25,7 @@ void keep(std::vector<SpeedPart>& parts, const SpeedPart& part, Key key) {
   if (parts.size() > SpeedSurvey::most_parts) parts.pop_back();
 }
 
-// How far the tool moves for each millimetre of s: 1, except on a curve that replaces other segments and has their s, or
+// How far the tool moves per millimetre of s: 1, except on a curve that replaces other segments and has their s, and
 // where the motor takes up backlash.
 double tool_way(const Segment& segment, Mm s, bool turns) {
   if (turns || segment.curve.shape() == Curve::Shape::line) return 1;

@@ -33,7 +33,7 @@ std::string bitmap_of(const LevelPicture& picture, const std::vector<std::uint16
     std::string bits(bytes, '\0');
     for (std::size_t column = 0; column < picture.columns; ++column) {
       const std::size_t i = row * picture.columns + column;
-      // The level of a transparent pixel is darkened; on white paper it is bright.
+      // The reader darkens transparent pixels; here the background is white.
       const int level = picture.levels[i] + (alphas.empty() ? 0 : white - alphas[i]);
       const bool is_dark = (level < threshold) != options.invert;
       if (is_dark) bits[column / 8] = static_cast<char>(bits[column / 8] | (0x80 >> (column % 8)));

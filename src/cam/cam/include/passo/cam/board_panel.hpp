@@ -1,7 +1,7 @@
 // PanelGrid: copies of a board in columns and rows, for one blank.
 //
 // All copies have the same orientation. The first one is where the board was drawn; the others are to the right of it
-// and above it. Whatever is copied must lie within the board's box, or copies would overlap.
+// and above it. Trim all layers to the board's box first; otherwise copies overlap.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ Drawing repeated(const Drawing& drawing, const std::vector<DrawnPoint>& offsets)
 // Nets of different copies have different names: "GND of copy 2".
 BoardLayer repeated(const BoardLayer& layer, const std::vector<DrawnPoint>& offsets);
 
-// Removes whatever lies outside the box. Lines that leave it stay whole.
+// Removes all objects outside the box. Lines that are partly inside are kept whole.
 void trim_to(const DrawnBox& box, BoardLayer& layer);
 // Removes the holes and slots outside the box, and returns their number.
 std::size_t trim_to(const DrawnBox& box, Drawing& drills);
