@@ -11,8 +11,8 @@ namespace {
 // The longest window, in backlashes. At this length the motor is hardly faster than the axis, so a longer one gains
 // nothing.
 constexpr double longest_window = 200;
-// The shortest window, in backlashes. In a shorter one the motor would move several times as far as the tool, and a
-// stop takes no longer.
+// The shortest window, in backlashes. In a shorter one the motor would move four times as far as the tool, and a stop
+// takes no longer.
 constexpr double shortest_window = 0.5;
 // The greatest depth of the window's ends below the extreme of the axis, in permitted deviations, and the factor
 // between the depths that are tried.
