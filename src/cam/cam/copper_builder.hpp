@@ -34,7 +34,7 @@ class CopperBuilder {
   std::size_t add_sheet(std::string name);
   std::size_t sheets() const { return sheets_.size(); }
   void add_stroke(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line);
-  // Adds an area; its ring may cross itself.
+  // Adds an area, whose ring may cross itself.
   void add_face(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line);
   void add_place(std::size_t sheet, const std::string& net, DrawnPoint at, std::uint32_t line);
   void add_pour(std::size_t sheet, const std::string& net, CopperPour pour);

@@ -1,4 +1,4 @@
-// tour_strokes: converts lines that meet at nodes to runs of a cutter that stays down where it can: from the end of a
+// tour_strokes: converts lines that meet at nodes to runs of a cutter that stays down where possible: from the end of a
 // branch it returns along the groove that it has just carved. Private to cam/.
 //
 // The branches of the returns are chosen so that all returns and lifts together are as short as possible: on trees

@@ -326,7 +326,7 @@ void SvgExpansion::draw(const SvgElement& element, const Place& place) {
   }
 }
 
-// Adds the part of the figure that the clip shows to the drawing, or to the figure that is collected.
+// Adds the visible part of the figure to the drawing, or to the figure that is being collected.
 void SvgExpansion::put(SvgFigure figure, const SvgElement& element, const Place& place) {
   if (figure.paths.empty() && figure.holes.empty()) return;
   if (place.clip) {

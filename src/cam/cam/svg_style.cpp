@@ -29,7 +29,7 @@ bool is_name_letter(char c) {
          (static_cast<unsigned char>(c) & 0x80U) != 0;
 }
 
-// The text without comments and the marks of HTML comments.
+// The text without CSS comments and without HTML comment marks.
 std::string without_css_comments(std::string_view css) {
   std::string text;
   while (!css.empty()) {

@@ -1,8 +1,8 @@
 // BacklashOverlap: takes up backlash in motion instead of at a stop, where the path continues smoothly at the reversal.
 //
 // On a window of the path around the turning point, a BacklashRamp is added to the position of the motor: the window
-// becomes cubics of s, with the motor's position as the axis' value. The planner keeps the motor within the limits of
-// the axis, and a hold or an emergency brake stops on these cubics as on any other segment.
+// becomes cubics of s, which give the position of the motor for this axis. The planner keeps the motor within the
+// limits of the axis, and a hold or an emergency brake stops on these cubics as on any other segment.
 //
 // The axis rises with the motor until the motor reverses, and stands still until the motor has passed the backlash and
 // reaches the other flank of the screw. Then it falls with the motor. The window begins and ends where the path is a

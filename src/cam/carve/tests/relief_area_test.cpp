@@ -92,7 +92,7 @@ TEST(ReliefArea, within_a_curve_keeps_the_tip_inside) {
     options.x0 = Mm(10);
     options.y0 = Mm(10);
     options.area.within = {square(10.55, 14.45), square(12.05, 12.95)};
-    // Then at an angle, too.
+    // The same at an angle.
     if (way == FinishStrategy::both) {
       options.way = FinishStrategy::rows;
       options.rows.angle = {0.4};

@@ -22,7 +22,7 @@ struct PanelGrid {
 
 inline constexpr std::uint32_t most_panel_columns = 100;  // and rows
 
-// Returns how far each copy is from the first one, row by row; the first offset is 0. `board`: the box of one board.
+// Returns the offset of each copy from the first one, row by row; the first offset is 0. `board`: the box of one board.
 std::vector<DrawnPoint> offsets_of(const PanelGrid& grid, const DrawnBox& board);
 
 Region repeated(const Region& region, const std::vector<DrawnPoint>& offsets);

@@ -6,9 +6,10 @@
 // lower left corner of the page is X0 Y0. Only the geometry counts: fill and stroke width are ignored. Inkscape layers
 // are the layers of the drawing.
 //
-// Style sheets are applied where they hide or place shapes (svg_style.hpp). Clip paths are applied, and nested views
-// clip their contents: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts, pictures,
-// hidden elements, masks, markers and unsupported clip paths and style rules are omitted and counted in Drawing::notes.
+// Style sheets are applied where they hide, place or size shapes (svg_style.hpp). Clip paths are applied, and nested
+// views clip their contents: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts,
+// pictures, hidden elements, masks, markers and unsupported clip paths and style rules are omitted and counted in
+// Drawing::notes.
 //
 // `width` and `viewBox` determine the user unit; without them it is a pixel, 1/96 inch, or 1/90 inch if the file
 // names a version of Inkscape before 0.92. Time and memory are
