@@ -112,14 +112,14 @@ bool AirfoilReader::order_sides() {
   return false;
 }
 
-// A spline from the trailing edge around to the trailing edge.
+// A spline from the trailing edge around the nose and back to the trailing edge.
 bool AirfoilReader::smooth() {
   const auto is_same = [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x == b.x && a.y == b.y; };
   points_.erase(std::unique(points_.begin(), points_.end(), is_same), points_.end());
   const auto [least, most] = std::minmax_element(
       points_.begin(), points_.end(), [](const AirfoilPoint& a, const AirfoilPoint& b) { return a.x < b.x; });
   const double width = most->x - least->x;
-  // Points that begin elsewhere are turned, so that they begin and end there.
+  // Points that begin elsewhere are rotated, so that they begin and end there.
   if (most != points_.begin() && points_.back().x < most->x && points_.front().x < most->x) {
     if (is_same(points_.front(), points_.back())) points_.pop_back();
     std::rotate(points_.begin(),

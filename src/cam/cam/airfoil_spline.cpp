@@ -11,7 +11,7 @@ std::vector<double> curvatures(const std::vector<double>& at, const std::vector<
   const std::size_t last = at.size() - 1;
   std::vector<double> second(at.size(), 0);
   std::vector<double> upper(at.size(), 0);
-  // A tridiagonal system: forwards, then back.
+  // A tridiagonal system: forward elimination, then back substitution.
   for (std::size_t i = 1; i < last; ++i) {
     const double before = at[i] - at[i - 1];
     const double after = at[i + 1] - at[i];
@@ -40,7 +40,7 @@ std::vector<AirfoilPoint> airfoil_spline(const std::vector<AirfoilPoint>& points
   std::vector<AirfoilPoint> curve = {points.front()};
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const double h = at[i + 1] - at[i];
-    // A chord is off by at most an eighth of the second derivative times the square of its parameters.
+    // A chord deviates by at most an eighth of the second derivative times the square of the parameter interval.
     const double bend = std::max(std::hypot(of_x[i], of_y[i]), std::hypot(of_x[i + 1], of_y[i + 1])) * h * h / 8;
     constexpr double most = 64;
     const double parts = std::clamp(std::ceil(std::sqrt(bend / tolerance)), 1.0, most);

@@ -1,7 +1,7 @@
-// CopperBuilder: collects what a layout program's file draws on copper, by nets, and makes a DesignBoard of it. Private
-// to cam/.
+// CopperBuilder: collects the copper that a layout program's file draws, by nets, and makes a DesignBoard of it.
+// Private to cam/.
 //
-// Polygons that the program pours only when it plots are poured in take().
+// Polygons that the layout program fills only when it plots are filled in take().
 #pragma once
 
 #include <map>
@@ -26,7 +26,7 @@ struct CopperPour {
 
 class CopperBuilder {
  public:
-  // `area`: the first word of the codes of errors: "eagle".
+  // `area`: the first word of the error codes, e.g. "eagle".
   CopperBuilder(const std::string& name, const char* area, const char* software, const char* edge_name,
                 Diagnostics& diagnostics);
 
@@ -34,7 +34,7 @@ class CopperBuilder {
   std::size_t add_sheet(std::string name);
   std::size_t sheets() const { return sheets_.size(); }
   void add_stroke(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line);
-  // Adds an area; its ring may cross itself.
+  // Adds an area, whose ring may cross itself.
   void add_face(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line);
   void add_place(std::size_t sheet, const std::string& net, DrawnPoint at, std::uint32_t line);
   void add_pour(std::size_t sheet, const std::string& net, CopperPour pour);
@@ -47,7 +47,7 @@ class CopperBuilder {
   void refuse(const char* code, std::uint32_t line, std::string message, std::string expected);
   bool is_full() const { return is_full_; }
 
-  // Pours the polygons, and merges the copper of each layer.
+  // Fills the polygons, and merges the copper of each layer.
   DesignBoard take();
 
  private:

@@ -16,7 +16,7 @@ namespace {
 constexpr int deepest_block = 32;
 constexpr std::size_t most_work = 100'000'000;  // entities and numbers looked at while blocks are expanded
 
-// What a 1 is in millimetres, by the number of $INSUNITS. 0: no unit of length, or none that a board is drawn in.
+// The unit of length in millimetres, by the number of $INSUNITS. 0: not a unit of length, or not one for boards.
 double mm_of(int insert_units) {
   constexpr std::array<double, 15> units = {0,       25.4,    304.8, 0,    1,    10,   1000, 0,
                                             25.4e-6, 25.4e-3, 914.4, 1e-7, 1e-6, 1e-3, 100};
@@ -28,7 +28,7 @@ bool same_name(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, capital, capital);
 }
 
-// A closed path of two half circles is a circle. A DONUT is one with a width: its hole is the inner circle.
+// A closed path of two half circles is a circle. With a width it is a DONUT, whose hole is the inner circle.
 std::optional<double> radius_of_circle(const std::vector<DxfPoint>& points, bool is_closed) {
   if (!is_closed || points.size() != 2) return std::nullopt;
   const double a = points[0].bulge;
@@ -119,7 +119,7 @@ bool DxfExpansion::has_work_left(const DxfEntity& entity) {
   return false;
 }
 
-// `layer`: of the INSERT that places these entities. In a block, layer 0 is the layer of the INSERT.
+// `layer`: that of the INSERT that places these entities. In a block, layer 0 stands for the layer of the INSERT.
 void DxfExpansion::add_all(const Entities& entities, const DxfTransform& transform, std::optional<std::uint32_t> layer,
                            int depth) {
   for (std::size_t i = 0; i < entities.size() && !builder_.is_full() && !diagnostics_.full(); ++i) {
@@ -263,7 +263,7 @@ void DxfExpansion::add_insert(const DxfEntity& entity, const DxfTransform& trans
       if (builder_.is_full() || diagnostics_.full() || !has_work_left(entity)) break;
       const double along = static_cast<double>(column) * value(44, 0);
       const double up = static_cast<double>(row) * value(45, 0);
-      // The block's base point comes to the insertion point, after scaling and turning.
+      // After scaling and rotation, the block's base point is moved to the insertion point.
       const DxfTransform placed{c * scale_x,
                                 -s * scale_y,
                                 s * scale_x,

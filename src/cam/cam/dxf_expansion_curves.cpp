@@ -55,7 +55,7 @@ void DxfExpansion::add_arc(const DxfEntity& entity, const DxfTransform& transfor
   add_points(entity, points, false, 0, transform, layer);
 }
 
-// An arc that is stretched in one direction is one of an ellipse. Adds the points between its ends.
+// An arc that is stretched in one direction becomes an arc of an ellipse. Adds the points between its ends.
 void DxfExpansion::add_arc_chords(const DxfEntity& entity, const DxfPoint& from, const DxfPoint& to,
                                   const DxfTransform& transform, DrawnPath& path) {
   const double dx = to.x - from.x;
@@ -77,7 +77,7 @@ void DxfExpansion::add_arc_chords(const DxfEntity& entity, const DxfPoint& from,
   }
 }
 
-// Cuts the curve into chords. `mm`: an upper bound of the millimetres that a 1 of the curve is.
+// Cuts the curve into chords. `mm`: an upper bound of the curve's unit, in millimetres.
 template <ParametricCurve C>
 void DxfExpansion::add_curve(const DxfEntity& entity, const Result<C, CurveError>& curve, double mm, bool is_closed,
                              const DxfTransform& transform, std::uint32_t layer) {

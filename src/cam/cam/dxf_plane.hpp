@@ -12,14 +12,14 @@
 
 namespace passo {
 
-// Returns the vector with the length 1; (0, 0, 1) if it has none.
+// Returns the vector normalized to length 1; (0, 0, 1) if it is zero.
 inline Vector3 dxf_direction(const Vector3& v) {
   const double size = length(v);
   return size > 1e-9 && std::isfinite(size) ? v / size : Vector3{0, 0, 1};
 }
 
 // Maps the coordinates of a plane with this normal (the extrusion direction), `z` above the origin, to X and Y of the
-// drawing. Nothing if they are equal.
+// drawing. Empty if both are the same.
 inline std::optional<DxfTransform> seen_from_above(const Vector3& normal, double z) {
   const Vector3 n = dxf_direction(normal);
   if (n.x == 0 && n.y == 0 && n.z > 0) return std::nullopt;
@@ -30,7 +30,7 @@ inline std::optional<DxfTransform> seen_from_above(const Vector3& normal, double
   return DxfTransform{.xx = x.x, .xy = y.x, .yx = x.y, .yy = y.y, .dx = n.x * z, .dy = n.y * z};
 }
 
-// Returns the minor semi-axis of an ELLIPSE from its major one.
+// Returns the minor semi-axis of an ELLIPSE, from its major semi-axis.
 inline Vector3 minor_axis(const Vector3& normal, const Vector3& major, double ratio) {
   return cross(dxf_direction(normal), major) * ratio;
 }

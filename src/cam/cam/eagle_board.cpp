@@ -1,5 +1,5 @@
-// Reads a board of EAGLE 6 and newer. Lengths are in mm; Y points up. A package is turned first, then mirrored, then
-// moved to the place of its element.
+// Reads a board of EAGLE 6 and newer. Lengths are in mm; Y points up. A package is first rotated, then mirrored, then
+// moved to the position of its element.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ constexpr int eagle_dimension = 20;
 constexpr int eagle_milling = 46;
 constexpr double degree = std::numbers::pi / 180;
 
-// Where something is, and how it is turned: "MR90".
+// A position, and a rotation such as "MR90".
 struct EagleFrame {
   DrawnPoint at = {};
   double degrees = 0;
@@ -39,7 +39,7 @@ struct EagleFrame {
   }
 };
 
-// The widths of copper around holes, from the design rules.
+// The widths of the annular rings, from the design rules.
 struct EagleRing {
   double share = 0.25;  // of the hole
   Nanometres least{254'000};
@@ -174,7 +174,7 @@ void EagleBoardReader::note_layer(const EagleItem& item) {
   for (const EagleItem& child : item.children) note_layer(child);
 }
 
-// Top and bottom, and the layers between them on which something is drawn.
+// Top, bottom, and the inner layers that are not empty.
 void EagleBoardReader::find_sheets(const EagleItem& board) {
   sheets_ = {{1, 0}, {eagle_bottom, 0}};
   note_layer(board);
@@ -240,7 +240,7 @@ void EagleBoardReader::read_polygon(const EagleItem& item, const EagleFrame& fra
                      .rank = static_cast<int>(std::clamp(number(item, "rank", 1), 0.0, 10.0))});
 }
 
-// What is drawn on the board, in a package or in a signal.
+// The shapes on the board, in a package or in a signal.
 void EagleBoardReader::read_figure(const EagleItem& item, const EagleFrame& frame, const std::string& net) {
   if (item.name == "hole") {
     return builder_.add_hole({frame.placed(point(item)), length(item, "drill"), 1, item.line});

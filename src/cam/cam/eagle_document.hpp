@@ -20,11 +20,11 @@ struct EagleItem {
 
   // Returns the value of an attribute; empty if it is missing.
   std::string_view text(std::string_view attribute) const;
-  // Returns the first child of this name; null if there is none.
+  // Returns the first child with this name; null if there is none.
   const EagleItem* child(std::string_view wanted) const;
 };
 
-// Returns the <board>. Reports "eagle.syntax", "eagle.no-board" and "eagle.too-large"; nothing is returned then.
+// Returns the <board>. On failure, reports "eagle.syntax", "eagle.no-board" or "eagle.too-large", and returns nothing.
 std::optional<EagleItem> read_eagle_document(const std::string& name, std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace passo

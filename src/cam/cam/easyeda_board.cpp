@@ -1,5 +1,5 @@
-// Reads a board of EasyEDA's standard edition. A board is JSON; each of its shapes is a text whose fields are parted by
-// "~". Lengths are in units of 10 mil, Y points down, and the canvas has its zero at head.x, head.y.
+// Reads a board of EasyEDA's standard edition. A board is JSON; each of its shapes is a string whose fields are
+// separated by "~". Lengths are in units of 10 mil, Y points down, and the canvas has its zero at head.x, head.y.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -107,7 +107,7 @@ std::vector<DrawnPoint> EasyedaBoardReader::points(std::string_view text) {
   return found;
 }
 
-// 1 and 2 are outside, 21 to 52 inside, 11 is all copper.
+// 1 and 2 are outer layers, 21 to 52 are inner layers, 11 stands for all copper layers.
 std::vector<std::size_t> EasyedaBoardReader::sheets_of(int layer) const {
   constexpr int all_copper = 11;
   std::vector<std::size_t> found;
@@ -395,7 +395,7 @@ DesignBoard read_easyeda_board(const std::string& name, std::string_view text, D
   const auto shapes = json.is_object() ? json.find("shape") : json.end();
   if (!json.is_object() || shapes == json.end() || !shapes->is_array())
     return refuse("easyeda.no-board", "the file has no list of shapes", "\"shape\": [...]");
-  // 3 is a board, 1 a schematic, 4 a footprint. Old files have it at the begin of a text.
+  // 3 is a board, 1 a schematic, 4 a footprint. In old files it is at the start of a string.
   const auto head = json.find("head");
   double kind = 3;
   if (head != json.end() && head->is_object()) kind = number_in(*head, "docType");

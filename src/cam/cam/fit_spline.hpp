@@ -20,7 +20,7 @@ struct FitPoint {
 struct FitSpline {
   std::vector<FitPoint> points = {};
   bool is_closed = false;
-  // Each cubic has the parameter length of its chord to this power: 1 chord lengths, 0.5 centripetal, 0 uniform.
+  // The parameter interval of a cubic is its chord length to this power: 1: chord length, 0.5: centripetal, 0: uniform.
   double exponent = 1;
   FitPoint start = {};  // direction at an end; (0, 0): a natural end
   FitPoint end = {};
@@ -28,7 +28,7 @@ struct FitSpline {
 
 using CubicPiece = std::array<FitPoint, 4>;  // the control points of a Bezier curve
 
-// Returns the cubics; none if there are less than two different points. Equal neighbours count as one.
+// Returns the cubics; none if there are fewer than two different points. Equal neighbours count as one point.
 std::vector<CubicPiece> cubics_through(const FitSpline& spline);
 
 }  // namespace passo

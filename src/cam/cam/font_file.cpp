@@ -1,4 +1,4 @@
-// The only file that sees fontconfig.
+// The only file that uses fontconfig.
 #include "passo/cam/font_file.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ const FcChar8* fc_text(const char* text) {
   return reinterpret_cast<const FcChar8*>(text);
 }
 
-// Small letters without blanks: names are equal if these are.
+// The name in lower case and without spaces, for comparisons.
 std::string folded(std::string_view name) {
   std::string text;
   for (const char c : name) {
@@ -54,7 +54,7 @@ struct InstalledFont {
   int width = FC_WIDTH_NORMAL;
 };
 
-// What was asked for. Nothing: any.
+// The requested properties. Empty: any.
 struct FontStyle {
   std::string name;  // after "style="
   std::optional<int> weight;
@@ -94,7 +94,7 @@ std::vector<InstalledFont> installed_fonts(FcConfig* config) {
                    number_of(font, FC_WEIGHT, FC_WEIGHT_REGULAR), number_of(font, FC_SLANT, FC_SLANT_ROMAN),
                    number_of(font, FC_WIDTH, FC_WIDTH_NORMAL)});
   }
-  // The order of fontconfig is that of the folders.
+  // Fontconfig lists fonts in the order of the folders.
   std::ranges::sort(all, [](const InstalledFont& a, const InstalledFont& b) {
     return std::tie(a.path, a.face) < std::tie(b.path, b.face);
   });
@@ -105,7 +105,7 @@ bool has_name(const std::vector<std::string>& names, const std::string& wanted) 
   return std::ranges::any_of(names, [&](const std::string& name) { return folded(name) == wanted; });
 }
 
-// The words after the family. Returns the first that is unknown; empty: none is.
+// Reads the words after the family. Returns the first unknown one; empty: all are known.
 std::string read_style(std::string_view words, FontStyle& style) {
   while (!words.empty()) {
     const std::string word(trimmed(words.substr(0, words.find(':'))));
@@ -132,7 +132,7 @@ std::string read_style(std::string_view words, FontStyle& style) {
   return "";
 }
 
-// How far the font is from what was asked for; nothing: it is something else.
+// The difference between the font and the request. Empty: the font does not match at all.
 std::optional<int> distance_of(const InstalledFont& font, const FontStyle& style) {
   if (!style.name.empty() && !has_name(font.styles, style.name)) return std::nullopt;
   constexpr int near_weight = 20;  // semibold for bold
@@ -183,7 +183,7 @@ std::string similar_families(const std::string& wanted, const std::vector<Instal
   return names;
 }
 
-// The family that the system uses for a generic one; empty: the name is not generic.
+// The system's family for a generic name; empty: the name is not generic.
 std::string generic_family(const std::string& wanted, FcConfig* config) {
   constexpr std::array<std::pair<std::string_view, const char*>, 6> generic = {{{"sans", "sans-serif"},
                                                                                 {"sans-serif", "sans-serif"},

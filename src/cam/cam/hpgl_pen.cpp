@@ -81,7 +81,7 @@ void HpglPen::lower() {
 
 void HpglPen::raise() {
   if (path_.points.size() == 1) {
-    // A dot at the end of a line would be there already.
+    // A dot at the end of the last line adds nothing.
     const DrawnPoint at = path_.points.front().at;
     if (!(has_last_ && last_ == at)) builder_.add_hole({at, {}, layer_, line_, true});
     last_ = at;

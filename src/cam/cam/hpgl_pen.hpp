@@ -32,9 +32,9 @@ class HpglPen {
   // Sets the line of the file with the current command.
   void set_line(std::uint32_t line) { line_ = line; }
 
-  // Lowers the pen where it is. Raised again without a line, it leaves a dot.
+  // Lowers the pen at its position. If it is raised again without a line, it leaves a dot.
   void lower();
-  // Ends the line; of a pen that was lowered and did not move, the dot.
+  // Ends the line, or the dot if the pen has not moved since it was lowered.
   void raise();
   void move_to(HpglSpot to);
   void line_to(HpglSpot to);

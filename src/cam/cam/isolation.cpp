@@ -330,7 +330,7 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
   if (ways.empty()) return;
 
   const EdgeGrid copper_rim = grid_over(grown(copper_, {off(cutter).count - chord_room.count / 2}, options_.tolerance));
-  // Where a way is within the rim.
+  // The rims that links must not cross.
   const EdgeGrid kept_rim = grid_over(grown(gathered(plan_.kept), radius + Nanometres{chord_room.count / 2}));
   const EdgeGrid outer_rim = grid_over(outermost);
   const auto may_link = [&](DrawnPoint from, DrawnPoint to) {

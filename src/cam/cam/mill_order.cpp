@@ -105,7 +105,7 @@ double WayOrderer::rapids(const std::vector<Chain>& chains) const {
   return length + distance_nm(at, order_.park);
 }
 
-// Each chain counts as the place where it begins.
+// Each chain is represented by its start.
 void WayOrderer::shorten(const WorkProgress& progress) {
   std::vector<DrawnPoint> places;
   for (const Chain& chain : chains_) places.push_back(start(chain));
@@ -118,7 +118,7 @@ void WayOrderer::shorten(const WorkProgress& progress) {
   if (rapids(shorter) < rapids(chains_)) chains_ = std::move(shorter);
 }
 
-// A chain ends elsewhere than it begins, and only one open way may be turned.
+// A chain does not end where it begins, and may be reversed only if it is a single open path.
 void WayOrderer::shorten_directed() {
   std::vector<RoutePiece> pieces;
   for (const Chain& chain : chains_)

@@ -37,7 +37,7 @@ class MillProgram {
     if (feed != feed_) text_.line("F{}", text_.number(feed));
     feed_ = feed;
   }
-  // The feed of a steep descent stands in its line, that of all other moves before it.
+  // The F word of a steep descent is in the block of the move; the feed of other moves is in a block before them.
   std::string feed_word(Nanometres next) {
     if (next >= options_.feed) feed(options_.feed);
     if (next == feed_) return "";
@@ -80,7 +80,7 @@ void MillProgram::mill(const MillRun& run) {
   text_.line("G0 Z{}", text_.number(options_.clearance));
 }
 
-// The feed of a descent is so low that the cutter goes down at the plunge feed at most.
+// The feed of a descent is reduced so that the cutter descends at the plunge feed at most.
 Nanometres MillProgram::feed_along(const MillPoint& from, const MillPoint& to) const {
   const auto down = static_cast<double>(from.z.count - to.z.count);
   if (down <= 0) return options_.feed;

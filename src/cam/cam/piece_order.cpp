@@ -58,7 +58,7 @@ void PieceOrderer::measure() {
   }
 }
 
-// Whether anything became shorter.
+// Returns whether the order became shorter.
 bool PieceOrderer::reverse_parts() {
   bool is_shorter = false;
   measure();

@@ -1,8 +1,9 @@
-// shorten_piece_order: shortens the way from the park position through all pieces and back, where a piece may end
-// elsewhere than it begins. Private to cam/.
+// shorten_piece_order: shortens the travel from the park position through all pieces and back. A piece need not end
+// where it begins. Private to cam/.
 //
-// It reverses parts of the order (2-opt) and moves up to three pieces elsewhere (Or-opt), as long as either helps. A
-// piece that may not be turned keeps its direction. The work is limited by steps, so equal input gives equal output.
+// It reverses parts of the order (2-opt) and moves up to three pieces elsewhere (Or-opt), as long as this makes the
+// travel shorter. A piece that may not be reversed keeps its direction. The number of steps is limited, not the time,
+// so equal input gives equal output.
 //
 // Source: J. L. Bentley, Fast algorithms for geometric traveling salesman problems (1992).
 #pragma once
@@ -25,7 +26,7 @@ struct PlacedPiece {
   bool is_turned = false;
 };
 
-// Begins with the given order. `steps`: the maximum number of ways compared.
+// Begins with the given order. `steps`: the maximum number of comparisons.
 std::vector<PlacedPiece> shorten_piece_order(const std::vector<RoutePiece>& pieces, DrawnPoint park,
                                              std::uint64_t steps);
 

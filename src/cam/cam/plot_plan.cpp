@@ -30,7 +30,7 @@ PlotPath turned_back(const PlotPath& points) {
   return turned;
 }
 
-// From this point around to the same point.
+// The closed path from this point around to the same point.
 PlotPath around_from(const PlotPath& points, std::size_t first) {
   PlotPath path = points;
   std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(first), path.end());
@@ -87,7 +87,7 @@ class PlotPlanner {
   PlotPlan plan_;
 };
 
-// Always on to the nearest end of an open line, or point of a closed one.
+// Greedy: the next line is the one with the nearest end (open) or the nearest point (closed).
 std::vector<PlotPath> PlotPlanner::by_nearest(const std::vector<PlotLine>& lines) const {
   std::vector<DrawnPoint> places;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // line and point
@@ -166,7 +166,7 @@ PlotPath PlotPlanner::with_overcut(PlotPath path) const {
   return path;
 }
 
-// The way of the axis for the way of the tip. The axis of an arc is an arc of the same sweep.
+// The path of the axis for a path of the tip. On an arc, the axis follows an arc with the same sweep.
 PlotPath PlotPlanner::of_axis(const PlotPath& path) {
   PlotPath moves = {{ahead(path.front().at, heading_), 0}};
   const double least_turn = options_.swivel_degrees / 180 * std::numbers::pi;
@@ -194,7 +194,7 @@ std::vector<PlotLine> lines_of(const EdgeLoops& lines, const std::vector<DrawnPo
   std::vector<NestedLoop> nested;
   constexpr Nanometres tolerance{10'000};
   if (inner_first) nested = nest(lines.loops, tolerance);
-  // nest() drops loops without an inside.
+  // nest() drops loops that enclose no area.
   const bool knows_nesting = inner_first && nested.size() == lines.loops.size();
   const std::size_t deepest = knows_nesting ? deepest_of(nested) : 0;
   for (std::size_t i = 0; i < lines.loops.size(); ++i) {

@@ -29,7 +29,7 @@ std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& 
 // away. Slower.
 std::vector<std::vector<std::size_t>> groups_of_edges_apart(const Region& region, Nanometres reach);
 
-// Returns all regions as one. They must not touch each other.
+// Returns all regions as one region. They must not touch each other.
 Region gathered(const std::vector<Region>& apart);
 
 }  // namespace passo

@@ -26,7 +26,7 @@ class StrokeJoiner {
     for (std::size_t node = 0; node < at_node_.size(); ++node) {
       if (at_node_[node].size() != 2) join_from(node);
     }
-    // What is left are rings.
+    // The remaining strokes form rings.
     for (std::size_t node = 0; node < at_node_.size(); ++node) join_from(node);
     return std::move(joined_);
   }
@@ -82,8 +82,7 @@ class PieceFitter {
   }
 
  private:
-  // Each piece is proved of all its points, so their number is found by leaps: twice as far each time, then half as
-  // far.
+  // Each trial checks all points of a piece, so the number of points is found by doubling, then by bisection.
   template <class Piece>
   FittedPiece longest_of(std::size_t first, std::size_t fewest, Piece piece_to) const {
     FittedPiece found{first + 1, 0};
@@ -103,7 +102,7 @@ class PieceFitter {
 
   double height(std::size_t i) const { return static_cast<double>(points_[i].z.count); }
   bool is_near(double off_xy, double off_z) const { return off_xy + fit_.slope * std::abs(off_z) <= fit_.tolerance_nm; }
-  // Along a piece the cutter moves ahead, as along the points.
+  // Along a piece the cutter moves forward, as along the points.
   std::optional<FittedPiece> line_to(std::size_t first, std::size_t last) const;
   std::optional<FittedPiece> arc_to(std::size_t first, std::size_t last) const;
 

@@ -29,7 +29,8 @@ struct TourStep {
   std::size_t stroke = no_stroke;  // none: a lift
 };
 
-// The least cost of a subtree, by whether the stroke to the parent is gone twice, and by how many free ends are used.
+// The least cost of a subtree, depending on whether the stroke to the parent is traversed twice, and on the number of
+// free ends that are used.
 using SubtreeCosts = std::array<std::array<double, most_free_ends + 1>, 2>;
 constexpr SubtreeCosts no_costs = {{{never, never, never}, {never, never, never}}};
 
@@ -39,7 +40,7 @@ struct SubtreeChoice {
 };
 using SubtreeChoices = std::array<std::array<SubtreeChoice, most_free_ends + 1>, 2>;
 
-// Chooses the strokes that are gone twice, and the nodes at which runs begin and end.
+// Chooses the strokes that are traversed twice, and the nodes at which runs begin and end.
 class ReturnChooser {
  public:
   ReturnChooser(const std::vector<CutterStroke>& strokes, const std::vector<double>& lengths,
@@ -85,7 +86,7 @@ class ReturnChooser {
   Choice choice_;
 };
 
-// The shortest strokes that connect all (J. B. Kruskal).
+// The shortest strokes that connect all nodes (J. B. Kruskal).
 void ReturnChooser::find_tree() {
   std::vector<std::size_t> order(strokes_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -122,7 +123,7 @@ void ReturnChooser::group_from(std::size_t root) {
   choice_.groups.push_back(std::move(group));
 }
 
-// From the children's costs. The strokes at a node, with the returns and its own end, are even in number.
+// From the children's costs. The number of strokes at a node, including returns and its own free end, is even.
 void ReturnChooser::find_costs(std::size_t node) {
   SubtreeCosts sum = no_costs;  // by whether the number of strokes so far is odd
   sum[at_node_[node].size() % 2][0] = 0;
@@ -248,7 +249,8 @@ std::size_t StrokeTourist::add_lifts(const std::vector<std::size_t>& group, cons
     const CutterStroke& stroke = strokes_[at_node_[node].front()];
     return stroke.from == node ? stroke.points.front().at : stroke.points.back().at;
   };
-  // From each end to a near one that is left; the last one ends the tour. Ends that are neighbours here are near.
+  // From each end to a near one that is still free; the last one ends the tour. Neighbours in this order are near each
+  // other.
   constexpr std::ptrdiff_t most_tried = 64;
   for (std::size_t i = 1; i + 2 < ends.size(); i += 2) {
     const auto first = ends.begin() + static_cast<std::ptrdiff_t>(i) + 1;
@@ -275,7 +277,7 @@ FlatVector StrokeTourist::direction(const TourStep& step, bool at_end) const {
   return is_ahead ? along : FlatVector{-along.x, -along.y};
 }
 
-// First what is not cut yet, the straightest; then the returns, then the lifts.
+// First the uncut strokes, the straightest one first; then the returns, then the lifts.
 std::size_t StrokeTourist::next_step(std::size_t node, const TourStep* before) const {
   std::size_t best = steps_.size();
   double best_rank = never;
@@ -299,7 +301,7 @@ std::size_t StrokeTourist::next_step(std::size_t node, const TourStep* before) c
   return best;
 }
 
-// Hierholzer: goes on until it is stuck, and puts the tours of what is left in between.
+// Hierholzer: continues until no step is left, and inserts tours of the remaining strokes.
 StrokeTourist::Path StrokeTourist::path_from(std::size_t start) {
   struct Visit {
     std::size_t node;
@@ -325,7 +327,7 @@ StrokeTourist::Path StrokeTourist::path_from(std::size_t start) {
   return path;
 }
 
-// A short way from one tour to the next. A tour may be gone from its end.
+// Short travels from one tour to the next. A tour may be traversed from its end.
 void StrokeTourist::order(std::vector<Path>& paths) const {
   std::vector<DrawnPoint> starts;
   const auto start_of = [&](const Path& path) { return place(path.front(), path.front().from); };

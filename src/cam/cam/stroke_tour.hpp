@@ -1,9 +1,9 @@
-// tour_strokes: converts lines that meet at nodes to runs of a cutter that stays down where it can: from the end of a
+// tour_strokes: converts lines that meet at nodes to runs of a cutter that stays down where possible: from the end of a
 // branch it returns along the groove that it has just carved. Private to cam/.
 //
-// Which branches it goes back along is chosen so that all returns and lifts together are as short as possible: on trees
+// The branches of the returns are chosen so that all returns and lifts together are as short as possible: on trees
 // exactly (by dynamic programming), on rings along their shortest lines only. The tour of the lines and the returns is
-// an Euler path, and prefers to go straight on.
+// an Euler path that goes straight on where possible.
 //
 // Source: C. Hierholzer, Über die Möglichkeit, einen Linienzug ohne Wiederholung und ohne Unterbrechung zu umfahren
 // (1873); J. Edmonds, E. L. Johnson, Matching, Euler tours and the Chinese postman (1973).
@@ -21,7 +21,7 @@ struct StrokeTour {
   double lift_nm = 0;  // length of a return that takes as long as a lift
 };
 
-// Returns the runs; those of connected strokes follow each other. `nodes`: number of nodes; all node indices are
+// Returns the runs. Runs of connected strokes follow each other. `nodes`: number of nodes; all node indices are
 // smaller.
 std::vector<MillRun> tour_strokes(const std::vector<CutterStroke>& strokes, std::size_t nodes, const StrokeTour& tour);
 

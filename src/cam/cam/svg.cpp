@@ -212,7 +212,7 @@ void SvgExpansion::enter_layer(const SvgElement& element, Place& place) {
   if (!options_.layers.empty()) place.is_chosen = std::ranges::find(options_.layers, name) != options_.layers.end();
 }
 
-// Whether the element and its children may be seen.
+// Whether the element and its children may be visible.
 bool SvgExpansion::is_displayed(const SvgElement& element, Place& place) {
   if (is_css_word(element.property("display"), "none")) {
     leave_out("elements that are not displayed", element);
@@ -326,7 +326,7 @@ void SvgExpansion::draw(const SvgElement& element, const Place& place) {
   }
 }
 
-// Adds the part of the figure that the clip shows to the drawing, or to the figure that is collected.
+// Adds the visible part of the figure to the drawing, or to the figure that is being collected.
 void SvgExpansion::put(SvgFigure figure, const SvgElement& element, const Place& place) {
   if (figure.paths.empty() && figure.holes.empty()) return;
   if (place.clip) {
@@ -358,7 +358,7 @@ void SvgExpansion::put(SvgFigure figure, const SvgElement& element, const Place&
   }
 }
 
-// Restricts the place to what the clip path of the element shows.
+// Restricts the drawn area to the clip path of the element.
 void SvgExpansion::clip(std::uint32_t index, Place& place) {
   const SvgElement& element = document_.elements[index];
   const std::string_view mask = element.property("mask");
@@ -401,7 +401,7 @@ void SvgExpansion::clip(const Region& area, const SvgElement& element, Place& pl
   place.clip = std::move(clip);
 }
 
-// The area of a clip path that this element has. Nothing: it is not known.
+// The area of the clip path for this element. Empty: it cannot be determined.
 std::optional<Region> SvgExpansion::clip_area(const SvgElement& element, const SvgElement& clip_path,
                                               const Place& place) {
   Place inside = place;
@@ -446,7 +446,7 @@ std::optional<Region> SvgExpansion::clip_area(const SvgElement& element, const S
   return united(areas);
 }
 
-// The bounds of what the element draws, in its own coordinates: a pixel is a millimetre here.
+// The bounding box of the element in its own coordinates: a pixel is a millimetre here.
 std::optional<DrawnBox> SvgExpansion::box_of_content(const SvgElement& element, const Place& place) {
   Place own = place;
   own.transform = {};

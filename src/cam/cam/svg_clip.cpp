@@ -76,7 +76,7 @@ double bounded_mm(double mm) {
   return std::isfinite(mm) ? std::clamp(mm, -most, most) : most;
 }
 
-// The pieces of an open path that lie in the clip; the path itself if all of it does.
+// The pieces of an open path within the clip; the whole path if it lies within the clip.
 void add_pieces(DrawnPath path, const SvgClip& clip, std::vector<DrawnPath>& pieces) {
   const std::vector<DrawnRing> way = {chords_of_path(path.points, false, clip_chords)};
   constexpr double rounding = 10;  // nm

@@ -1,4 +1,4 @@
-// SvgClip: the area to which clip paths and nested views restrict what is drawn. Private to cam/.
+// SvgClip: the area to which clip paths and nested views restrict a drawing. Private to cam/.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@ struct ClippedFigure {
   SvgFigure figure;
   bool is_affordable = true;  // false: the budget did not suffice
 };
-// Returns what of the figure lies within the clip: of closed lines the part of their area, of open lines pieces. A
-// figure that lies within it whole is not changed; otherwise its arcs become chords.
+// Returns the part of the figure within the clip: of closed lines a part of their area, of open lines pieces. A figure
+// that lies completely within the clip is not changed; otherwise its arcs become chords.
 ClippedFigure clipped(SvgFigure figure, const SvgClip& clip, RegionBudget& budget);
 
 }  // namespace passo

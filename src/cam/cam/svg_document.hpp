@@ -18,7 +18,8 @@ struct SvgElement {
   std::vector<std::uint32_t> children = {};  // indices of the child elements
   std::uint32_t parent = 0;
   std::uint32_t line = 0;
-  // What style sheets and the style attribute set; see SvgStyleSheet. Unused unless a rule matched (`is_styled`).
+  // The properties from style sheets and the style attribute; see SvgStyleSheet. Unused unless a rule matched
+  // (`is_styled`).
   std::vector<std::pair<std::string, std::string>> style = {};
   bool is_styled = false;
 

@@ -76,7 +76,7 @@ bool SvgFigureReader::put(DrawnPath& path, const SvgElement& element, const SvgS
   return at.has_value();
 }
 
-// From the end of the path on. A circle that is not stretched stays one.
+// Continues from the end of the path. A circle that is not stretched remains a circle.
 void SvgFigureReader::put_arc(DrawnPath& path, const SvgElement& element, const SvgSpace& space, const SvgArc& arc) {
   const double a = std::hypot(arc.major.x, arc.major.y);
   const double b = std::hypot(arc.minor.x, arc.minor.y);
@@ -86,7 +86,7 @@ void SvgFigureReader::put_arc(DrawnPath& path, const SvgElement& element, const 
   const double share = std::clamp(tolerance_ / std::max(largest, 1e-9), 1e-9, 0.5);
   const double most = is_circle ? std::numbers::pi * 1.0001 : 2 * std::acos(1 - share);
   const auto parts = static_cast<std::size_t>(std::max(1.0, std::ceil(std::abs(arc.sweep) / most)));
-  // Seen with Y up a positive angle of SVG turns clockwise; a mirroring turns it once more.
+  // With Y up, a positive angle of SVG is clockwise; mirroring reverses it again.
   double bulge = 0;
   if (is_circle)
     bulge = std::tan(arc.sweep / static_cast<double>(parts) / 4) * (space.transform.is_mirrored() ? -1 : 1);
@@ -141,7 +141,7 @@ void SvgFigureReader::read_rect(const SvgElement& element, const SvgSpace& space
   ry = std::clamp(ry, 0.0, height / 2);
   DrawnPath path{.is_closed = true, .layer = space.layer, .line = element.line};
   const bool is_round = rx > 0 && ry > 0;
-  // Each corner: where its arc's centre is, and at which angle the arc begins.
+  // For each corner: the centre of its arc, and the angle at which the arc begins.
   const std::array<SvgSpot, 4> corners = {{{x + width, y}, {x + width, y + height}, {x, y + height}, {x, y}}};
   for (std::size_t i = 0; i < 4; ++i) {
     if (!is_round) {
@@ -154,7 +154,7 @@ void SvgFigureReader::read_rect(const SvgElement& element, const SvgSpace& space
     put(path, element, space, arc.at(start));
     put_arc(path, element, space, arc);
   }
-  // The sides between two arcs may have no length.
+  // The side between two arcs may have no length.
   std::vector<PathPoint> points;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const bool is_again =

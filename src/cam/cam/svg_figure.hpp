@@ -14,7 +14,7 @@
 
 namespace passo {
 
-// Where an element is drawn.
+// The position of an element in the drawing.
 struct SvgSpace {
   DxfTransform transform = {};
   SvgView view = {};
@@ -29,7 +29,7 @@ struct SvgFigure {
 
 class SvgFigureReader {
  public:
-  // `inch`: the pixels of an inch. `builder` limits the number of points and the lengths.
+  // `inch`: the number of pixels per inch. `builder` limits the number of points and the lengths.
   SvgFigureReader(const std::string& name, Mm tolerance, double inch, DrawingBuilder& builder, Diagnostics& diagnostics)
       : name_(name), tolerance_(tolerance.value()), inch_(inch), builder_(builder), diagnostics_(diagnostics) {}
 

@@ -29,7 +29,7 @@ bool is_name_letter(char c) {
          (static_cast<unsigned char>(c) & 0x80U) != 0;
 }
 
-// The text without comments and the marks of HTML comments.
+// The text without CSS comments and without HTML comment marks.
 std::string without_css_comments(std::string_view css) {
   std::string text;
   while (!css.empty()) {
@@ -47,7 +47,7 @@ std::string without_css_comments(std::string_view css) {
   return text;
 }
 
-// Returns the place of the first of these characters outside of strings and brackets of other kinds.
+// Returns the position of the first of these characters outside of strings and other brackets.
 std::size_t find_css(std::string_view text, std::string_view wanted) {
   char quote = 0;
   int round = 0;
@@ -70,7 +70,7 @@ std::size_t find_css(std::string_view text, std::string_view wanted) {
   return std::string_view::npos;
 }
 
-// Returns the place of the brace that closes the block, or the end of the text.
+// Returns the position of the brace that closes the block, or the end of the text.
 std::size_t end_of_css_block(std::string_view text) {
   int depth = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -89,7 +89,7 @@ class CssSelectorReader {
  public:
   explicit CssSelectorReader(std::string_view text) : rest_(text) {}
 
-  // Nothing: a selector of an unsupported kind.
+  // Empty: an unsupported selector.
   std::optional<std::vector<CssCompound>> read() {
     constexpr std::size_t most_compounds = 32;
     std::vector<CssCompound> compounds;
@@ -331,7 +331,7 @@ bool SvgStyleSheet::matches(const CssCompound& compound, const SvgElement& eleme
                              [&](const auto& attribute) { return matches_attribute(attribute, element); });
 }
 
-// Whether the compounds up to `last` lead to the element.
+// Whether the compounds up to `last` match the element and its ancestors.
 bool SvgStyleSheet::matches(const Selector& selector, std::size_t last, std::uint32_t element,
                             const SvgDocument& document) {
   if (work_ > most_css_work || !matches(selector.compounds[last], document.elements[element])) return false;
@@ -366,7 +366,7 @@ void SvgStyleSheet::style(std::uint32_t index, SvgDocument& document) {
   if (found.empty()) return;
   std::ranges::stable_sort(found, {},
                            [&](std::uint32_t i) { return std::tuple(selectors_[i].specificity, selectors_[i].rule); });
-  // Later ones win: rules, the style attribute, important rules, important ones of the attribute.
+  // Later ones win: rules, the style attribute, important rules, important declarations of the attribute.
   const std::vector<CssDeclaration> own = css_declarations(element.attribute("style"));
   std::vector<std::pair<std::string, std::string>> style;
   const auto take = [&](const std::vector<CssDeclaration>& declarations, bool important) {

@@ -46,7 +46,7 @@ struct CssDeclaration {
 std::vector<CssDeclaration> css_declarations(std::string_view text);
 // Whether the property selects or places geometry, so that the reader of drawings uses it.
 bool is_drawn_property(std::string_view property);
-// Whether the value is this keyword, in small letters or capitals. `word` is in small letters.
+// Whether the value is this keyword, in lower or upper case. `word` is in lower case.
 bool is_css_word(std::string_view value, std::string_view word);
 
 class SvgStyleSheet {
@@ -76,7 +76,7 @@ class SvgStyleSheet {
 
   std::vector<std::vector<CssDeclaration>> rules_;
   std::vector<Selector> selectors_;
-  // Selectors by the id, a class or the name that their last compound requires; those that require none.
+  // Selectors by the id, class or name that their last compound requires, and those that require none.
   Index by_id_;
   Index by_class_;
   Index by_type_;

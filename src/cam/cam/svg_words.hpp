@@ -80,7 +80,7 @@ std::optional<std::array<double, 2>> svg_transform_origin(std::string_view text,
 
 inline constexpr double svg_inch = 96;  // pixels
 
-// Reads a length and converts it to pixels. `whole`: the length of 100 %. `inch`: the pixels of an inch.
+// Reads a length and converts it to pixels. `whole`: the length of 100 %. `inch`: the number of pixels per inch.
 std::optional<double> svg_length(std::string_view text, double whole, double inch = svg_inch);
 
 }  // namespace passo

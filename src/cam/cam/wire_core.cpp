@@ -15,11 +15,11 @@ namespace {
 
 constexpr Nanometres core_chords{500};
 
-// Leaves out what is almost in line: an offset has corners whose edges are so short that their directions mean nothing.
-// Source: D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points (1973).
+// Removes points that are almost in line: an offset has corners with edges so short that their directions are
+// meaningless. Source: D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points (1973).
 DrawnRing without_tiny_edges(DrawnRing ring) {
   constexpr double least_nm = 2'000;
-  // From the point of greatest X around to the same point.
+  // The profile from the point of greatest X around to the same point.
   const auto first = std::ranges::max_element(ring, {}, &DrawnPoint::x);
   std::rotate(ring.begin(), first, ring.end());
   ring.push_back(ring.front());

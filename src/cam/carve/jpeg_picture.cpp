@@ -12,8 +12,8 @@
 namespace passo {
 namespace {
 
-// What libjpeg's callbacks share with the reader. libjpeg leaves a broken file by longjmp: what is to be freed then
-// lives here, and not in a function that libjpeg leaves.
+// The data that libjpeg's callbacks share with the reader. On a broken file libjpeg calls longjmp. So memory that must
+// then be freed is owned here, not by a function that longjmp leaves.
 struct JpegReading {
   jpeg_decompress_struct file = {};
   jpeg_error_mgr errors = {};
@@ -37,14 +37,14 @@ void on_jpeg_error(j_common_ptr file) {
   leave(*reading, words.data());
 }
 
-// Warnings tell damaged data, such as an early end: the rest would be grey.
+// Warnings mean damaged data, such as an early end: the rest would be grey.
 void on_jpeg_message(j_common_ptr file, int level) {
   if (level < 0) on_jpeg_error(file);
 }
 
 void on_jpeg_output(j_common_ptr) {}
 
-// `is_inverted`: of CMYK, 255 is no ink, as Photoshop writes it.
+// `is_inverted`: in CMYK, 255 means no ink, as Photoshop writes it.
 std::uint16_t level_of_sample(const JSAMPLE* pixel, int channels, bool is_inverted) {
   constexpr std::uint64_t scale = 257;
   if (channels == 1) return static_cast<std::uint16_t>(pixel[0] * scale);
@@ -56,7 +56,7 @@ std::uint16_t level_of_sample(const JSAMPLE* pixel, int channels, bool is_invert
   return static_cast<std::uint16_t>(luminance_of(colour[0] * scale, colour[1] * scale, colour[2] * scale));
 }
 
-// Has no objects of its own that need a destructor: libjpeg leaves it by longjmp.
+// Must have no local objects with destructors, because libjpeg leaves it by longjmp.
 void read_jpeg_rows(JpegReading& reading) {
   jpeg_decompress_struct& file = reading.file;
   jpeg_read_header(&file, TRUE);
@@ -75,7 +75,7 @@ void read_jpeg_rows(JpegReading& reading) {
   reading.picture.columns = file.output_width;
   reading.picture.rows = file.output_height;
   reading.pixels.resize(std::size_t{file.output_width} * static_cast<std::size_t>(channels));
-  // Memory grows with what is really there.
+  // Memory grows with the data that are actually there.
   while (file.output_scanline < file.output_height) {
     constexpr int most_scans = 200;
     if (file.input_scan_number > most_scans) leave(reading, "it has more than 200 scans");

@@ -1,7 +1,7 @@
 // read_jpeg: reads a JPEG picture as levels. Private to carve/.
 //
 // Baseline and progressive files, grey or colour (also CMYK). Memory for the pixels is bounded before it is requested;
-// a file that ends too early, or is damaged, is refused. An orientation stored by a camera (EXIF) is not applied.
+// a file that ends too early, or is damaged, is rejected. An orientation stored by a camera (EXIF) is not applied.
 //
 // Source: ITU-T T.81; read by libjpeg-turbo.
 #pragma once

@@ -1,5 +1,5 @@
 // Finishing in rows with gaps: on the model, within curves, in one direction only, closer together on slopes, and at an
-// angle. Unlike whole rows, these need to know the stock, because the cutter goes down to it in many places.
+// angle. Unlike whole rows, these rows need the stock model, because the cutter enters the stock in many places.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,12 +14,12 @@ namespace {
 
 constexpr float least_work = 0.001F;  // mm
 
-// Clears the marks outside of the curves, row by row: between two crossings a row is inside.
+// Clears the marks outside the curves, row by row: between two crossings a row is inside.
 void keep_within(const std::vector<std::vector<ReliefPoint>>& curves, const TipMap& map, const NodeLattice& lattice,
                  NodeMask& mask) {
   std::vector<double> crossings;
   for (std::size_t row = 0; row < map.rows; ++row) {
-    // In the program rows may be columns; the curves are turned, too.
+    // If rows are columns in the program, X and Y of the curves are swapped, too.
     const double pitch = lattice.turned ? lattice.pitch_x : lattice.pitch_y;
     const double along_pitch = lattice.turned ? lattice.pitch_y : lattice.pitch_x;
     const double zero = lattice.turned ? lattice.x0 : lattice.y0;
@@ -86,11 +86,11 @@ NodeMask nodes_of_finishing(const TipMap& map, const HeightGrid& surface, const 
 
 namespace {
 
-// Rows between the rows, where the surface rises across them.
+// The rows that are added between rows, where the surface rises across them.
 //
-// On a slope, two rows are farther apart along the surface than seen from above, by sqrt(1 + slope²); ridges grow with
-// its square. Where they would be too high, rows midway are added, and rows midway between these, until the rows lie at
-// each node.
+// On a slope, two rows are farther apart along the surface than seen from above, by sqrt(1 + slope²); the height of
+// scallops grows with its square. Where scallops would be too high, rows are added midway, and again midway between
+// these, until there is a row at each node.
 class RowLevels {
  public:
   RowLevels(const TipMap& tips, const HeightGrid& surface, Mm step, const ReliefProgramOptions& options)
@@ -103,10 +103,10 @@ class RowLevels {
   }
 
   std::ptrdiff_t step() const { return nodes_; }
-  // The parts of a step where the rows are closest: a power of 2.
+  // The number of parts of a step where the rows are closest: a power of 2.
   std::ptrdiff_t parts() const { return parts_; }
 
-  // The rows that divide steps in `parts`, but are no rows of steps in half as many.
+  // The rows that divide each step into this number of parts, without those that already divide it into half as many.
   std::vector<std::ptrdiff_t> rows(std::ptrdiff_t parts) const {
     std::vector<std::ptrdiff_t> all;
     for (std::ptrdiff_t i = 1;; i += 2) {
@@ -115,12 +115,12 @@ class RowLevels {
       all.push_back(row - tips_.margin_y);
     }
   }
-  // The nodes of these rows that have work.
+  // The nodes of these rows at which there is something to cut.
   NodeMask between(const std::vector<std::ptrdiff_t>& rows, std::ptrdiff_t parts) const {
     NodeMask mask(tips_);
     const std::ptrdiff_t apart = (nodes_ + parts - 1) / parts;
     const double gap = static_cast<double>((2 * nodes_ + parts - 1) / parts) * pitch_;  // without these rows
-    // On slopes up to this the rows are close enough; a level area is left to the stepover.
+    // Up to this slope the rows are close enough; on level areas the stepover decides.
     constexpr double level = 1e-3;
     const double enough = std::max(level, allowed_ * allowed_ / (gap * gap) - 1);
     for (const std::ptrdiff_t place : rows) {
@@ -158,8 +158,8 @@ class RowLevels {
   std::ptrdiff_t parts_ = 1;
 };
 
-// The direction of travel along columns, for rows of which the next has the higher number: the stock that is still to
-// be cut is to the left of a row that goes to higher columns, unless rows and columns are swapped.
+// The direction of travel along columns, for rows that are cut in ascending order: the uncut stock is to the left of a
+// row that goes to higher columns, unless rows and columns are swapped.
 int direction_of(const ReliefProgramOptions& options, bool is_turned) {
   if (options.rows.direction == RowDirection::there_and_back) return 0;
   return (options.rows.direction == RowDirection::climb) == is_turned ? 1 : -1;
@@ -179,7 +179,7 @@ void finish_rows_in_area(ReliefPass& pass, const HeightGrid& surface, const Node
     const double x = static_cast<double>(column) * surface.pitch_x.value();
     const double y = static_cast<double>(row) * surface.pitch_y.value();
     const FlatPlace place = lattice.turned ? FlatPlace{y, x} : FlatPlace{x, y};
-    // A row in one direction begins beside the row before: there the rim of the cutter has stock, but not its middle.
+    // A one-way row begins next to the previous row: there the edge of the cutter touches stock, but not its middle.
     const bool is_beside = options.rows.direction != RowDirection::there_and_back;
     return static_cast<float>(is_beside ? pass.stock()->free_height_inside(place)
                                         : pass.stock()->free_height(place, cutter.radius.value() / 2));
@@ -265,7 +265,7 @@ class AngledRows {
     const double count = std::max(1.0, std::ceil((high - low) / step_));
     bool is_back = pass_.options().rows.direction == RowDirection::climb;
     for (double i = 0; i <= count; ++i) {
-      // The first and the last row would be mere corners of the map.
+      // The first and the last row would only touch corners of the map.
       const double out = low + (high - low) * std::clamp(i / count, 1e-6, 1 - 1e-6);
       LevelLine line = line_over(tips_, surface_, {across.x * out, across.y * out}, along);
       if (line.points.size() < 2) continue;
@@ -295,7 +295,7 @@ class AngledRows {
     has_begun_ = true;
   }
 
-  // Goes from the end of a row to the begin of the next one, if that is near and all the way is wanted.
+  // Cuts from the end of a row to the start of the next one, if it is near and everything in between is to be cut.
   bool links_to(const FlatPlace& place) {
     if (!has_begun_ || pass_.options().rows.direction != RowDirection::there_and_back) return false;
     const FlatPlace from = pass_.flat_place();

@@ -70,12 +70,13 @@ class ReliefPass {
     // The ramp begins where the inner half of the cutter touches the stock: the rest is cut by the rim, as between two
     // neighbouring toolpaths.
     bool cuts_with_rim = false;
-    // The ramp ends at the height of the start, and only the stock there matters: what comes is cut as it comes.
+    // The ramp ends at the height of the start, and only the stock at the start matters, because the path cuts the
+    // rest.
     bool is_row = false;
   };
   // Approaches a toolpath of lines and arcs, descends along it, and cuts all of it. Requires the stock.
   void cut_way(const LevelPath& path, const TipSurface& surface, const WayEntry& entry);
-  // Cuts a toolpath that begins where the tool is, above or below.
+  // Cuts a toolpath that begins at the XY position of the tool, above or below it.
   void follow(const LevelPath& path, const TipSurface& surface);
 
  private:
@@ -167,17 +168,17 @@ TipMap tips_of(const HeightGrid& surface, const Cutter& cutter, float floor, Mm 
                const ReliefProgramOptions& options);
 // Returns the tip heights of the roughing cutter, including the stock to leave, limited to the top of the stock.
 TipMap roughing_tips(const HeightGrid& surface, const NodeLattice& lattice, const ReliefProgramOptions& options);
-// Returns the nodes where the program may cut: all within the curves, or of these only those where the cutter touches
-// the model and all within `around` of them.
+// Returns the nodes where the program may cut: all nodes within the curves, or only those of them that are at most
+// `around` away from a node where the cutter touches the model.
 NodeMask nodes_of_work(const TipMap& map, const HeightGrid& surface, const NodeLattice& lattice, Mm around, float floor,
                        const ReliefProgramOptions& options);
-// Returns those of them where the finishing cutter has something to cut, or is about to: not where its tip is at the
-// top of the stock.
+// Returns those of them where the finishing cutter cuts, or is about to cut: not those where its tip is at the top of
+// the stock.
 NodeMask nodes_of_finishing(const TipMap& map, const HeightGrid& surface, const NodeLattice& lattice,
                             const ReliefProgramOptions& options);
 
-// Cuts runs that follow each other without a gap, but not the air between them: where the tip stays at the top of the
-// stock for longer than a lift takes, the tool is lifted.
+// Cuts runs that follow each other without a gap, but skips air cuts: where the tip stays at the top of the stock for
+// longer than a lift takes, the tool is lifted.
 class RunsBelowTop {
  public:
   explicit RunsBelowTop(ReliefPass& pass);
@@ -204,7 +205,7 @@ void rough_by_offsets(ReliefPass& pass, const HeightGrid& surface, const NodeLat
 // Finishes in rows or columns, as `way` says; for columns the surface must be transposed.
 void finish_rows(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
-// Does the same where rows have gaps: on the model, within curves, in one direction only, closer together on slopes.
+// The same for rows with gaps: on the model, within curves, in one direction only, closer together on slopes.
 void finish_rows_in_area(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                          const std::function<void(double)>& progress);
 // Finishes in rows at an angle.

@@ -65,7 +65,8 @@ float floor_of(const HeightGrid& grid) {
 
 namespace {
 
-// Smooths a line of `count` levels, `apart` apart, by a Gaussian of `sigma` pixels. At the ends the line is continued.
+// Smooths a line of `count` levels, at a stride of `apart`, by a Gaussian of `sigma` pixels. Beyond its ends, the line
+// is extended.
 class LineSmoother {
  public:
   explicit LineSmoother(double sigma) {

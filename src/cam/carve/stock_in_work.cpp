@@ -17,7 +17,7 @@ std::vector<Cutter> cutters_of(const ReliefProgramOptions& options) {
   return cutters;
 }
 
-// `share`: of the smallest cutter's radius, for a cell.
+// `share`: the size of a cell, as a fraction of the smallest cutter's radius.
 HeightField field_for(const HeightGrid& surface, const ReliefProgramOptions& options, Mm beyond, double share,
                       double most_cells) {
   Mm smallest = options.finish.cutter.radius;
@@ -31,7 +31,7 @@ HeightField field_for(const HeightGrid& surface, const ReliefProgramOptions& opt
   const double area = (surface.width().value() + 2 * reach) * (surface.length().value() + 2 * reach);
   const double finest = std::sqrt(area / most_cells);
   const double cell = std::clamp(std::max({finest, smallest.value() * share, of_nodes}), 0.01, 10.0);
-  // Stock stands at the edge of what the cutters reach: there are cells beyond.
+  // Stock remains at the edge of the area that the cutters reach, so there are cells beyond it.
   const double rim = reach + 2 * cell;
   const double deep = static_cast<double>(floor_of(surface)) - 1;
   // What is wider than any stock counts as cut beyond: only huge works of coarse nodes are.

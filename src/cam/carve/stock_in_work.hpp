@@ -1,8 +1,8 @@
 // StockInWork: the stock as cut by the program so far, for code that needs the remaining material. Private to carve/.
 //
 // It covers the whole range of the cutters, including the area beside the surface; its top is Z 0. Cells are some
-// tenths of the smallest cutter's radius, and have the height at their centres. A sliver may stand between two centres,
-// so a second field of coarser cells has an upper bound for each cell: it is cut by thinner tools (`thinned`, in
+// tenths of the smallest cutter's radius, and have the height at their centres. A sliver may remain between two
+// centres. So a second field of coarser cells has an upper bound for each cell: thinner tools cut it (`thinned`, in
 // passo/stock/cut_target.hpp). Rapids rely on the bound, ramps on the heights.
 #pragma once
 
@@ -34,7 +34,7 @@ class StockInWork {
   void settle();
 
   double radius() const { return shapes_[tool_].radius.value(); }  // of the selected cutter, mm
-  // Returns a tip height to which a rapid may go down at a position: the cutter certainly touches no stock there.
+  // Returns a tip height to which a rapid may go down at a position. The cutter touches no stock there.
   double rapid_height(const FlatPlace& place);
   // Returns the lowest tip height at which the cutter touches no stock, within `around` mm of a position.
   double free_height(const FlatPlace& place, double around);
@@ -46,13 +46,13 @@ class StockInWork {
   double free_height_inside(const std::vector<CarvedCut>& way);
 
  private:
-  // A field, and the cutter's height above its tip for each of its cells around the cutter's own: a quadrant.
+  // A field, and the height of the cutter above its tip for each cell around the cutter's own cell (one quadrant).
   struct Layer {
     HeightField field;
     std::unique_ptr<StockCutter> cutter = nullptr;
     std::vector<float> heights = {};
     std::ptrdiff_t reach = 0;
-    // For which the heights were computed.
+    // The cutter for which the heights were computed.
     double around = -1;
     double inside = 0;
     std::size_t tool = 0;

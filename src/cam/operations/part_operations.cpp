@@ -90,7 +90,7 @@ std::vector<CamOption> trace_rows(CamTraceArguments& a) {
   using enum CamKind;
   return {
       {"trace", &a.trace, flag,
-       "the files are pictures (PNG or TIFF): trace the outlines of their dark areas (potrace)"},
+       "the files are pictures (PNG, JPEG or TIFF): trace the outlines of their dark areas (potrace)"},
       {"threshold",
        &a.threshold,
        percent,

@@ -300,7 +300,7 @@ void StockCutter::Implementation::write(const MoveTally& tally, MoveCut& cut) co
 }
 
 void StockCutter::Implementation::cut_busy_tiles(std::vector<std::vector<MoveTally>>& tallies) {
-  // A few chords are cut sooner than a thread starts.
+  // Cutting a few chords takes less time than starting a thread.
   constexpr std::size_t chords_a_thread = 64;
   const std::size_t worth = std::max<std::size_t>(1, std::min(busy_.size(), chords_.size() / chords_a_thread));
   const std::size_t threads = std::min(tallies.size(), worth);

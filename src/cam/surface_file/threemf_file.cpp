@@ -68,14 +68,14 @@ struct ModelOf3mf {
   std::vector<PartOf3mf> items = {};
 };
 
-// What all model files of an archive have together.
+// The data that all model files of an archive share.
 struct CountsOf3mf {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t bytes = 0;
 };
 
-// Without the prefix of a namespace: "p:path" is "path".
+// The name without its namespace prefix: "p:path" becomes "path".
 std::string_view local_name(std::string_view name) {
   const std::size_t colon = name.rfind(':');
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
@@ -91,7 +91,7 @@ class ModelReader {
     XML_SetEntityDeclHandler(parser_.get(), &ModelReader::refuse_entity);
   }
 
-  // False: it cannot go on; fault() has the reason.
+  // Returns false if it cannot continue; fault() has the reason.
   bool take(std::string_view piece, bool is_last = false) {
     if (!parser_) return refuse("out of memory");
     if (!fault_.empty()) return false;
@@ -260,7 +260,7 @@ class ThreeMfReader {
     return false;
   }
 
-  // The file that the archive names as its model; usually it is always the same one.
+  // Returns the file that the archive names as its model. Most archives use the same name.
   std::string root_file() const {
     std::string relations;
     constexpr std::size_t most = 1 << 20U;

@@ -5,7 +5,7 @@
 // applied. Coordinates are converted from the unit of the file to mm. Objects that are supports or of the type "other"
 // (e.g. the modifiers of a slicer) are omitted, and so are colours and other properties.
 //
-// The numbers of vertices, triangles, objects and bytes are bounded before memory is requested; entities are refused.
+// The numbers of vertices, triangles, objects and bytes are bounded before memory is requested; entities are rejected.
 //
 // Source: 3D Manufacturing Format, core specification 1.3, and its production extension 1.1.
 #pragma once

@@ -1,4 +1,4 @@
-// The only file of the module that sees minizip.
+// The only file of the module that uses minizip.
 #include "zip_archive.hpp"
 
 #include <algorithm>
@@ -98,7 +98,7 @@ std::string ZipArchive::read(const std::string& name, std::size_t most,
     return "'" + name + "' uses an unsupported compression method";
   }
   if (unzOpenCurrentFile(file_.get()) != UNZ_OK) return "'" + name + "' is damaged";
-  // What the archive says of sizes may be wrong: what comes is counted.
+  // The sizes that the archive states may be wrong, so the bytes that are read are counted.
   std::array<char, 65'536> piece{};
   std::size_t bytes = 0;
   int got = 0;

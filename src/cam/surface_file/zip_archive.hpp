@@ -20,8 +20,8 @@ class ZipArchive {
   // False: it is damaged.
   bool is_open() const { return file_ != nullptr; }
   bool has(const std::string& name) const;
-  // Passes the unpacked file on in pieces of some KiB, until `take` returns false or `most` bytes have been read.
-  // Returns the reason if the file cannot be read to its end; empty: all is well.
+  // Passes the unpacked file to `take` in pieces of a few KiB, until `take` returns false or `most` bytes have been
+  // read. Returns the reason if the file cannot be read to its end; empty: it was read.
   std::string read(const std::string& name, std::size_t most, const std::function<bool(std::string_view)>& take) const;
 
  private:

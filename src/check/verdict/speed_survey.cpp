@@ -25,8 +25,8 @@ void keep(std::vector<SpeedPart>& parts, const SpeedPart& part, Key key) {
   if (parts.size() > SpeedSurvey::most_parts) parts.pop_back();
 }
 
-// How far the tool moves for each millimetre of s: 1, except on a curve that replaces other segments and has their s,
-// or where the motor takes up backlash.
+// How far the tool moves per millimetre of s: 1, except on a curve that replaces other segments and has their s, and
+// where the motor takes up backlash.
 double tool_way(const Segment& segment, Mm s, bool turns) {
   if (turns || segment.curve.shape() == Curve::Shape::line) return 1;
   Point slope = segment.curve.tangent(s);

@@ -122,7 +122,7 @@ bool is_good(const CamOption& option, const Json& value, const std::vector<std::
   if (text.empty()) return true;
   if (option.kind == CamKind::choice) return is_among(option.traits.choices, text);
   if (option.kind == CamKind::file && (is_among(files, text) || is_among(option.traits.choices, text))) return true;
-  // A name has no ending and no folders, so it is not one of the daemon's files.
+  // The name has no extension and no folders, so it is not one of the daemon's files.
   if (option.kind == CamKind::file && (option.traits.names.empty() || text.find_first_of("./") != std::string::npos))
     return false;
   return is_harmless(text);

@@ -8,22 +8,24 @@
 namespace passo {
 namespace {
 
-// Of the backlash: the longest window. Beyond it the motor is hardly faster than the axis.
+// The longest window, in backlashes. At this length the motor is hardly faster than the axis, so a longer one gains
+// nothing.
 constexpr double longest_window = 200;
-// Of the backlash: in a shorter window the motor would move four times as far as the tool. A stop takes as long.
+// The shortest window, in backlashes. In a shorter one the motor would move four times as far as the tool, and a stop
+// takes no longer.
 constexpr double shortest_window = 0.5;
-// Of the permitted deviation: how far below its extreme an axis may be at both ends of the window, and by which factor
-// depths are tried.
+// The greatest depth of the window's ends below the extreme of the axis, in permitted deviations, and the factor
+// between the depths that are tried.
 constexpr double greatest_depth = 30;
 constexpr double next_depth = 1.2;
-// In mm or degrees of s. A shorter piece is no path for a planner.
+// In mm or degrees of s. The planner needs longer pieces.
 constexpr double shortest_piece = 1e-5;
 // In radians. A cubic with the ends and the slopes of such an arc differs from it by 2e-9 of the radius, and by 1e-4 of
 // the curvature.
 constexpr double turn_of_a_piece = 0.03;
 // The most segments on each side of a reversal.
 constexpr std::size_t most_segments = 256;
-// As in trajectory/: a path whose direction changes by more stops there.
+// As in trajectory/: the path stops where its direction changes by more.
 constexpr double tangent_tolerance = 1e-6;
 
 bool continues_in(const Segment& before, const Segment& after) {
@@ -36,7 +38,8 @@ bool is_arc(const Segment& segment) {
   return segment.curve.shape() == Curve::Shape::arc;
 }
 
-// Where the axis comes within `room` of its extreme, if it is farther away at s = `out` and nearer at s = `in`.
+// Returns the s where the axis comes within `room` of its extreme. It is farther away at s = `out`, and nearer at s =
+// `in`.
 double border(const Curve& curve, Axis axis, double extreme, double room, double out, double in) {
   constexpr int halvings = 50;
   for (int i = 0; i < halvings; ++i) {
@@ -99,7 +102,7 @@ void BacklashOverlap::release_all() {
   behind_.clear();
 }
 
-// Keeps a segment, in case that an axis reverses soon after it, and releases those that are too far behind.
+// Keeps a segment, in case an axis reverses soon after it, and releases those that are too far behind.
 void BacklashOverlap::keep(const Segment& segment) {
   if (!behind_.empty() && !continues_in(behind_.back(), segment)) release_all();
   behind_.push_back(segment);
@@ -189,7 +192,7 @@ void BacklashOverlap::read_ahead(const Reversal& reversal) {
   }
 }
 
-// How far the axis may be off the smoothed path.
+// The permitted deviation of the axis from the smoothed path.
 double BacklashOverlap::room_on(const Segment& segment, Axis axis, bool on_arcs) const {
   const double share = options_.smoothing_share;
   const bool own = is_rotary(axis) && segment.turn_tolerance > 0;
@@ -233,7 +236,7 @@ BacklashOverlap::Run BacklashOverlap::run_around(const Reversal& reversal) const
   return run;
 }
 
-// As long as the tolerance allows. Both sides share the reach.
+// The longest run that the tolerance allows. Both sides share the reach.
 BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversal& reversal, double depth) {
   const auto is_near = [&](const Point& place) { return std::abs(place[reversal.axis] - reversal.extreme) <= depth; };
   const auto border_on = [&](std::size_t i, double out, double in) {
@@ -263,7 +266,7 @@ BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversa
     window.begin = run.turn - kept;
     window.end = run.turn + std::min(after, reversal.reach - kept);
   }
-  // An axis that stood lower than the path at the end of the window would have no flank there.
+  // An axis that is lower than the path at the end of the window would not be in contact with the flank.
   depth = std::min(depth, std::abs(run.at(window.end, reversal.axis) - reversal.extreme));
   window.begin = std::max(window.begin, begin_at_depth());
   for (const double start : run.starts) {
@@ -273,7 +276,7 @@ BacklashOverlap::Window BacklashOverlap::window_of(const Run& run, const Reversa
   return window;
 }
 
-// The ramp with which the motor has the least second derivative by s, and so the highest speed on the path.
+// The ramp that minimizes the greatest second derivative of the motor's position by s, and so allows the highest speed.
 BacklashRamp BacklashOverlap::best_ramp(const Run& run, const Window& window, const Reversal& reversal) const {
   constexpr int candidates = 17;
   constexpr int looks = 32;
@@ -308,7 +311,7 @@ BacklashRamp BacklashOverlap::best_ramp(const Run& run, const Window& window, co
   return best;
 }
 
-// The axis begins at the flank on which it came.
+// The axis begins in contact with the flank that has pushed it.
 BacklashOverlap::AxisWay BacklashOverlap::way_on(const Run& run, const Window& window, const BacklashRamp& ramp,
                                                  const Reversal& reversal) {
   constexpr int looks = 100;
@@ -366,7 +369,7 @@ void BacklashOverlap::rewrite(Run& run, const Window& window, const BacklashRamp
   ahead_.insert(ahead_.begin(), rest.begin(), rest.end());
 }
 
-// A part of a segment, with the ramp. An arc is divided so finely that a cubic is as good.
+// A part of a segment, with the ramp. An arc is divided so finely that cubics can replace it.
 void BacklashOverlap::add_piece(const Segment& whole, double start, double from, double to, const BacklashRamp& ramp,
                                 const Reversal& reversal) {
   const double length = whole.curve.length().value();

@@ -1,15 +1,15 @@
-// BacklashOverlap: takes up backlash in motion instead of at a stop, where the path goes on smoothly at the reversal.
+// BacklashOverlap: takes up backlash in motion instead of at a stop, where the path continues smoothly at the reversal.
 //
 // On a window of the path around the turning point, a BacklashRamp is added to the position of the motor: the window
-// becomes cubics of s, with the motor's position as the axis' value. The planner keeps the motor within the limits of
-// the axis, and a hold or a brake stops on these cubics as on every other segment.
+// becomes cubics of s, which give the position of the motor for this axis. The planner keeps the motor within the
+// limits of the axis, and a hold or an emergency brake stops on these cubics as on any other segment.
 //
-// Where does the axis go? It rises with the motor until the motor turns, and stands until the motor has passed the
-// backlash and comes to the other flank of the screw. Then it falls with the motor. The window begins and ends where
-// the path is by a certain depth below the extreme value of the axis. If this depth is the permitted deviation e, the
-// axis stays in this range, so it is off the path by less than e, however the motor moves. A ramp is slow at its ends,
-// so a greater depth is possible. The greatest one with which the axis, followed as above, stays within e is best: a
-// long window needs the least acceleration.
+// The axis rises with the motor until the motor reverses, and stands still until the motor has passed the backlash and
+// reaches the other flank of the screw. Then it falls with the motor. The window begins and ends where the path is a
+// certain depth below the extreme value of the axis. If this depth is the permitted deviation e, the axis stays in this
+// range, so it deviates from the path by less than e, however the motor moves. A ramp rises slowly at its ends, so a
+// greater depth is possible. The best depth is the greatest one with which the axis, computed as above, stays within e,
+// because a long window needs the least acceleration.
 //
 // Where there is no such window, because the path stops there, has no tolerance, or two axes reverse together, the
 // segment that takes up the backlash at a stop remains. Private to path/.
@@ -57,7 +57,7 @@ class BacklashOverlap final : public Source<PathItem> {
     double end = 0;
     double turn = 0;  // s of the reversal
 
-    // One of the places from the begin (number 0) to the end, half of them on each side of the reversal.
+    // One of the positions from the beginning (number 0) to the end, half of them on each side of the reversal.
     double look(int number, int count) const;
   };
 
@@ -72,7 +72,7 @@ class BacklashOverlap final : public Source<PathItem> {
   bool is_usable(const Segment& segment, const Reversal& reversal) const;
   Run run_around(const Reversal& reversal) const;
   static Window window_of(const Run& run, const Reversal& reversal, double depth);
-  // How far the axis is off the path, at most and at the end of the window.
+  // The deviation of the axis from the path: the greatest one, and the one at the end of the window.
   struct AxisWay {
     double deviation = 0;
     double at_end = 0;

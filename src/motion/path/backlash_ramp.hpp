@@ -1,8 +1,8 @@
-// BacklashRamp: how the share of the backlash that is taken up grows from 0 to 1 along a piece of the path.
+// BacklashRamp: the fraction of the backlash that is taken up, which grows from 0 to 1 along a piece of the path.
 //
 // The second derivative is constant in each of two parts, or, where it must be continuous, a triangle in each of them:
-// it rises from 0 to its peak in the first half of a part and falls to 0 in the second. Between two knots the share is
-// a cubic of s. Private to path/.
+// it rises from 0 to its peak in the first half of a part and falls to 0 in the second. Between two knots the fraction
+// is a cubic of s. Private to path/.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class BacklashRamp {
   double at(double s) const;
   double slope(double s) const;
   double second_derivative(double s) const;
-  // Where the polynomial changes, with both ends.
+  // The positions at which the polynomial changes, including both ends.
   std::span<const double> knots() const { return {knots_.data(), count_}; }
 
  private:

@@ -11,12 +11,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using std::numbers::pi;
-// Of a curve's length, and in mm: a curve is not divided so near to its ends. A spline that begins along one axis has a
-// turning point of another axis there except for rounding, and a piece of 1e-17 mm is no path for a planner.
+// A fraction of a curve's length, and a length in mm: a curve is not divided so near to its ends. Where a spline begins
+// along one axis, another axis has a turning point at or near the start, because of rounding; the planner cannot plan a
+// piece of 1e-17 mm.
 constexpr double least_share_of_curve = 1e-6;
 constexpr double least_piece = 1e-6;
 
-// An axis of an arc's plane turns back where its angle, from the axis, is a multiple of pi.
+// An axis of an arc's plane reverses where the angle from this axis is a multiple of pi.
 double next_turn_of_arc(const Curve::ArcData& arc, Axis axis, double length, double from) {
   const double before_axis = axis == arc.first ? 0 : pi / 2;
   const double turn = arc.sweep / length;
@@ -24,14 +25,14 @@ double next_turn_of_arc(const Curve::ArcData& arc, Axis axis, double length, dou
   constexpr double here = 1e-9;
   const double next = turn > 0 ? std::floor(half_turns + here) + 1 : std::ceil(half_turns - here) - 1;
   const double s = (next * pi + before_axis - arc.start_angle) / turn;
-  // Where the radius grows, the axis turns back a little later on the way out.
+  // Where the radius grows, the axis reverses a little later.
   const double growth = (arc.end_radius - arc.start_radius) / length;
   const double radius = arc.start_radius + growth * s;
   const double later = radius > 0 ? std::atan(growth / (radius * std::abs(turn))) / std::abs(turn) : 0;
   return s + later > from ? s + later : s;
 }
 
-// The next place after `from` where the axis turns back. Infinity if there is none.
+// The next position after `from` at which the axis reverses. Infinity if there is none.
 double next_turn(const Curve& curve, Axis axis, double from) {
   const double length = curve.length().value();
   const double least = std::min(least_piece, least_share_of_curve * length);
@@ -72,8 +73,8 @@ bool BacklashStops::next(PathItem& item) {
   }
 }
 
-// Pulls an item. A segment becomes the present one. What waits for the spindle's index comes after the backlash of the
-// segment behind is taken up.
+// Pulls an item. A segment becomes the current one. An action that waits for the spindle's index comes after the
+// backlash of the segment behind it is taken up.
 bool BacklashStops::pull(PathItem& item) {
   if (ended_ || !path_.next(item)) return false;
   if (const auto* action = std::get_if<Action>(&item)) {
@@ -104,7 +105,8 @@ void BacklashStops::begin(const Segment& segment) {
   static_cast<void>(follow_to_next_turn());
 }
 
-// Goes on along the segment, up to where an axis turns back. False: none does up to the end.
+// Continues along the segment, up to the point at which an axis reverses. Returns false if none reverses before the
+// end.
 bool BacklashStops::follow_to_next_turn() {
   const Curve& curve = segment_.curve;
   while (followed_ < curve.length().value()) {
@@ -118,7 +120,7 @@ bool BacklashStops::follow_to_next_turn() {
       const double back = (place[axis] - farthest_[axis]) * (downs_.has(axis) ? 1 : -1);
       if (back > options_.least[axis]) turned_.add(axis);
     }
-    // The way back of a tap stays in step with the spindle.
+    // The return of a tap stays synchronized with the spindle.
     const bool in_step = segment_.lock == SpindleLock::place && !before_segment_;
     if (in_step) turned_ = AxisSet();
     if (!turned_.empty()) return true;
@@ -131,7 +133,7 @@ bool BacklashStops::follow_to_next_turn() {
   return false;
 }
 
-// Gives the part up to where an axis turns back, or up to the end. False: the part has no length.
+// Gives the part up to the point at which an axis reverses, or up to the end. Returns false if the part has no length.
 bool BacklashStops::emit_piece(PathItem& item) {
   if (turned_.empty() && !follow_to_next_turn()) {
     in_segment_ = false;
@@ -153,7 +155,7 @@ bool BacklashStops::emit_piece(PathItem& item) {
   return true;
 }
 
-// The motors of the axes move to the other side of their backlash, and the tool stands at a place.
+// The motors of the axes move to the other side of their backlash, while the tool stands still at a position.
 void BacklashStops::take_up(const Point& at, AxisSet turned, PathItem& item) {
   Point start = at;
   for (const Axis axis : all_axes) {

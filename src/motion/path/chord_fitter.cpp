@@ -8,12 +8,12 @@
 namespace passo {
 namespace {
 
-// Of the tolerance: how far the chords of a cubic through few of them may be from it. Such a cubic follows features of
-// the curve as if they were rounding, and must leave more of the tube.
+// In tolerances: the greatest distance of the chords from a cubic through few of them. Such a cubic may treat features
+// of the curve as rounding, so it must leave more of the tube.
 constexpr double share_for_few = 0.5;
 constexpr std::size_t few = 20;
-// The search for a longer fit ends where the error is more than so many times the least. On a coarse grid, where the
-// chords are far from the cubic, the errors of longer windows go up and down.
+// The search for a longer fit ends where the error is more than this multiple of the least error. On a coarse grid,
+// where the chords are far from the cubic, the errors of longer windows fluctuate.
 constexpr double hopeless = 1.05;
 constexpr double hopeless_if_rounded = 4;
 // After a fit so many chords are tried, even if fewer have none.
@@ -37,11 +37,12 @@ constexpr std::size_t most_behind = 128;
 constexpr double clearance = 15;
 constexpr double far = 1e9;
 
-// A row of so many lines and arcs, each of at most so many tolerances, is a curve in pieces: the next arc is split.
+// A row of this many lines and arcs, each of at most this many tolerances, is a curve in pieces, so the next arc is
+// split.
 constexpr int row_of_a_curve = 2;
 constexpr double short_piece = 128;
-// In tolerances: the distance of a part of an arc from its chord; and how far two centres are apart that are rounded
-// from the same one.
+// In tolerances: the distance of a part of an arc from its chord; and the distance of two centres that are rounded from
+// the same one.
 constexpr double part_beside_chord = 0.05;
 constexpr double most_parts_of_arc = 64;
 constexpr double same_center = 0.25;
@@ -50,8 +51,8 @@ constexpr double same_center = 0.25;
 constexpr double growth = 1.4;
 constexpr double first_share = 0.5;
 
-// Where a vertex is off by h, it is seen as a turn of up to h (1/a + 1/b) between chords of the lengths a and b, and
-// twice that where its neighbours are off to the other side. Returns h in tolerances.
+// An error h of a vertex causes a turn of up to h (1/a + 1/b) between chords of the lengths a and b, and twice that if
+// the errors of its neighbours are on the other side. Returns h in tolerances.
 double turn_seen(double turn, double before, double after, double tolerance) {
   return turn * before * after / (2 * tolerance * (before + after));
 }
@@ -104,7 +105,7 @@ void ChordFitter::read_in(std::uint64_t number) {
   if (is_in_row(*segment)) split_arc(number);
 }
 
-// An arc is split if it comes in a row of short lines and arcs that turn only by rounding where they meet: then it is a
+// An arc is split if it is in a row of short lines and arcs with junctions that turn only by rounding: then it is a
 // piece of a curve, and its ends and its centre are rounded. Another arc about the same centre is a piece of a circle.
 bool ChordFitter::is_in_row(const Segment& segment) {
   const Curve& curve = segment.curve;
@@ -128,7 +129,7 @@ bool ChordFitter::is_in_row(const Segment& segment) {
   return is_piece;
 }
 
-// Each part stands for its chord. What is fitted ends with a part; what is not stays an arc up to the arc's own end.
+// Each part represents its chord. A fit ends with a part; the rest stays an arc, up to the arc's own end.
 void ChordFitter::split_arc(std::uint64_t number) {
   const Segment whole = *segment_at(number);
   const double length = whole.curve.length().value();
@@ -147,7 +148,7 @@ void ChordFitter::split_arc(std::uint64_t number) {
   }
 }
 
-// How the path goes on after a chord.
+// The continuation of the path after a chord.
 PathMode ChordFitter::mode_after(std::uint64_t number) const {
   return ahead_[number].is_inside ? PathMode::continuous : segment_at(number)->mode;
 }
@@ -324,7 +325,7 @@ void ChordFitter::remember(std::uint64_t end) {
   if (behind_.size() > 2 * most_behind) behind_.erase(behind_.begin(), behind_.end() - most_behind);
 }
 
-// What a cubic left of a chord. A part of an arc becomes a line.
+// The remainder of a chord after a cubic. A part of an arc becomes a line.
 void ChordFitter::move_start(std::uint64_t number, const Point& start) {
   Ahead& ahead = ahead_[number];
   auto& chord = std::get<Segment>(ahead.item);
@@ -358,7 +359,7 @@ void ChordFitter::emit_cubic(const Fit& fit, PathItem& item, double& deviation) 
   ahead_.drop_before(next);
 }
 
-// What is not fitted. Of an arc, all that is left of it.
+// The pieces that are not fitted. For an arc, all of its remainder.
 void ChordFitter::emit_as_is(PathItem& item, double& deviation) {
   std::uint64_t next = ahead_.first() + 1;
   while (ahead_[next - 1].is_inside) ++next;

@@ -72,7 +72,7 @@ class ChordFitter {
 
     Point way_at(double u) const { return (parts[0] + (parts[1] + parts[2] * u) * u) * u; }
     Point slope_at(double u) const { return parts[0] + (parts[1] * 2 + parts[2] * (3 * u)) * u; }
-    // Returns the vector from the cubic to a place beside it, across the cubic. Sets dP/du.
+    // Returns the vector from the cubic to a point beside it, perpendicular to the cubic. Sets dP/du.
     template <std::size_t axes>
     std::array<double, axes> miss_at(double u, const Point& way, std::array<double, axes>& slope) const;
   };
@@ -113,8 +113,8 @@ class ChordFitter {
   LineMerger merger_;
   Window<Ahead> ahead_;
   bool at_end_ = false;
-  // Of the items read last: how many are short pieces of a curve. And of the last one: its length, its direction at its
-  // end, and its centre, if it is an arc.
+  // The number of the last items that are short pieces of a curve. For the last one, also its length, its direction at
+  // its end, and its centre, if it is an arc.
   struct Row {
     int count = 0;
     double length = 0;

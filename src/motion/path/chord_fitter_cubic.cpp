@@ -1,4 +1,4 @@
-// ChordFitter: one least-squares cubic, and how well the chords follow it.
+// ChordFitter: one least-squares cubic, and its distance from the chords.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,16 +11,18 @@
 namespace passo {
 namespace {
 
-// Of the tolerance: how far the chords may be from the cubic. The rest is the tube around the cubic.
+// In tolerances: the greatest distance of the chords from the cubic. The rest is the tube around the cubic.
 constexpr double share_of_tolerance = 0.98;
-// Of the tolerance: a misfit below this is no worse than none.
+// In tolerances: a smaller misfit is as good as none.
 constexpr double no_misfit = 0.02;
-// A chord's distance is measured at so many places that this share of the tolerance is not noticed between them.
+// A chord's distance is measured at enough points that at most this fraction of the tolerance is missed between them.
 constexpr double close_enough = 0.02;
 constexpr double most_parts = 64;
-// The cubic is at least this share of its chords: stairs along a diagonal of the grid are 1.41 times as long as it.
+// The least length of the cubic, as a fraction of its chords: stairs along a diagonal of the grid are 1.41 times as
+// long.
 constexpr double least_length = 0.7;
-// A free end of the cubic is where it comes nearest to the chords in this part of it. Further on it is not known well.
+// A free end of the cubic is at its point nearest to the chords, within this part of it. Farther on, the cubic is
+// inaccurate.
 constexpr double cut_from = 0.6;
 constexpr double cut_to = 0.8;
 // The weight of an end that must be met, among weights whose sum is 1.
@@ -115,7 +117,7 @@ inline std::array<double, axes> ChordFitter::Fit::miss_at(double u, const Point&
   return miss;
 }
 
-// Returns the distance of the farthest of some places between two vertices.
+// Returns the greatest distance among some points between two vertices.
 template <std::size_t axes>
 double ChordFitter::farthest_inside(const Fit& fit, const Vertex& before, const Vertex& vertex, double parts) const {
   double square = 0;
@@ -129,9 +131,9 @@ double ChordFitter::farthest_inside(const Fit& fit, const Vertex& before, const 
   return std::sqrt(square);
 }
 
-// Whether the chords follow the cubic. Sets how far the chords are from it: at the vertices and, where that may matter,
-// in the chords, and between two such places d²/8 |p''| more. A vertex may be ahead or behind along the cubic; what a
-// chord goes back along it counts as distance.
+// Whether the chords follow the cubic. Sets the distance of the chords from it: at the vertices and, where that may
+// matter, within the chords, plus d²/8 |p''| between two such points. A vertex may be ahead or behind along the cubic;
+// the length by which a chord moves back along it counts as distance.
 template <std::size_t axes>
 [[gnu::flatten]] bool ChordFitter::passes_in(Fit& fit) const {
   const double whole = vertices_.back().s;
@@ -184,8 +186,8 @@ template <std::size_t axes>
   fit.error = std::max(std::sqrt(square) * per_whole, no_misfit * tolerance_) / std::sqrt(whole);
   fit.window = whole;
 
-  // The cubic's parameter counts its length where it is fastest, so that |dP/ds| is at most 1
-  // and the feed need not be reduced anywhere.
+  // The cubic's parameter is its length where it is fastest, so that |dP/ds| is at most 1 and the feed need not be
+  // reduced anywhere.
   const SurfaceScale& surface = segment_at(ahead_.first())->surface;
   const CountedGroup group = counted_group(vertices_.back().way, surface);
   double longest = 0;
@@ -196,7 +198,7 @@ template <std::size_t axes>
   return fit.length >= least_length * whole;
 }
 
-// Ends the cubic where it comes nearest to the chords.
+// Ends the cubic at the point nearest to the chords.
 template <std::size_t axes>
 void ChordFitter::cut_in(Fit& fit) const {
   constexpr double least_rest = 1e-3;  // of a chord: a shorter rest is no chord

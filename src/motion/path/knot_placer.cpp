@@ -27,8 +27,8 @@ constexpr double cluster_tube = 0.5;
 
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
 constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
-// Where the legs have no room for the first of those. By search for the least time of stairs and polygons with legs of
-// five to ten tolerances.
+// For legs that have no room for the first of those. Found by a search for the least time of stairs and polygons with
+// legs of five to ten tolerances.
 constexpr std::array knots_for_short_legs = {0.79, 1.29, 1.6};
 // A node swings if the axis that limits the speed goes back by less than this in it.
 constexpr double most_reversal = 0.7;
@@ -54,8 +54,9 @@ constexpr std::array knots_for_slow_bending = {0.48, 1.0, 1.55, 2.3};
 // polygons, random walks, reliefs and chips. The weights even out the jerk of the swings.
 constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.35, 5.1, 8.3};
 constexpr std::array change_weights_of_slow = {0.87, 0.89, 0.81, 0.65};
-// A corner that is not sharp is passed so fast that the spline swings to both sides before it. Where another node is
-// nearer than so many widths, there is no room for two swings; where it is nearer still, none for a wide one.
+// A corner that is not sharp is passed so fast that the spline swings to both sides before it. If another node is
+// nearer than this many widths, there is no room for two swings; if it is nearer still, there is no room for a wide
+// one.
 constexpr double not_sharp = 1.1;
 constexpr double gentle_below = 0.6;
 constexpr std::array knots_for_two_swings = {0.63, 1.51, 2.3, 3.65, 5.6, 7.7, 8.57, 11.25};

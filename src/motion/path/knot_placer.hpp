@@ -78,7 +78,8 @@ class KnotPlacer {
     // Weights of the change of the bend, span by span from the node on. Empty: 1.
     std::span<const double> change_weights = {};
   };
-  // The same, but if a node on either side is nearer than so many widths, another one places the knots.
+  // Returns the same spacing, but if a node on either side is nearer than `apart_from` widths, `in_company` places the
+  // knots.
   static Spacing in_company_from(Spacing spacing, double apart_from, const Spacing& in_company) {
     spacing.apart_from = apart_from;
     spacing.in_company = &in_company;

@@ -20,7 +20,7 @@ namespace passo {
 
 class TurnScale final : public Source<PathItem> {
  public:
-  // `share`: the part of each tolerance that may be used.
+  // `share`: the fraction of each tolerance that may be used.
   explicit TurnScale(Source<PathItem>& path, double share = 1) : path_(path), share_(share) {}
 
   [[nodiscard]] bool next(PathItem& item) override;

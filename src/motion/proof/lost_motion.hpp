@@ -9,8 +9,9 @@
 // The difference between this place and the planned one must stay within a step, for the reversals that are too small
 // to be taken up. A path begins with all backlash taken up for motion in the positive direction.
 //
-// In a move that takes up backlash while the path goes on (Segment::lead), the tool may be off the planned path. Only
-// that such a move is marked is taken from the plan: its tool is followed as above, and PathDeviation judges its way.
+// In a move that takes up backlash while the path continues (Segment::lead), the tool may be off the planned path. From
+// the plan, only the mark of such a move is used: the position of its tool is computed as above, and PathDeviation
+// judges its path.
 #pragma once
 
 #include <span>

@@ -33,7 +33,7 @@ class PathDeviation {
 
   void programmed(const PathItem& item);
   void planned(const PlannedMove& move, const ExactCurve& curve, Seconds time);
-  // The same for a tool that went along a polyline.
+  // The same for a tool that moved along a polyline.
   void went(std::span<const Point> places, Seconds time);
   // Processes an action of the planned motion, or its end: everything programmed before it must have been executed.
   void rest(Seconds time);

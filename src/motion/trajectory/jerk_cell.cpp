@@ -13,14 +13,15 @@ constexpr double cells_a_braking = 128;  // cells in the time that braking takes
 // no cells: it is over in one step of a motor.
 constexpr double shortest_tick = 20e-6;
 constexpr double turn_a_cell = 0.1;  // radians
-// Of a blend that limits the speed, where an axis that moves has no limit of jerk. It may change its acceleration from
-// cell to cell, as the curvature rises and falls: with 0.1 radians a cell, programs of tiny legs take up to 7 % more
-// time. On reliefs with limits of jerk on all axes such cells would cost 12 % more planning.
+// The cells of a blend that limits the speed, if a moving axis has no jerk limit. This axis may change its acceleration
+// from cell to cell, as the curvature rises and falls: with 0.1 radians per cell, programs of tiny legs take up to 7 %
+// more time. On reliefs with jerk limits on all axes, such cells would cost 12 % more planning.
 constexpr double fewest_of_blend = 8;
 constexpr double turn_of_blend = 0.04;
 constexpr double most_cells = 20'000;  // in one segment
 constexpr double cells_of_cruise = 4;  // about the cells on each side of the middle where the speed is steady
-// Of the segment's length. A shorter cell would not lead to another place: doubles are 1e-16 apart.
+// A fraction of the segment's length. A shorter cell would not lead to a different position, because of the spacing of
+// doubles (1e-16).
 constexpr double shortest_part = 1e-13;
 constexpr double fewest_from_rest = 16;  // cells of a segment that begins or ends at rest
 

@@ -19,8 +19,8 @@
 namespace passo {
 namespace {
 
-// In seconds of motion, between two places from which a change is planned. It bounds the work: a trial takes a few
-// milliseconds at most, and moves may be much shorter. A change begins so much too late at most.
+// In seconds of motion: the least time between two trials of a change. It bounds the work, because a trial takes up to
+// a few milliseconds, and moves may be much shorter. It is also the greatest delay of a change.
 constexpr double between_trials = 0.003;
 
 // Times the shortest stop. A later one is compared with the soonest that can be planned.
@@ -31,8 +31,8 @@ constexpr double very_late = 1.5;
 // other at every move.
 constexpr double worth = 0.98;
 // In seconds. Another stop must also be sooner by this. The last part of a stop takes up to twice as long as the
-// shortest one (JerkProfile, next to a stop), on any scale: without this, each move would be replaced by one of half
-// the length, down to the spacing of doubles.
+// shortest one (JerkProfile, next to a stop), on any scale. Without this minimum, each move would be replaced by one of
+// half the length, down to the spacing of doubles.
 constexpr double least_gain_of_stop = 0.001;
 
 // Shares of the wanted speed. From each of them a plan that goes on is tried: the first is the best one, and the others
@@ -232,21 +232,21 @@ class JerkLaw final : public SpeedLaw {
     return best;
   }
 
-  // Whether so much motion has passed since the last trial.
+  // Whether this time of motion has passed since the last trial.
   bool may_try(Seconds pause) {
     if (since_trial_ < pause) return false;
     since_trial_ = Seconds(0);
     return true;
   }
 
-  // A stop that is hardly late is tried again when half of it is over: few times.
+  // A stop that is hardly late is tried again only when half of it is over, so there are few trials.
   Seconds pause_in_stop() const {
     const Seconds left = time_to_rest();
     return left < very_late * SpeedChange::shortest_stop(path_, now_, axes_) ? std::max(left, Seconds(between_trials))
                                                                              : Seconds(between_trials);
   }
 
-  // How long the present stop still takes. Infinite if there is none.
+  // The remaining time of the current stop. Infinite if there is none.
   Seconds time_to_rest() const {
     const bool stops = change_ && change_->end().speed == 0;
     if (!stops) return Seconds(std::numeric_limits<double>::infinity());

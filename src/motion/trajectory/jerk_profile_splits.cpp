@@ -15,7 +15,8 @@ constexpr double most_unevenness = 2.5;
 
 // Splits cells that are too long: those in which the square of the speed changes much, by `guess_`, and those that
 // exceed a limit although their share was lowered, with their neighbours. Returns whether there were any. Cells of the
-// plan before stay as they are, because that plan may have to go on. What planning may take bounds the cells.
+// previous plan stay as they are, because that plan may have to continue. The number of cells is bounded by the effort
+// that planning may take.
 bool JerkProfile::split_coarse() {
   if (cells_.size() > effort_.most_cells) return false;
   std::ranges::sort(exceeded_);  // stretches that were lifted overlap

@@ -8,10 +8,11 @@
 namespace passo {
 namespace {
 
-// The first way is that of braking on a straight line. Each further one is so much longer, until a stop is found.
+// The first distance is that of braking on a straight line. Each further one is longer by this factor, until a stop is
+// found.
 constexpr double longer = 1.25;
 constexpr int most_ways = 12;
-// The shortest way is then found to within this factor.
+// The shortest distance is then found to within this factor.
 constexpr double near_enough = 1.06;
 // A stop passes some 20 to 200 cells.
 constexpr std::size_t most_cells_of_stop = 2000;
@@ -51,7 +52,7 @@ std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, 
   double high = from.speed / 2 * SpeedChange::shortest_stop(path, from, axes).value();
   int ways = 1;
   while (!try_way(high) && ways++ < most_ways) high *= longer;
-  // Less way takes less time, down to where the limits allow no stop.
+  // A shorter distance takes less time, down to where the limits allow no stop.
   for (double low = high / longer; soonest && high > low * near_enough;) {
     const double middle = std::sqrt(low * high);
     (try_way(middle) ? high : low) = middle;

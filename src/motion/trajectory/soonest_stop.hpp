@@ -14,7 +14,7 @@
 
 namespace passo {
 
-// Of the fastest motions to stops after several distances, returns the one that takes the least time. Nothing if
+// Plans the fastest motion to a stop for several distances, and returns the one that takes the least time. Nothing if
 // none was found.
 std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const std::vector<LimitedAxis>& axes,
                                         const FeedFactors& feeds);

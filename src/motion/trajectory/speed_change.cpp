@@ -161,7 +161,8 @@ Seconds SpeedChange::shortest_stop(PathAhead& path, const PathState& state, cons
   const Segment* const segment = path.at(state.segment);
   if (segment == nullptr) return Seconds(0);
   const double jerk = strength_at(*segment, state, axes).jerk;
-  // Where the torque falls with the speed, more of it is there on the way to rest: the mean of the slownesses counts.
+  // Where the torque falls with the speed, more torque is available as the motion slows down: the mean of the
+  // slownesses counts.
   double slowness = 0;
   for (int i = 0; i < slices_of_speed; ++i) {
     const PathState slower{.s = state.s, .speed = state.speed * (i + 0.5) / slices_of_speed};
@@ -170,7 +171,7 @@ Seconds SpeedChange::shortest_stop(PathAhead& path, const PathState& state, cons
   const double strongest_mean = 1 / slowness;
   const double rise = strongest_mean / jerk;
   const double begun = std::clamp(state.acceleration, -strongest_mean, strongest_mean);
-  // Like a stop that began with no acceleration, at a higher speed.
+  // Like a stop that begins without acceleration, at a higher speed.
   const double speed = state.speed + begun * begun / (2 * jerk);
   // Where the acceleration does not rise to the strongest.
   const bool is_slow = speed < strongest_mean * rise;

@@ -160,7 +160,7 @@ export const operations: Same<typeof en> = {
   'cam.option.lowest-z': 'Z le plus bas (hauteurs coupées, non réduites)',
   'cam.option.within': 'Dessin dont les courbes limitent l’usinage',
   'cam.option.within.none': 'aucune courbe',
-  'cam.option.smooth': 'Rayon de lissage de l’image',
+  'cam.option.smooth': 'Lissage de l’image (écart type)',
   'cam.option.background': 'Fond : ce qui est plus sombre n’est pas usiné, %',
   'cam.option.one-way': 'Passes dans un seul sens',
   'cam.option.one-way.no': 'non',

@@ -160,7 +160,7 @@ export const operations: Same<typeof en> = {
   'cam.option.lowest-z': 'Z più basso (altezze tagliate, non ridotte)',
   'cam.option.within': 'Disegno le cui curve limitano la lavorazione',
   'cam.option.within.none': 'nessuna curva',
-  'cam.option.smooth': 'Raggio di levigatura dell’immagine',
+  'cam.option.smooth': 'Levigatura dell’immagine (deviazione standard)',
   'cam.option.background': 'Sfondo: ciò che è più scuro non si lavora, %',
   'cam.option.one-way': 'Passate in un solo verso',
   'cam.option.one-way.no': 'no',

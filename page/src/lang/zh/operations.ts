@@ -160,7 +160,7 @@ export const operations: Same<typeof en> = {
   'cam.option.lowest-z': '最低 Z（超出部分截平，不缩放）',
   'cam.option.within': '限定加工区域的图形',
   'cam.option.within.none': '无',
-  'cam.option.smooth': '图像的平滑半径',
+  'cam.option.smooth': '图像平滑（标准差）',
   'cam.option.background': '背景：比此更暗的部分不加工，%',
   'cam.option.one-way': '单向走刀',
   'cam.option.one-way.no': '否',

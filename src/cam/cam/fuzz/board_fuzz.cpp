@@ -1,5 +1,5 @@
-// Any bytes as a file of a board: as a zip archive, a layer or a drill file. They are refused, or every layer and hole
-// is within its limits.
+// Any bytes as a board file: a zip archive, a layer or a drill file. They are rejected, or every layer and hole is
+// within its limits.
 #include <cstdint>
 #include <string>
 
@@ -12,7 +12,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // The archive is read from a file, which is one in memory here.
+  // The archive is read from a file; here it is a file in memory.
   const int file = memfd_create("board", 0);
   passo::test::require(file >= 0 && write(file, data, size) == static_cast<ssize_t>(size), "no file in memory");
   passo::Diagnostics found;

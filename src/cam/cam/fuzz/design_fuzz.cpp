@@ -1,4 +1,4 @@
-// Any bytes as a board of EAGLE or EasyEDA: they are refused with places inside their lines, or each layer and the
+// Any bytes as a board of EAGLE or EasyEDA: they are rejected with a position inside a line, or each layer and the
 // drills are within their limits.
 #include <cstdint>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Any bytes as an SVG drawing, as an airfoil and as an HPGL plot: they are refused, or the drawing is within its
+// Any bytes as an SVG drawing, as an airfoil and as an HPGL plot: they are rejected, or the drawing is within its
 // limits.
 #include <cstdint>
 #include <string_view>

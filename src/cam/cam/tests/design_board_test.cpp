@@ -57,7 +57,7 @@ TEST(EagleBoard, elements_are_turned_then_mirrored_to_the_other_side) {
                       "<element name=\"A\" library=\"lib\" package=\"P\" x=\"10\" y=\"10\" rot=\"R90\"/>"
                       "<element name=\"B\" library=\"lib\" package=\"P\" x=\"20\" y=\"10\" rot=\"MR90\"/>",
                       "<signal name=\"GND\"><contactref element=\"A\" pad=\"1\"/></signal>"));
-  // (2, 1) turned by 90 degrees is (-1, 2), and mirrored (1, 2).
+  // (2, 1) rotated by 90 degrees is (-1, 2), and then mirrored (1, 2).
   const GerberLayer& top = layer(board, "Top");
   EXPECT_NEAR(area_mm2(top.dark), 0.4, 1e-6);
   EXPECT_TRUE(contains(top.dark, board_place(9, 12.45)));
@@ -89,14 +89,14 @@ TEST(EagleBoard, pads_have_the_shape_and_the_ring_of_the_design_rules) {
   // The via: 0.6 mm and 8 mil around it.
   EXPECT_TRUE(contains(top, board_place(20.49, 5)));
   EXPECT_FALSE(contains(top, board_place(20.51, 5)));
-  // A half circle to the right of its direction, which is above.
+  // A half circle to the right of its direction, i.e. above.
   EXPECT_TRUE(contains(layer(board, "Bottom").dark, board_place(15, 15)));
   ASSERT_EQ(board.drills.holes.size(), 4U);
   EXPECT_EQ(std::ranges::count(board.drills.holes, 1U, &DrawnHole::layer), 1);
   EXPECT_EQ(board.edge.strokes.paths.size(), 4U);
 }
 
-// EAGLE stores the rim of a polygon only.
+// EAGLE stores only the outline of a polygon.
 TEST(EagleBoard, polygons_are_poured_around_other_nets_and_without_islands) {
   const DesignBoard board = good(eagle_with(
       "", "<smd name=\"1\" x=\"0\" y=\"0\" dx=\"2\" dy=\"2\" layer=\"1\"/>",

@@ -129,7 +129,7 @@ double off_ellipse(const DrawnPath& path, double cx, double cy, double a, double
   }
   return most;
 }
-// The greatest distance of the middles of its chords.
+// The greatest distance of the middles of the path's chords.
 double middles_off_ellipse(const DrawnPath& path, double cx, double cy, double a, double b) {
   DrawnPath middles = path;
   const std::size_t n = path.points.size();
@@ -165,7 +165,7 @@ TEST(Dxf, arcs_of_a_stretched_block_are_those_of_ellipses) {
     EXPECT_LT(off_ellipse(in_block(circle, "41 -2 42 1"), -10, 0, 10, 5), 1e-5) << "mirrored, too";
     EXPECT_LT(off_ellipse(in_block(circle, "41 2 42 1 230 -1"), -10, 0, 10, 5), 1e-5) << "and seen from behind";
   }
-  // A quarter and a side: the arc bulges to the right of the way.
+  // A quarter and a side: the arc bulges to the right of the path.
   const DrawnPath part =
       in_block("0 LWPOLYLINE 8 0 90 3 70 0 10 0 20 0 10 10 20 0 42 -0.41421356 10 0 20 10", "41 1 42 3");
   EXPECT_FALSE(part.is_closed);
@@ -182,7 +182,7 @@ TEST(Dxf, entities_lie_in_planes_of_their_own) {
   EXPECT_EQ(behind.drawing.holes.at(0).at, nm(-3'000'000, 1'000'000));
   EXPECT_EQ(behind.drawing.paths.at(0).points.front().at, nm(-5'000'000, 1'000'000));
   EXPECT_NEAR(behind.drawing.paths.at(0).points[0].bulge, -std::tan(std::acos(-1) / 8), 1e-9) << "clockwise from above";
-  // A circle whose plane leans by 60 degrees about X is seen as an ellipse.
+  // A circle whose plane is tilted by 60 degrees about X appears as an ellipse.
   const ReadDxf leaning =
       read_text(entities("0 CIRCLE 8 0 10 0 20 0 40 10 210 0 220 -0.8660254037844386 230 0.5", in_mm));
   ASSERT_EQ(leaning.drawing.paths.size(), 1U);
@@ -215,7 +215,7 @@ TEST(Dxf, a_spline_through_fit_points_is_smooth) {
     EXPECT_TRUE(std::ranges::any_of(open.points, [&](const PathPoint& point) { return point.at == at; }));
   }
   EXPECT_LT(turns(open), 8);
-  // Through points of a circle it is nearly that circle.
+  // A spline through points of a circle is nearly that circle.
   std::string circle;
   constexpr int points = 12;
   for (int i = 0; i < points; ++i) {

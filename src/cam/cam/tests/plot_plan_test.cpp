@@ -1,4 +1,4 @@
-// Pen plots and drag knives: what is drawn, how often the pen is lifted, and where the tip of a dragged blade goes.
+// Pen plots and drag knives: the drawn lines, the number of lifts, and the path of the tip of a dragged blade.
 #include "passo/cam/plot_plan.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ TipPlace tip_place(DrawnPoint at) {
   return {to_mm(at.x).value(), to_mm(at.y).value()};
 }
 
-// Many places of a path, mm.
+// Many points of a path, mm.
 std::vector<TipPlace> places_of(const PathPoints& path, double step) {
   std::vector<TipPlace> places;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
@@ -42,8 +42,8 @@ std::vector<TipPlace> places_of(const PathPoints& path, double step) {
   return places;
 }
 
-// A blade of this offset that is dragged along, as it is: its tip moves towards the axis alone. `tip` is where it is at
-// first, relative to the axis.
+// Simulates a blade with this offset that is dragged along: its tip moves only towards the axis. `tip`: its initial
+// position, relative to the axis.
 std::vector<TipPlace> dragged(const std::vector<TipPlace>& axis, double offset, TipPlace& tip) {
   TipPlace at{axis.front().x + tip.x, axis.front().y + tip.y};
   std::vector<TipPlace> places;
@@ -62,7 +62,7 @@ double to_nearest(const TipPlace& from, const std::vector<TipPlace>& places) {
   return least;
 }
 
-// The tip cuts all lines, and nothing beside them.
+// The tip cuts all lines, and nothing else.
 TEST(PlotPlan, the_tip_of_a_dragged_blade_follows_the_lines) {
   std::mt19937_64 random(31);
   for (int trial = 0; trial < 3; ++trial) {

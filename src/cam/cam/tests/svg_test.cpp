@@ -184,7 +184,7 @@ TEST(Svg, what_is_not_displayed_or_no_line_is_left_out_and_told) {
                                             "ignored: 1 texts (convert them to paths), first in line 1"));
 }
 
-// How many of the circles with these radii are read.
+// The number of circles with these radii that are read.
 std::string diameters(const ReadSvg& read) {
   std::string all;
   for (const DrawnHole& hole : read.drawing.holes) all += fmt::format("{:g} ", to_mm(hole.diameter).value());

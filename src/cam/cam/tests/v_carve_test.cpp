@@ -51,8 +51,8 @@ struct VDisc {
   double y;
   double radius;  // at the face
 };
-// The place at this share of a line or an arc, mm. Straight from what a bulge means: the tangent of a quarter of the
-// angle that the arc turns by, counterclockwise.
+// The position at this fraction of a line or an arc, mm. It follows from the definition of a bulge: the tangent of a
+// quarter of the arc's angle, counterclockwise.
 std::pair<double, double> place_on(const MillPoint& from, const MillPoint& to, double share) {
   const double x = to_mm(from.at.x).value();
   const double y = to_mm(from.at.y).value();
@@ -199,7 +199,7 @@ double milled_mm(const VCarvePlan& plan) {
   return lengths_of(plan.mill.tools.at(0), {}).milled_nm / nanometres_per_mm;
 }
 
-// Teeth with two corners each: a branch into every corner. Where lifts are dear the cutter comes down once.
+// Teeth with two corners each: a branch into every corner. If lifts are expensive, the cutter plunges only once.
 TEST(VCarve, stays_down_in_all_that_hangs_together) {
   PathPoints comb = {corner(0, 0)};
   for (int tooth = 0; tooth < 5; ++tooth) {

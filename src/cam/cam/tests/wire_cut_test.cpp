@@ -182,7 +182,7 @@ TEST(Airfoils, what_is_wrong_is_told) {
   EXPECT_FALSE(looks_like_airfoil("0\nSECTION\n2\nENTITIES\n"));
 }
 
-// NACA 0012 from its formula, and from few points of it.
+// NACA 0012 from its formula, and from a few of its points.
 double naca_half(double x) {
   return 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
 }
@@ -234,7 +234,7 @@ TEST(WireCore, is_smaller_by_the_skin_and_has_slots_for_spars) {
   EXPECT_TRUE(contains(inside, at(30, 13.9)));
   EXPECT_FALSE(contains(inside, at(57.6, 4.9)));
   EXPECT_TRUE(contains(inside, at(57.4, 4.9)));
-  // The wire goes into the slots: what it sweeps leaves the core whole.
+  // The wire enters the slots, and the volume that it sweeps leaves the core intact.
   WireOptions options = wire_options(1);
   const WirePlan plan = plan_wire_cut(*foam, *foam, options, findings);
   EXPECT_NEAR(plan.left.lost_mm2, 0, 1e-3);

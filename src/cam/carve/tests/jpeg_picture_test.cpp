@@ -102,7 +102,7 @@ TEST(JpegPicture, that_is_cut_off_or_changed_anywhere_is_refused_or_read) {
   }
 }
 
-// The header of a file of a few bytes may say that it is huge.
+// The header of a file of a few bytes may declare a huge picture.
 TEST(JpegPicture, that_is_too_large_is_refused_before_memory_is_taken) {
   std::string huge = ramp();
   const std::size_t frame = huge.find("\xFF\xC0");

@@ -1,5 +1,5 @@
-// Where a relief is cut, and in which rows: below the top, within curves, in one direction, at an angle, closer on
-// slopes.
+// The area and the rows in which a relief is cut: below the top, within curves, in one direction, at an angle, closer
+// on slopes.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -23,7 +23,7 @@ double feeds_of(const std::string& program) {
   return way;
 }
 
-// Cuts a program out of its stock. Expects no rapid in it.
+// Cuts a program out of its stock. Expects no rapid through stock.
 OracleStock cut_out(const std::string& program, const OracleCutter& cutter, double width, double length, double fine) {
   OracleStock stock(width, length, fine);
   for (const ReadMove& move : moves_of(program)) {
@@ -61,7 +61,7 @@ TEST(ReliefArea, at_the_top_of_the_stock_is_not_cut) {
     ReliefProgramOptions options = options_of("flat:2.3");
     options.way = way;
     const Written program = written(grid, options, true);
-    // All rows of the pit, there and back, and some to get in: not the 450 mm of the plate.
+    // All rows of the pit, in both directions, and some travel for the entry: not the 450 mm of the plate.
     EXPECT_LT(feeds_of(program.text), 200) << static_cast<int>(way);
     EXPECT_GT(feeds_of(program.text), 5);
     expect_no_gouge(grid, program.text, {oracle_of("flat:2.3")}, 3, 50);
@@ -92,7 +92,7 @@ TEST(ReliefArea, within_a_curve_keeps_the_tip_inside) {
     options.x0 = Mm(10);
     options.y0 = Mm(10);
     options.area.within = {square(10.55, 14.45), square(12.05, 12.95)};
-    // Then at an angle, too.
+    // The same at an angle.
     if (way == FinishStrategy::both) {
       options.way = FinishStrategy::rows;
       options.rows.angle = {0.4};
@@ -104,7 +104,7 @@ TEST(ReliefArea, within_a_curve_keeps_the_tip_inside) {
       ++low;
       const double x = move.to[0] - 12.5;
       const double y = move.to[1] - 12.5;
-      // Roughing and contours may leave by a point of the path before they are lifted.
+      // Roughing and contours may leave the area by one point of the path before the cutter is lifted.
       EXPECT_LE(std::max(std::abs(x), std::abs(y)), 1.95 + 0.11) << program.text.substr(0, 40) << move.line;
       EXPECT_GE(std::max(std::abs(x), std::abs(y)), 0.45 - 0.11) << move.line;
     }
@@ -112,7 +112,7 @@ TEST(ReliefArea, within_a_curve_keeps_the_tip_inside) {
   }
 }
 
-// One way, at any angle, on the model only, with slopes: nothing is cut into, no rapid goes through stock.
+// One-way, at any angle, on the model only, with slopes: no gouges, and no rapids through stock.
 TEST(ReliefArea, rows_of_all_kinds_never_cut_into_a_random_surface) {
   std::mt19937_64 random(seed());
   std::size_t i = 0;
@@ -166,7 +166,7 @@ TEST(ReliefArea, rows_in_one_direction_have_the_stock_on_one_side) {
       options.rows.direction = direction;
       options.ramps = false;
       const Written program = written(grid, options);
-      // Rows follow each other to higher Y, columns to higher X: the stock is on that side.
+      // Rows follow each other towards higher Y, columns towards higher X, so the stock is on that side.
       const int axis = way == FinishStrategy::rows ? 0 : 1;
       const double wanted = (direction == RowDirection::climb ? -1 : 1) * (way == FinishStrategy::rows ? 1 : -1);
       double forth = 0;
@@ -183,7 +183,7 @@ TEST(ReliefArea, rows_in_one_direction_have_the_stock_on_one_side) {
   }
 }
 
-// A ridge on a slope of 60 degrees across the rows is four times as high, unless rows are added there.
+// A scallop on a slope of 60 degrees across the rows is four times as high, unless rows are added there.
 TEST(ReliefArea, even_scallops_are_even_on_slopes) {
   HeightGrid grid{.columns = 11, .rows = 161, .pitch_x = Mm(0.05), .pitch_y = Mm(0.05)};
   for (int i = 0; i < 11 * 161; ++i) {
@@ -218,7 +218,7 @@ TEST(ReliefArea, even_scallops_are_even_on_slopes) {
   EXPECT_LT(feeds_of(written(grid, options).text), 2.5 * fewer) << "rows are added only where it is steep";
 }
 
-// Contours without roughing leave slivers between them and at the edge of what they reach; no rapid may go through.
+// Contours without roughing leave slivers between them and at the edge of their reach; no rapid may go through these.
 TEST(ReliefArea, contours_have_no_rapid_through_a_sliver) {
   std::mt19937_64 random(seed());
   std::uniform_real_distribution<double> share(0, 1);

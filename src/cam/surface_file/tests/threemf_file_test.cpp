@@ -159,7 +159,7 @@ TEST(ThreeMfFile, that_is_wrong_is_refused_with_a_reason) {
   EXPECT_THAT(none.words, HasSubstr("'3D/3dmodel.model' is missing"));
 }
 
-// 2 to the power of 16 copies by components of components: refused, and not made.
+// 2 to the power of 16 copies by nested components: rejected before they are created.
 TEST(ThreeMfFile, that_grows_by_its_components_is_refused) {
   std::string resources = "<object id='0'>" + tetrahedron + "</object>";
   for (int i = 1; i <= 12; ++i) {

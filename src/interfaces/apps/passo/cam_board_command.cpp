@@ -64,7 +64,7 @@ int make_all(BoardMaker& maker, const BoardJob& job, CamDrillArguments drill, Ca
   return write_text((folder / "board.html").string(), to_html(maker.page));
 }
 
-// Whether there is what --mask and --stencil ask for. Returns an exit code.
+// Checks that the layers for --mask and --stencil exist. Returns an exit code.
 int check_openings(const CamBoardArguments& arguments, const BoardPlan& plan) {
   const auto has_none = [](const std::array<Region, 2>& openings) {
     return openings[0].empty() && openings[1].empty();

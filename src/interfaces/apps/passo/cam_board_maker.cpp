@@ -14,7 +14,7 @@
 namespace passo {
 namespace {
 
-// How long the program takes, by the planner. Empty: it has errors, which are shown.
+// The duration of the program, from the planner. Empty: the program has errors, which are shown.
 std::optional<Seconds> time_of(const std::string& program, const MachineDescription& machine,
                                const WorkProgress& progress) {
   ProgramArguments arguments;
@@ -67,7 +67,7 @@ void BoardMaker::tell_files() const {
   for (const BoardPageFile& file : page.files) fmt::print("{}\n", words_for(file));
 }
 
-// The steps that take time: holes, each side, the edge.
+// The steps that take time: holes, each side, the outline.
 WorkProgress BoardMaker::next_step() {
   const std::size_t sides = (plan_.front ? 1 : 0) + (plan_.back ? 1 : 0);
   return steps_progress_.stage(steps_begun_++, sides + 2);
@@ -80,11 +80,11 @@ void BoardMaker::tell(const BoardStep& step) const {
   fmt::print("{}: {}{}\n{}", step.program, step.title, time, step.figures);
 }
 
-// Two holes beside the board, midway between which it is turned over.
+// Two holes beside the board, which is flipped about the line midway between them.
 std::array<DrawnPoint, 2> BoardMaker::pins(Nanometres distance) const {
   const DrawnBox& box = plan_.box;
   const DrawnPoint centre{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
-  // The same distance from the middle on both sides, so that each hole comes to where the other was.
+  // Both holes are equally far from the middle, so each comes to the position of the other.
   const std::int64_t off =
       distance.count + (is_x() ? box.most.x.count - box.least.x.count : box.most.y.count - box.least.y.count) / 2;
   const DrawnPoint a{{centre.x.count - (is_x() ? off : 0)}, {centre.y.count - (is_x() ? 0 : off)}};
@@ -102,7 +102,7 @@ int BoardMaker::add_probing(const ProbingCycle& cycle, const char* what, BoardSt
   return code;
 }
 
-// Each hole comes to where the other was, so the first program and this one speak of the same two places.
+// Each hole comes to the position of the other, so both programs use the same two positions.
 int BoardMaker::turn_over(const CamDrillArguments& drill, std::optional<std::array<DrawnPoint, 2>> holes) {
   const std::string over = is_x() ? "from left to right" : "from top to bottom";
   BoardStep step{.kind = "turn", .title = "Flip the board"};
@@ -147,7 +147,7 @@ void BoardMaker::name_holes(const std::array<DrawnPoint, 2>& holes) {
   page.registration = {{in_program(holes[0]), in_program(holes[1])}, to_mm(is_x() ? axis.x : axis.y).value()};
 }
 
-// Says which hole is where, and why both sides match.
+// Reports the position of each hole, and why both sides match.
 std::vector<std::string> BoardMaker::registration_words() const {
   const auto& [one, other] = page.registration->holes;
   return {fmt::format("Hole 1 is at X{:.6g} Y{:.6g}, hole 2 at X{:.6g} Y{:.6g} mm: after the flip, hole 1 is where "
@@ -184,7 +184,7 @@ int BoardMaker::draw_turn(const CamDrillArguments& drill, const std::array<Drawn
   return code;
 }
 
-// The mask is painted on the side that has just been milled.
+// The solder mask is applied to the side that has just been milled.
 int BoardMaker::mill_mask(const CamIsolateArguments& isolate, bool is_back, CamSources sources) {
   if (arguments_.mask.empty() || plan_.mask[is_back].empty()) return exit_done;
   CamOpeningArguments mask = opening_arguments(isolate, arguments_.mask, arguments_.mask_depth);

@@ -1,5 +1,5 @@
-// BoardMaker: writes the programs of a board into a folder, with a picture each, and fills in the page that says what
-// to do when.
+// BoardMaker: writes the programs of a board into a folder, with a picture each, and fills in the page with the
+// instructions.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ class BoardMaker {
     const DrawnBox& box = plan_.box;
     return {is_x() ? (box.least.x.count + box.most.x.count) / 2 : (box.least.y.count + box.most.y.count) / 2};
   }
-  // Both sides have one zero: the board is turned over about its middle.
+  // Both sides have the same zero: the board is flipped about its middle.
   template <class Arguments>
   void place(Arguments& arguments, bool is_turned) const {
     const DrawnPoint corner = plan_.box.least;
@@ -67,7 +67,7 @@ class BoardMaker {
   WorkProgress next_step();
   void tell(const BoardStep& step) const;
   std::array<DrawnPoint, 2> pins(Nanometres distance) const;
-  // In the programs, of either side.
+  // In the coordinates of the programs of both sides.
   std::pair<double, double> in_program(DrawnPoint at) const {
     const DrawnPoint corner = plan_.box.least;
     return {to_mm(at.x - corner.x + margin_).value(), to_mm(at.y - corner.y + margin_).value()};

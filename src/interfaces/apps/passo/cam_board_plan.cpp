@@ -12,7 +12,7 @@
 namespace passo {
 namespace {
 
-// Several files may be one side, which is told.
+// Several files may belong to one side; a note reports this.
 void add_copper(const BoardFile& file, std::optional<BoardLayer>& side, bool is_told) {
   const GerberLayer& layer = *file.layer;
   if (side && is_told) {
@@ -89,7 +89,7 @@ std::size_t points_of(const BoardPlan& plan) {
   return points;
 }
 
-// Copies lie side by side only without what the files have beside the board.
+// Copies can lie side by side only without the objects beside the board.
 void trim(BoardPlan& plan) {
   const Nanometres half{plan.grid.gap.count / 2};
   const DrawnBox cell{{plan.one.least.x - half, plan.one.least.y - half},

@@ -26,7 +26,7 @@ struct BoardPlan {
   PanelGrid grid;
 };
 
-// Parses --copies and --gap. `outline`: its cutter must fit between two boards, twice if tabs hold them.
+// Parses --copies and --gap. `outline`: its cutter must fit into the gap between two boards, twice if there are tabs.
 Result<PanelGrid, std::string> panel_of(const CamBoardArguments& arguments, const CamOutlineArguments& outline);
 
 // Shows notes, and reports errors in `findings`.

@@ -95,8 +95,8 @@ void choose_inlay(const CamEngraveArguments& arguments, EngraveJob& engrave, Len
   }
 }
 
-// A lift takes about a third of a second, and the time for the last half millimetre down, and for as much into the
-// stock. A return in that time is as good, and leaves no mark.
+// A lift takes about a third of a second, plus the time for the last half millimetre of the descent and for the plunge
+// into the stock. A return that takes no longer is preferred, because it leaves no mark.
 Nanometres longest_return_of(const MillProgramOptions& program) {
   constexpr double to_accelerate = 1.0 / 180;  // min
   constexpr double down = 1e6;                 // nm

@@ -62,7 +62,7 @@ PlotProgramOptions plot_program_of(const CamPlotArguments& arguments, const Mill
   return program;
 }
 
-// What the picture shows: the drawn lines as runs, and the dots.
+// The contents of the picture: the drawn lines as runs, and the dots.
 int draw_plot(const CamPlotArguments& arguments, const MillJob& job, const PlotPlan& plan, const Region& drawn) {
   MillPlan shown;
   constexpr Nanometres fine{100'000};
@@ -91,7 +91,8 @@ int draw_plot(const CamPlotArguments& arguments, const MillJob& job, const PlotP
   });
 }
 
-// The lines as thin areas. Those of a large plot would take longer than all the rest; the pen's way shows them, too.
+// The lines as thin areas. For a large plot this would take longer than everything else, and the path of the pen shows
+// them, too.
 Region drawn_of(const EdgeLoops& lines) {
   constexpr Nanometres thin{100'000};
   constexpr Nanometres tolerance{10'000};

@@ -108,7 +108,7 @@ ReliefTool tool_of(ReliefReading& read, const char* option, const std::string& c
   return tool;
 }
 
-// The options of rows, and what they do not go with.
+// The options of rows, and their conflicts with other options.
 void read_rows(const CamReliefArguments& arguments, ReliefProgramOptions& program, ReliefReading& read) {
   const std::string& way = arguments.way;
   const bool has_rows = way == "rows" || way == "columns" || way == "both";
@@ -172,7 +172,7 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   return program;
 }
 
-// The closed curves of a drawing, in program coordinates. Shows findings; then the answer is false.
+// Reads the closed curves of a drawing, in program coordinates. Shows findings, and returns false if there are errors.
 bool read_curves(const std::string& path, std::vector<std::vector<ReliefPoint>>& curves) {
   if (path.empty()) return true;
   Diagnostics findings;
@@ -275,7 +275,7 @@ bool fits_memory(const ReliefProgramOptions& program, const HeightGrid& grid, co
   return false;
 }
 
-// Curves that lie beside the relief were probably drawn elsewhere.
+// Curves beside the relief were probably drawn in other coordinates.
 bool meet(const std::vector<std::vector<ReliefPoint>>& curves, const HeightGrid& grid,
           const ReliefProgramOptions& program, const std::string& name, Diagnostics& findings) {
   if (curves.empty()) return true;

@@ -21,14 +21,14 @@ Region openings_of(const CamSources& given, const MillJob& job) {
   return openings;
 }
 
-// How many of the openings a cutter does not fit into.
+// The number of openings into which the cutter does not fit.
 std::size_t too_narrow(const std::vector<Region>& openings, Nanometres cutter) {
   constexpr Nanometres room{3'000};
   return static_cast<std::size_t>(std::ranges::count_if(
       openings, [&](const Region& one) { return grown(one, {-(cutter.count + 1) / 2 - room.count}).empty(); }));
 }
 
-// Names the openings that stay closed, and the widest cutter that opens all of them.
+// Reports the number of openings that stay closed, and the widest of some usual cutters that fits into all of them.
 void note_narrow(const std::vector<Region>& openings, Nanometres cutter, const char* option) {
   const std::size_t count = too_narrow(openings, cutter);
   if (count == 0) return;

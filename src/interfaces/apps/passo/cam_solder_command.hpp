@@ -1,5 +1,5 @@
 // Programs for the solder mask and the stencil of a board, which `passo cam board` writes: the openings of the mask are
-// milled free, those of the stencil are cut out of a film.
+// cleared, those of the stencil are cut out of a film.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct CamOpeningArguments : CamMillArguments {
   std::string depth;
 };
 
-// `given`: the openings are its layer's face; they are milled within its board.
+// `given`: its layer's face has the openings; they are milled within its board.
 int cam_mask(const CamOpeningArguments& arguments, const WorkProgress& progress, const CamSources* given,
              CamMade* made);
 int cam_stencil(const CamOpeningArguments& arguments, const WorkProgress& progress, const CamSources* given,

@@ -19,7 +19,7 @@
 namespace passo {
 namespace {
 
-// Where a spar is in one profile.
+// The position of a spar in one profile.
 struct SparPlace {
   Nanometres x{};                    // if there are no percent
   std::optional<double> share = {};  // of the width of the profile, from 0 to 1
@@ -195,7 +195,7 @@ std::optional<WireProfile> profile_of(const std::string& file, const Drawing& dr
   return std::nullopt;
 }
 
-// The foam within the skin, with the slots for spars. Findings are shown; then the answer is empty.
+// The foam within the skin, with the slots for spars. Shows findings, and returns nothing if there are errors.
 std::optional<WireProfile> core_of(const std::string& file, const WireJob& wire, std::size_t side,
                                    const WireProfile& profile) {
   if (wire.skin.count == 0 && wire.spars.empty()) return profile;

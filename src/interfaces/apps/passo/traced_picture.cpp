@@ -33,7 +33,7 @@ std::string bitmap_of(const LevelPicture& picture, const std::vector<std::uint16
     std::string bits(bytes, '\0');
     for (std::size_t column = 0; column < picture.columns; ++column) {
       const std::size_t i = row * picture.columns + column;
-      // The level of a transparent pixel is darkened; on white paper it is bright.
+      // The reader darkens transparent pixels; here the background is white.
       const int level = picture.levels[i] + (alphas.empty() ? 0 : white - alphas[i]);
       const bool is_dark = (level < threshold) != options.invert;
       if (is_dark) bits[column / 8] = static_cast<char>(bits[column / 8] | (0x80 >> (column % 8)));
@@ -73,10 +73,10 @@ class PictureTracer {
 };
 
 std::optional<std::string> PictureTracer::read_bitmap() {
-  const auto bytes = read_bytes(path_, {.area = "picture", .expected = "a picture (PNG or TIFF)"}, diagnostics_);
+  const auto bytes = read_bytes(path_, {.area = "picture", .expected = "a picture (PNG, JPEG or TIFF)"}, diagnostics_);
   if (!bytes) return std::nullopt;
   if (!is_level_picture(*bytes)) {
-    refuse("trace.no-picture", "this is no picture", "a picture (PNG or TIFF); --trace is not for drawings");
+    refuse("trace.no-picture", "this is no picture", "a picture (PNG, JPEG or TIFF); --trace is not for drawings");
     return std::nullopt;
   }
   const LevelPicture picture = read_level_picture(path_, *bytes, PixelLevel::luminance, diagnostics_);

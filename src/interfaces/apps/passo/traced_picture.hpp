@@ -1,7 +1,7 @@
 // trace_picture: traces the outlines of the dark areas of a picture with potrace.
 //
-// potrace is a program of its own, under the GPL: it is started as a process, confined to a temporary folder and with
-// limits, and nothing of it is linked. If it is not installed, the error "trace.no-potrace" names its package.
+// potrace is a separate program under the GPL. It runs as a process of its own, with limits and confined to a temporary
+// folder; none of its code is linked. If it is not installed, the error "trace.no-potrace" names its package.
 //
 // Source: P. Selinger, Potrace: a polygon-based tracing algorithm (2003).
 #pragma once
@@ -22,7 +22,7 @@ struct PictureTraceOptions {
   Mm width{100};               // of the picture
 };
 
-// Reads a PNG or TIFF file and traces it: closed outlines, with the picture's lower left corner at X0 Y0. Reports
+// Reads a PNG, JPEG or TIFF file and traces it: closed outlines, with the picture's lower left corner at X0 Y0. Reports
 // errors in `diagnostics`: "trace.…", "picture.…" and those of read_svg().
 Drawing trace_picture(const std::string& path, const PictureTraceOptions& options, Diagnostics& diagnostics);
 

@@ -159,7 +159,7 @@ Segment with_tolerance(Segment segment, double tolerance) {
   return segment;
 }
 
-// A slide behind a screw with backlash, and what a path of segments does to it.
+// A slide behind a screw with backlash, moved by a path of segments.
 class Slides {
  public:
   explicit Slides(const BacklashOptions& options) : options_(options) {}
@@ -251,7 +251,7 @@ TEST(BacklashInMotion, a_circle_with_a_tolerance_does_not_rest_at_its_quadrants)
   }
 }
 
-// Circles, ellipses of cubics and waves, with any backlash and tolerance.
+// Circles, ellipses of cubics and waves, with random backlash and tolerance.
 TEST(BacklashInMotion, the_tool_stays_within_the_tolerance_on_random_curves) {
   int in_motion_taken = 0;
   for (int number = 1; number <= 300; ++number) {

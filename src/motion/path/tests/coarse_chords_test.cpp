@@ -128,7 +128,7 @@ TEST_F(CoarseChords, a_row_of_short_arcs_is_fitted_like_chords) {
   }
 }
 
-// Pieces of one circle have nothing to even out.
+// Pieces of one circle need no fit.
 TEST_F(CoarseChords, short_arcs_of_a_circle_stay_arcs) {
   constexpr double quarter = 3.14159265358979 / 2;
   position_ = xyz(0.5, 0);

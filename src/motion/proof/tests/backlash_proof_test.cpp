@@ -70,8 +70,8 @@ TEST(MotionProofOfBacklash, finds_half_of_the_backlash) {
   EXPECT_FALSE(proof_with_backlash({there(0, 5, false), take_up(5, true, 0.5), there(5, 1, true)}).good());
 }
 
-// X rises to its extreme and falls again on a parabola 0.01 mm high, while Y goes on for 2 mm. On this way, its motor
-// takes up a part of the backlash.
+// X rises to its extreme and falls again on a parabola 0.01 mm high, while Y moves by 2 mm. On this path, the motor of
+// X takes up a part of the backlash.
 PlannedMove turn_in_motion(double part, double height = 0.01) {
   const double length = 2;
   const double slope = 4 * height / length;

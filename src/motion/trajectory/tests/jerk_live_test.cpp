@@ -107,9 +107,9 @@ TEST(JerkLimitedHold, at_any_instant_keeps_the_limits_of_axes_with_and_without_j
   }
 }
 
-// The arc ends along X, which has no limit of jerk: only X brakes there, and may do so up to the last moment. The last
-// cell of a stop takes twice as long as that. Each move was replaced by a sooner one of half the length, and what was
-// left at rest was too short to be cut into cells: planning did not end.
+// The arc ends along X, which has no jerk limit: only X brakes there, and may do so up to the last moment. The last
+// cell of a stop takes twice as long as that. If each move were replaced by a sooner one of half the length, the last
+// piece would be too short to be divided into cells, and planning would not end.
 TEST(JerkLimitedHold, near_the_end_of_an_arc_takes_few_moves) {
   MotionLimits limits = jerk_limits(50, 200, 4'000);
   limits.jerk[Axis::x] = MmPerSecond3(0);

@@ -1,7 +1,7 @@
 // PanelGrid: copies of a board in columns and rows, for one blank.
 //
 // All copies have the same orientation. The first one is where the board was drawn; the others are to the right of it
-// and above it. Whatever is copied must lie within the board's box, or copies would overlap.
+// and above it. Trim all layers to the board's box first; otherwise copies overlap.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct PanelGrid {
 
 inline constexpr std::uint32_t most_panel_columns = 100;  // and rows
 
-// Returns how far each copy is from the first one, row by row; the first offset is 0. `board`: the box of one board.
+// Returns the offset of each copy from the first one, row by row; the first offset is 0. `board`: the box of one board.
 std::vector<DrawnPoint> offsets_of(const PanelGrid& grid, const DrawnBox& board);
 
 Region repeated(const Region& region, const std::vector<DrawnPoint>& offsets);
@@ -30,7 +30,7 @@ Drawing repeated(const Drawing& drawing, const std::vector<DrawnPoint>& offsets)
 // Nets of different copies have different names: "GND of copy 2".
 BoardLayer repeated(const BoardLayer& layer, const std::vector<DrawnPoint>& offsets);
 
-// Removes whatever lies outside the box. Lines that leave it stay whole.
+// Removes all objects outside the box. Lines that are partly inside are kept whole.
 void trim_to(const DrawnBox& box, BoardLayer& layer);
 // Removes the holes and slots outside the box, and returns their number.
 std::size_t trim_to(const DrawnBox& box, Drawing& drills);

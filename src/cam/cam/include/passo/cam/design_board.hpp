@@ -1,8 +1,8 @@
 // DesignBoard: a board read from the layout program's own file, as if the program had exported Gerber and drill files.
 //
 // read_design_board() knows KiCad (.kicad_pcb, see kicad_board.hpp), EAGLE (.brd, XML since EAGLE 6) and EasyEDA
-// (standard edition, JSON). Y points up. EAGLE and EasyEDA do not store how their polygons are poured: they are poured
-// here, solid, with the file's clearance to other nets, and without islands; a note says so.
+// (standard edition, JSON). Y points up. EAGLE and EasyEDA files do not contain the fills of copper pours. The pours
+// are filled here: solid, with the file's clearance to other nets, and without islands; a note reports this.
 //
 // Source: eagle.dtd of EAGLE 9; EasyEDA Standard Edition Document Format (docs.easyeda.com, 2020).
 #pragma once

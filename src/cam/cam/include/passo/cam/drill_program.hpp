@@ -1,10 +1,10 @@
 // write_drill_program: writes a drill plan as G-code.
 //
-// Holes use canned cycles (G81, or G83 for pecking) or plain moves. Rapids lead from the clearance
-// height down to the feed height, and from a hole to the next one within 5 mm at the feed height. Circles and slots are
-// milled counterclockwise (climb milling for a clockwise spindle) in passes of `mill_step`, with a final pass at full
-// depth. Multiple tools are changed with M6 at the park position, after a message to the operator. The program begins
-// and ends at the park position, at the clearance height.
+// Holes use canned cycles (G81, or G83 for pecking) or plain moves. Rapids lead from the clearance height down to the
+// feed height, and at the feed height to the next hole if it is within 5 mm. Circles and slots are milled
+// counterclockwise (climb milling for a clockwise spindle) in passes of `mill_step`, with a final pass at full depth.
+// Multiple tools are changed with M6 at the park position, after a message to the operator. The program begins and ends
+// at the park position, at the clearance height.
 //
 // Numbers are in mm (G21), inches (G20) or centimetres (ProgramUnits). Arcs are exact to the last written digit.
 #pragma once

@@ -1,11 +1,12 @@
 // read_dxf: reads DXF drawings, from R12 to 2018, as text or binary, into holes and paths.
 //
 // CIRCLE and POINT are holes; a point has no diameter. LINE, ARC, LWPOLYLINE and POLYLINE with bulges are paths of
-// lines and arcs; ELLIPSE and SPLINE become chords within the tolerance, also splines that have only fit points. A
-// closed circular path (DONUT) is a hole. A polyline with a width is read as its middle. Circles and arcs that a block
-// stretches in one direction become ellipses. Entities in a plane of their own are projected onto the XY plane. Block
-// references (INSERT) are expanded: scaled, rotated, mirrored, in rows and columns, and nested. Other entities (texts,
-// hatches, dimensions), layers that are off, and paper space are omitted and counted in Drawing::notes.
+// lines and arcs; ELLIPSE and SPLINE become chords within the tolerance, including splines that have only fit points. A
+// closed circular path (DONUT) is a hole. Of a polyline with a width, only the centre line is read. Circles and arcs
+// that a block stretches in one direction become ellipses. Entities in a plane of their own are projected onto the XY
+// plane. Block references (INSERT) are expanded: scaled, rotated, mirrored, in rows and columns, and nested. Other
+// entities (texts, hatches, dimensions), layers that are off, and paper space are omitted and counted in
+// Drawing::notes.
 //
 // Numbers are in the unit of $INSUNITS, unless the options specify a unit; without both they are millimetres, with a
 // note.
@@ -30,7 +31,7 @@ struct DxfOptions {
   std::optional<Mm> unit = {};           // length of one drawing unit; overrides $INSUNITS
   std::vector<std::string> layers = {};  // the layers to read; empty: all layers that are on
   Mm tolerance{0.005};                   // chord tolerance for ellipses and splines
-  // The circles are holes of a circuit board: of a DONUT the inner circle is read, and a note warns about a drawing
+  // The circles are holes of a circuit board: the inner circle of a DONUT is read, and a note warns about a drawing
   // that seems to be ten times too large or too small.
   bool is_for_drilling = false;
 };

@@ -1,8 +1,9 @@
 // find_font: finds an installed font by its family and style, as fontconfig knows them.
 //
-// The name is a family, e.g. "DejaVu Sans" in any case, and after colons words for the style, e.g. "DejaVu Sans:bold"
-// or "DejaVu Sans:bold:italic", or the style's own name: "DejaVu Sans:style=Condensed Bold". The generic families sans,
-// serif and monospace stand for the system's default fonts. Only fonts of outlines (TrueType, OpenType) are considered.
+// The name is a family, e.g. "DejaVu Sans" in any case, followed by words for the style after colons, e.g. "DejaVu
+// Sans:bold" or "DejaVu Sans:bold:italic", or the style's own name: "DejaVu Sans:style=Condensed Bold". The generic
+// families sans, serif and monospace stand for the system's default fonts. Only outline fonts (TrueType, OpenType) are
+// considered.
 //
 // No other family is substituted: an unknown family is an error "engrave.no-family" that names similar ones, an unknown
 // style an error "engrave.no-style" that names those of the family.
@@ -22,14 +23,15 @@ namespace passo {
 struct FontFile {
   std::string path = {};
   std::string name = {};  // family and style, e.g. "DejaVu Sans Bold"
-  // The index of the font in a collection (.ttc); in the upper 16 bits that of the instance of a variable font, from 1.
+  // The index of the font in a collection (.ttc). The upper 16 bits contain the instance of a variable font, counted
+  // from 1.
   int face = 0;
 };
 
 // Reports errors in `diagnostics`.
 std::optional<FontFile> find_font(const std::string& wanted, Diagnostics& diagnostics);
 
-// Returns whether the text names a file rather than a family: it contains a slash or has the ending of a font file.
+// Returns whether the text names a file rather than a family: it contains a slash, or has the extension of a font file.
 bool names_font_file(const std::string& text);
 
 }  // namespace passo

@@ -5,8 +5,8 @@
 //
 // The blade of a drag knife trails behind the axis on which it swivels, by its offset. The axis therefore moves ahead
 // of the blade's tip, and at a corner it goes around the tip on an arc, so that the blade turns. Closed lines are cut a
-// little beyond their start, and lines within a closed line before it. The plan knows the direction of the blade from
-// the line before; at the start of the program it trails towards -X.
+// little beyond their start, and lines within a closed line before it. The direction of the blade follows from the
+// previous line; at the start of the program the blade trails towards -X.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ struct PlotPlan {
 
 PlotPlan plan_plot(const EdgeLoops& lines, const std::vector<DrawnPoint>& dots, const PlotOptions& options);
 
-// Takes the dots out of a drawing: its points, and its paths without a length.
+// Removes the dots from a drawing, and returns them: its points, and its paths without a length.
 std::vector<DrawnPoint> take_dots(Drawing& drawing);
 
 }  // namespace passo

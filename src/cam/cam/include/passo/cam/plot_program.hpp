@@ -1,8 +1,8 @@
 // write_plot_program: writes a plot as G-code, for a pen or a drag knife that Z or a servo lowers.
 //
 // With Z the pen travels at `up`, and draws at `down`. With a servo the program contains no Z: M3 with an S word lowers
-// the pen, and M5, or M3 with another S word, raises it; after each the program waits. Arcs are G2 and G3. The program
-// begins and ends at the park position with the pen up, and ends with M2.
+// the pen, and M5, or M3 with another S word, raises it; the program pauses after each of them. Arcs are G2 and G3. The
+// program begins and ends at the park position with the pen up, and ends with M2.
 #pragma once
 
 #include <cstdint>

@@ -34,8 +34,8 @@ struct ProfilePlan {
   double unreached_mm2 = 0;
 };
 
-// `loops`: closed; the last point leads back to the first. `lines`: open paths, which are always cut on the line; one
-// of a single point is a dot, at which the cutter only goes down. Reports errors "outline.…" and "profile.…" in
+// `loops`: closed; the last point leads back to the first. `lines`: open paths, which are always cut on the line; a
+// path of a single point is a dot, at which the cutter only plunges. Reports errors "outline.…" and "profile.…" in
 // `diagnostics`.
 ProfilePlan plan_profile(const std::vector<std::vector<PathPoint>>& loops,
                          const std::vector<std::vector<PathPoint>>& lines, const ProfileOptions& options,

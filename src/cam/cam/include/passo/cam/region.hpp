@@ -39,7 +39,7 @@ inline constexpr Nanometres usual_chord_tolerance{1000};
 // number is not zero. Rings of fewer than three points are ignored.
 Region filled(std::vector<DrawnRing> rings);
 
-// Fills the rings together: where their winding number is odd, or where it is not zero.
+// Fills the rings together, where their winding number is odd or where it is not zero.
 enum class FillRule : std::uint8_t { even_odd, nonzero };
 Region filled_together(std::vector<DrawnRing> rings, FillRule rule);
 

@@ -6,8 +6,8 @@
 // lower left corner of the page is X0 Y0. Only the geometry counts: fill and stroke width are ignored. Inkscape layers
 // are the layers of the drawing.
 //
-// Style sheets are applied where they hide or place shapes (svg_style.hpp). Clip paths are obeyed, and nested views
-// clip what lies beside them: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts,
+// Style sheets are applied where they hide, place or size shapes (svg_style.hpp). Clip paths are applied, and nested
+// views clip their contents: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts,
 // pictures, hidden elements, masks, markers and unsupported clip paths and style rules are omitted and counted in
 // Drawing::notes.
 //

@@ -8,7 +8,7 @@
 // around it once at full depth, and `floor` is the remaining area, for an end mill. Strokes narrower than the cutter's
 // tip are reported as `unreached`.
 //
-// The cutter stays down as far as it can: from the end of a branch it returns along the groove that it has just carved,
+// The cutter stays down where possible: from the end of a branch it returns along the groove that it has just carved,
 // unless a lift is quicker. Lines and arcs replace the points of the axis; an arc may be a helix.
 //
 // With a `step` the cutter works in layers, each deeper by `step`, along the points that are deeper than the previous

@@ -2,7 +2,7 @@
 // spars.
 //
 // A slot is a rectangle, open upwards or downwards. Its depth is measured from the surface of the core at the middle of
-// the slot. The wire cuts it on its way around the section, so it is at least as wide as the kerf.
+// the slot. The wire cuts it on its way around the section, so it must be wider than the kerf.
 #pragma once
 
 #include <optional>

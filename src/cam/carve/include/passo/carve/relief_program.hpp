@@ -30,7 +30,7 @@ enum class FinishStrategy : std::uint8_t { rows, columns, both, spiral, contours
 // The roughing strategy: rows, or offsets of the area that a level removes, from the inside outwards.
 enum class RoughStrategy : std::uint8_t { rows, offsets };
 
-// The direction in which rows are cut: there and back in turn, or always so that a clockwise spindle climb mills or
+// The direction in which rows are cut: alternating, or always the one in which a clockwise spindle climb mills, or
 // mills conventionally.
 enum class RowDirection : std::uint8_t { there_and_back, climb, conventional };
 
@@ -67,17 +67,17 @@ struct ReliefRows {
   Radians steep{0.785398};  // slope above which contours take their place, if there are contours: 45 degrees
   RowDirection direction = RowDirection::there_and_back;
   Radians angle{0};  // from X, counterclockwise; not for columns
-  // Adds rows on slopes, so that ridges are nowhere higher than the scallop height. For cutters with a round tip; not
-  // for rows at an angle.
+  // Adds rows on slopes, so that no scallop is higher than the scallop height. For cutters with a round tip or corner;
+  // not for rows at an angle.
   bool has_even_scallops = false;
 };
 
-// The part of the surface that is cut. Not for spirals.
+// The part of the surface that is cut. Not available for spirals.
 struct ReliefArea {
   // Only where a cutter touches material of the model above the floor, and one stepover around it.
   bool only_on_model = false;
-  // The tips stay within these closed curves, in program coordinates; a curve within a curve is a hole. Empty:
-  // everywhere.
+  // The cutter's axis stays within these closed curves, in program coordinates; a curve within a curve is a hole.
+  // Empty: no bound.
   std::vector<std::vector<ReliefPoint>> within = {};
 
   bool is_all() const { return !only_on_model && within.empty(); }

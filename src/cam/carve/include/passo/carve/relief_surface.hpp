@@ -22,11 +22,11 @@ struct ReliefShape {
   std::optional<Mm> width = {};   // size in X; if `length` is empty, the aspect ratio is kept
   std::optional<Mm> length = {};  // size in Y
   std::optional<Mm> depth = {};   // depth of black; for a model its height. Empty: 3 mm, or the model's own height
-  // Nothing is lower than this distance below the top; heights are cut off there, not scaled.
+  // The lowest height, as a distance below the top: heights are truncated there, not scaled.
   std::optional<Mm> lowest = {};
   double gamma = 1;  // height = level^gamma
   Mm smooth{0};      // for a picture: standard deviation of the Gaussian by which it is smoothed
-  // For a picture: what is darker, as a fraction of white, stays at the top.
+  // For a picture: areas darker than this fraction of white stay at the top.
   double background = 0;
   bool invert = false;           // black is at the top
   bool mirror = false;           // swaps left and right, as for a stamp

@@ -1,5 +1,5 @@
-// Whether the length of a curve is in degrees: the curve moves only A, B or C, and none of them turns a surface that
-// counts as length.
+// Whether the length of a curve is in degrees: the curve moves only A, B or C, and none of them rotates a surface whose
+// motion counts as a length.
 #pragma once
 
 #include "passo/geometry/curve.hpp"

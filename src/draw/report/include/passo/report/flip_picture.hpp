@@ -1,5 +1,5 @@
-// A picture of a board that is flipped about its dowel holes: the front before, the back after, the axis, and which
-// hole is where.
+// A picture of a board that is flipped about its dowel holes: the front before, the back after, the axis, and the
+// position of each hole.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace passo {
 
-// Everything in the coordinates of the program, as seen from the front.
+// All coordinates are those of the program, as seen from the front.
 struct FlipScene {
   const Region& face;   // the board; may be empty
   const Region& front;  // the copper

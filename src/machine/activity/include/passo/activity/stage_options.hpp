@@ -21,7 +21,7 @@ bool has_jerk_limit(const MachineDescription& machine);
 // `start`: the machine position at the start.
 PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start = {});
 Smoothness smoothness(const MachineDescription& machine);
-// How much of each tolerance the path may use for smoothing. The rest is for backlash that is taken up in motion.
+// The fraction of each tolerance that smoothing may use. The rest is for backlash that is taken up in motion.
 double smoothing_share(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 // The motors that the host plans: one for each axis.

@@ -22,8 +22,9 @@ class ScrewMap {
   explicit ScrewMap(double backlash, std::vector<Error> errors = {});
 
   double backlash() const { return backlash_; }
-  // Whether the motor may take up the backlash while the axis moves. The errors belong to positions of the axis, and
-  // the motor is elsewhere at that time, so a screw with errors takes up its backlash at a stop.
+  // Whether the motor may take up the backlash while the axis moves. Pitch errors depend on the position of the axis,
+  // which does not follow from the motor's position at that time. So a screw with pitch errors takes up its backlash at
+  // a stop.
   bool can_take_up_in_motion() const { return backlash_ > 0 && pieces_.size() <= 2; }
 
   // A linear piece of the map: nominal = offset + slope * place, for true positions from low to high.

@@ -3,11 +3,11 @@
 // Position in the pipeline: before the planner. Each segment records on which side the backlash of each axis is
 // (Segment::downs), so that motion can be followed from any point of a segment. There are two ways to take it up:
 //
-// - In motion, where the path goes on smoothly: in a piece of the path on which the axis stays within the tolerance of
+// - In motion, where the path continues smoothly: on a piece of the path where the axis stays within the tolerance of
 //   its turning point, the curve of the segment contains the additional motion of the motor (Segment::lead). The
 //   planner keeps the motor within the limits of its axis.
 // - At a stop, everywhere else: an extra segment moves only the motor of that axis, and the tool stays on the path, to
-//   the step.
+//   within a step.
 //
 // See docs/decisions/0083-backlash-is-taken-up-at-rest.md.
 //
@@ -28,8 +28,8 @@
 
 namespace passo {
 
-// How much of the tolerance smoothing uses if an axis may take up backlash in motion. Half of the tolerance would be
-// better in curves, but worse in corners.
+// The fraction of the tolerance that smoothing uses if an axis may take up backlash in motion. Half would be better in
+// curves, but worse in corners.
 inline constexpr double smoothing_share_with_backlash = 0.7;
 
 struct BacklashOptions {
@@ -43,8 +43,8 @@ struct BacklashOptions {
   bool counts_items = false;
   // The axes whose backlash may be taken up in motion.
   AxisSet in_motion{};
-  // How much of the tolerance smoothing uses on these machines (Segment::tolerance is that part). The rest is for
-  // backlash that is taken up in motion. An arc is exact, so there the whole tolerance is.
+  // The fraction of the tolerance that smoothing uses on these machines (Segment::tolerance is that part). The rest is
+  // for backlash that is taken up in motion. On an arc, which is exact, the whole tolerance is for backlash.
   double smoothing_share = 1;
   // Whether the acceleration must be continuous.
   Smoothness smoothness = Smoothness::least_bending;

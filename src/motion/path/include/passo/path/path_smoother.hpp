@@ -27,8 +27,8 @@ enum class Smoothness : std::uint8_t { least_bending, slow_bending };
 
 class PathSmoother final : public Source<PathItem> {
  public:
-  // `share`: of each tolerance, above 0 and at most 1. The smoothed path deviates by at most this part of it, and the
-  // tolerances of the smoothed segments are these parts.
+  // `share`: of each tolerance, above 0 and at most 1. The smoothed path deviates by at most this fraction of it, which
+  // is also the tolerance of the smoothed segments.
   explicit PathSmoother(Source<PathItem>& path, Smoothness smoothness = Smoothness::least_bending, double share = 1);
   ~PathSmoother() override;
 

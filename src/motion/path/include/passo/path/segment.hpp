@@ -61,15 +61,15 @@ struct Segment {
   // True: the segment takes up the backlash of an axis that reverses. The motor moves along the curve, while the tool
   // stays at the curve's end.
   bool takes_up_backlash = false;
-  // Set: the axis takes up its backlash while the path goes on. The motors move along the curve, and the path of the
-  // tool is the curve less this lead.
+  // Set: the axis takes up its backlash while the path continues. The motors move along the curve, and the path of the
+  // tool is the curve minus this lead.
   std::optional<MotorLead> lead{};
   OperationSource source{};
 
   Point tool_at(Mm s) const;
   // The path of the tool. If the segment takes up backlash at a stop: the curve of the motor.
   Curve tool_curve() const;
-  // Leaves out the part before s.
+  // Removes the part before s.
   void drop_before(Mm s);
 };
 
