@@ -33,7 +33,9 @@ void LostMotion::watch(const PlannedMove& move, const ExactCurve& curve, Seconds
     begun_ = true;
     if (!is_off_path) continue;
     way_.push_back(place);
-    for (const Play& play : plays_) way_.back()[play.axis] = play.place;
+    for (const Play& play : plays_) {
+      if (play.axis == move.segment.lead->axis) way_.back()[play.axis] = play.place;
+    }
   }
 }
 
@@ -44,7 +46,7 @@ double LostMotion::motor_of(const Play& play, const PlannedMove& move, double at
 void LostMotion::follow(Play& play, const PlannedMove& move, double at, Seconds now) {
   const double motor = motor_of(play, move, at);
   play.place = std::clamp(play.place, motor, motor + play.backlash);
-  if (move.segment.lead) return;
+  if (move.segment.lead && move.segment.lead->axis == play.axis) return;
   const double planned = move.segment.takes_up_backlash ? move.segment.curve.end()[play.axis] : at;
   const double behind = std::abs(planned - play.place);
   Finding& finding = proof_.axes[play.number].lost_motion;
