@@ -65,5 +65,17 @@ TEST(MixtureLaw, the_time_is_at_most_a_fifth_above_the_bound) {
       machines);
 }
 
+// An axis became the fastest at a line of its grid, while rounding had put it before that line: there were events
+// without end.
+TEST(MixtureLaw, holds_in_programs_that_once_failed) {
+  for (const std::uint64_t number : {8000133U, 9202901U}) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    test::Random random = test::Random::of(number);
+    const test::RandomJob job = test::RandomJob::of_any_limits(number, random);
+    const MotionProof proof = test::run(job.program, job.machine, {.live = endless_commitment}).proof;
+    for (const std::string& fault : proof.faults()) ADD_FAILURE() << fault;
+  }
+}
+
 }  // namespace
 }  // namespace passo

@@ -10,9 +10,9 @@
 // to be taken up. A path begins with all backlash taken up for motion in the positive direction.
 //
 // In a move that takes up backlash while the path continues (Segment::lead), the tool may be off the planned path along
-// one axis. From the plan, only the mark of such a move is used, with its axis: the position along this axis is computed
-// as above, and PathDeviation judges the path of the tool. Along the other axes the tool is as far behind as in every
-// other move.
+// one axis. From the plan, only the mark of such a move is used, with its axis: the position along this axis is
+// computed as above, and PathDeviation judges the path of the tool. Along the other axes the tool is as far behind as
+// in every other move.
 #pragma once
 
 #include <span>

@@ -155,8 +155,8 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   double rate = std::sqrt(rate_squared(slope)) / static_cast<double>(stretch_.grid);
   for (; rate < slow_rate_ && stretch_.grid > finest_grid; rate *= 2) stretch_.grid /= 2;
   rates_ = fitting_rates(stretch_.grid);
-  // Behind the last event, which is at a line: rounding may put the master before that line, where the path is slow. The
-  // same line would be found again and again.
+  // Behind the last event, which is at a line: rounding may put the master before that line, where the path is slow.
+  // The same line would be found again and again.
   const double place = path_.place(master, spot_);
   target_ = next_target(stretch_.sign > 0 ? std::max(place, here_[master]) : std::min(place, here_[master]));
   if (path_.crossing(master, target_, spot_).s == infinity) {
