@@ -44,11 +44,7 @@ class ArcFinder {
     const FlatVector to_last = from_to(a, points_[last]);
     const double twice = 2 * cross(to_middle, to_last);
     if (std::abs(twice) < 1) return std::nullopt;
-    // The centre of the circle through the three, from a.
-    const double middle = dot(to_middle, to_middle);
-    const double end = dot(to_last, to_last);
-    const FlatVector centre{(to_last.y * middle - to_middle.y * end) / twice,
-                            (to_middle.x * end - to_last.x * middle) / twice};
+    const FlatVector centre = centre_of_circle(to_middle, to_last);  // from a
     const double radius = std::hypot(centre.x, centre.y);
     constexpr double widest = 1e10;    // nm; flatter is a line
     constexpr double narrowest = 1e4;  // nm; smaller arcs suffer from the last digit of a program

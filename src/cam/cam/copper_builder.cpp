@@ -61,9 +61,7 @@ std::uint32_t CopperBuilder::net_index(Sheet& sheet, const std::string& net) {
 void CopperBuilder::add_stroke(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line) {
   if (path.width.count <= 0 || path.points.empty() || !has_room_for(kicad_stroke_points(path), line)) return;
   Sheet& on = sheets_[sheet];
-  for (DrawnRing& ring : kicad_stroke(path)) {
-    if (ring.size() >= 3) on.objects[net].push_back({{std::move(ring)}});
-  }
+  for (Region& area : kicad_stroke_regions({&path, 1})) on.objects[net].push_back(std::move(area));
   on.image.strokes.push_back(path);
   if (!net.empty()) on.image.named.push_back({path.points.front().at, 0, net_index(on, net), line});
 }
@@ -187,14 +185,10 @@ DesignBoard CopperBuilder::take() {
     if (diagnostics_.any_error()) break;
     board.copper.push_back({sheet.name, layer_of(sheet)});
   }
-  std::vector<Region> lines;
-  for (const DrawnPath& path : edge_.strokes.paths) {
-    if (diagnostics_.any_error()) break;
-    for (DrawnRing& ring : kicad_stroke(path)) {
-      if (ring.size() >= 3) lines.push_back({{std::move(ring)}});
-    }
+  if (!diagnostics_.any_error()) {
+    const std::vector<Region> lines = kicad_stroke_regions(edge_.strokes.paths);
+    if (budget_.affords(lines)) edge_.dark = united(lines);
   }
-  if (!diagnostics_.any_error() && budget_.affords(lines)) edge_.dark = united(lines);
   board.edge = std::move(edge_);
   board.drills = std::move(drills_);
   return board;

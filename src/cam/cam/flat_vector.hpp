@@ -24,5 +24,12 @@ inline double cross(FlatVector a, FlatVector b) {
 inline double dot(FlatVector a, FlatVector b) {
   return a.x * b.x + a.y * b.y;
 }
+// The centre of the circle through the origin, a and b, which are not on one line.
+inline FlatVector centre_of_circle(FlatVector a, FlatVector b) {
+  const double twice = 2 * cross(a, b);
+  const double of_a = dot(a, a);
+  const double of_b = dot(b, b);
+  return {(b.y * of_a - a.y * of_b) / twice, (a.x * of_b - b.x * of_a) / twice};
+}
 
 }  // namespace passo

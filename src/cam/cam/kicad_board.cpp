@@ -413,14 +413,10 @@ DesignBoard KicadBoardReader::read() {
     if (diagnostics_.any_error()) break;
     board.copper.push_back({one.name, layer_of(one)});
   }
-  std::vector<Region> lines;
-  for (const DrawnPath& path : edge_.strokes.paths) {
-    if (diagnostics_.any_error()) break;
-    for (DrawnRing& ring : kicad_stroke(path)) {
-      if (ring.size() >= 3) lines.push_back({{std::move(ring)}});
-    }
+  if (!diagnostics_.any_error()) {
+    const std::vector<Region> lines = kicad_stroke_regions(edge_.strokes.paths);
+    if (budget_.affords(lines)) edge_.dark = united(lines);
   }
-  if (!diagnostics_.any_error() && budget_.affords(lines)) edge_.dark = united(lines);
   edge_.function = "Profile";
   edge_.software = "KiCad";
   drills_.notes = std::move(notes_);

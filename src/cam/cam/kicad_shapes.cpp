@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -245,6 +246,16 @@ std::vector<DrawnRing> kicad_stroke(const DrawnPath& path) {
     rings.push_back(convex_swept(disc, points[i], points[i + 1]));
   }
   return rings;
+}
+
+std::vector<Region> kicad_stroke_regions(std::span<const DrawnPath> paths) {
+  std::vector<Region> regions;
+  for (const DrawnPath& path : paths) {
+    for (DrawnRing& ring : kicad_stroke(path)) {
+      if (ring.size() >= 3) regions.push_back({{std::move(ring)}});
+    }
+  }
+  return regions;
 }
 
 std::size_t kicad_stroke_points(const DrawnPath& path) {

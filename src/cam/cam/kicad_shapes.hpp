@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gerber_shapes.hpp"
@@ -35,6 +36,8 @@ std::optional<KicadGraphic> kicad_graphic(KicadText& text, KicadItem item, const
 
 // Returns the area that a path of this width covers, as overlapping rings.
 std::vector<DrawnRing> kicad_stroke(const DrawnPath& path);
+// Returns the same of all paths, each ring as a region of its own, to be united.
+std::vector<Region> kicad_stroke_regions(std::span<const DrawnPath> paths);
 // Returns the approximate number of points of these rings.
 std::size_t kicad_stroke_points(const DrawnPath& path);
 

@@ -14,11 +14,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!passo::looks_like_design_board(bytes)) return 0;
   const passo::DesignBoard board = passo::read_design_board("fuzz.brd", bytes, found);
   passo::test::check_findings(found);
-  for (const passo::DesignLayer& one : board.copper) passo::test::check_layer(one.layer);
-  passo::test::check_layer(board.edge);
-  for (const passo::DrawnHole& hole : board.drills.holes) {
-    passo::test::check_within(hole.at);
-    passo::test::require(hole.diameter.count > 0 && hole.layer < 2, "a wrong hole");
-  }
+  passo::test::check_board(board);
   return 0;
 }

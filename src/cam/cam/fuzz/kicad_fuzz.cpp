@@ -13,11 +13,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const passo::DesignBoard board = passo::read_kicad_board("fuzz.kicad_pcb", bytes, found);
   passo::test::check_findings(found);
-  for (const passo::DesignLayer& one : board.copper) passo::test::check_layer(one.layer);
-  passo::test::check_layer(board.edge);
-  for (const passo::DrawnHole& hole : board.drills.holes) {
-    passo::test::check_within(hole.at);
-    passo::test::require(hole.diameter.count > 0 && hole.layer < 2, "a wrong hole");
-  }
+  passo::test::check_board(board);
   return 0;
 }

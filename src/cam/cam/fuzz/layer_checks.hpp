@@ -5,6 +5,7 @@
 
 #include "kit/require.hpp"
 
+#include "passo/cam/design_board.hpp"
 #include "passo/cam/gerber.hpp"
 
 namespace passo::test {
@@ -36,6 +37,15 @@ inline void check_layer(const GerberLayer& layer) {
   for (const DrawnPath& path : layer.strokes.paths) {
     require(path.points.size() >= 2 && path.layer < layer.strokes.layers.size(), "a wrong stroke");
     for (const PathPoint& point : path.points) require(std::isfinite(point.bulge), "a bulge that is not finite");
+  }
+}
+
+inline void check_board(const DesignBoard& board) {
+  for (const DesignLayer& one : board.copper) check_layer(one.layer);
+  check_layer(board.edge);
+  for (const DrawnHole& hole : board.drills.holes) {
+    check_within(hole.at);
+    require(hole.diameter.count > 0 && hole.layer < 2, "a wrong hole");
   }
 }
 
