@@ -19,6 +19,7 @@ Examples:
                                                            the cutter's centre follows the lines, also open ones
   passo cam profile window.svg --side inside --tool 2 --ramp 3 --lead 2 -o window.ngc
   passo cam profile sheet.svg --layer cut --zero lower-left -p sheet.png -o sheet.ngc
+  passo cam profile sheet.svg --for linuxcnc -o sheet.ngc  in the words of another controller
 
 All options: docs/manual/parts.md.)";
 
@@ -60,6 +61,8 @@ Examples:
   passo cam drill board.drl --zero lower-left -p board.svg -o board.ngc
   passo cam drill pads.dxf --layer Pads --drill 0.8 -o b.ngc  one drill for all holes of one layer
   passo cam drill board.kicad_pcb --mill 1 -o board.ngc       the holes of a KiCad board, without an export
+  passo cam drill board.drl --for grbl -o board.nc            for Grbl: no canned cycles, M0 for a tool change
+  passo cam drill board.drl --tool-change-text change.txt -o board.ngc       your own lines, e.g. T{tool} M6
   passo cam drill pads.dxf --scale 0.1 --units cm --drill 0.075 --clearance 0.2 --depth -0.3 -o fori.gc
                                                               drawing in mm, program in cm
 
