@@ -1,5 +1,8 @@
 // passo cam --for CONTROLLER: every operation for every controller, judged by checks that share nothing with the
 // post-processor; and by LinuxCNC's own interpreter, where it is installed.
+#include <cstdlib>
+#include <filesystem>
+
 #include "kit/command_line.hpp"
 #include "kit/controller_check.hpp"
 #include <fmt/format.h>
@@ -117,11 +120,11 @@ TEST_F(CamController, texts_of_the_operator_stand_where_they_belong) {
 TEST_F(CamController, a_wrong_text_is_refused_with_its_place) {
   const auto refused = [&](const std::string& text, const std::string& controller,
                            const std::string& option = "--start-text") {
-    fs::remove(path("c.nc"));
+    std::filesystem::remove(path("c.nc"));
     const Outcome made = passo("cam outline " + checkout + "/examples/boards/timer-Edge_Cuts.gbr -o " + path("c.nc") +
                                " " + option + " " + write("t.txt", text) + " --for " + controller);
     EXPECT_EQ(made.code, 2);
-    EXPECT_FALSE(fs::exists(path("c.nc")));
+    EXPECT_FALSE(std::filesystem::exists(path("c.nc")));
     return made.err;
   };
   const std::string wrong = refused("M8\nG0 Z{heigth} (up)\n", "linuxcnc");

@@ -82,14 +82,14 @@ void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
   writer_.line("({}: {})", what, words);
   if (tools_ > 1) {
     if (tool_ > 1) writer_.line("G0 Z{:g}", change_height().value());
-    if (tool_ > 1 && options_.spindle) writer_.line("M5");
+    if (tool_ > 1 && options_.change.spindle) writer_.line("M5");
     writer_.line("G0 X{:g} Y{:g}", options_.change.park.x.value(), options_.change.park.y.value());
     writer_.line("(MSG, tool {}: {})", tool_, words);
     writer_.line("T{} M6", tool_);
     writer_.line("G0 Z{:g}", change_height().value());
   }
-  if (options_.spindle) {
-    writer_.line("M3 S{}", *options_.spindle);
+  if (options_.change.spindle) {
+    writer_.line("M3 S{}", *options_.change.spindle);
     const double seconds = options_.change.spindle_seconds;
     if (seconds > 0) writer_.line("G4 P{:g} (the spindle reaches its speed)", seconds);
   }
@@ -202,7 +202,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   }
   writer_.restore_plane();
   writer_.line("G0 Z{:g}", change_height().value());
-  if (options_.spindle) writer_.line("M5");
+  if (options_.change.spindle) writer_.line("M5");
   writer_.line("G0 X{:g} Y{:g}", options_.change.park.x.value(), options_.change.park.y.value());
   writer_.line("M2");
   writer_.flush();

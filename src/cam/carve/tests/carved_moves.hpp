@@ -2,6 +2,7 @@
 // programs.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -20,7 +21,7 @@ struct ReadMove {
   double from[3] = {};
   double to[3] = {};
   double feed = 0;
-  std::size_t tool = 0;  // number of tool changes before the move
+  std::size_t tool = 1;  // from 1; before the first tool change, the first tool
   std::size_t line = 0;  // line of the program
 };
 
@@ -67,7 +68,11 @@ class ProgramReader {
   }
 
   void add(const double (&to)[3], bool is_arc) {
-    ReadMove move{.is_rapid = motion_ == 0, .is_arc = is_arc, .feed = feed_, .tool = tool_, .line = line_};
+    ReadMove move{.is_rapid = motion_ == 0,
+                  .is_arc = is_arc,
+                  .feed = feed_,
+                  .tool = std::max<std::size_t>(1, tool_),
+                  .line = line_};
     std::copy_n(at_, 3, move.from);
     std::copy_n(to, 3, move.to);
     std::copy_n(to, 3, at_);

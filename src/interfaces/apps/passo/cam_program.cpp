@@ -1,11 +1,13 @@
 #include "cam_program.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "cam_job.hpp"
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/post_processor/post_processor.hpp"
 
 namespace passo {
 namespace {
@@ -34,6 +36,23 @@ LengthUnit unit_of(ProgramUnits units) {
   return units == ProgramUnits::cm ? LengthUnit::cm : units == ProgramUnits::inch ? LengthUnit::inch : LengthUnit::mm;
 }
 
+bool is_plain_program(const CamProgramArguments& arguments) {
+  return controller_of(arguments).knows_all() && arguments.start_text.empty() && arguments.tool_change_text.empty() &&
+         arguments.end_text.empty();
+}
+
+// `units`: of the program that is written. `read_unit`: the unit in which it was made.
+PostProcessorOptions post_processor_options_of(const CamProgramArguments& arguments, const std::string& units,
+                                               LengthUnit read_unit) {
+  PostProcessorOptions options;
+  options.read_unit = read_unit;
+  options.written_unit = unit_of(program_units_of(units));
+  options.spindle_seconds = arguments.spindle_delay;
+  Diagnostics findings;  // program_words_are_good() has shown them
+  read_texts(arguments, options, findings);
+  return options;
+}
+
 int write_in_words(const CamProgramArguments& arguments, const std::string& output, const std::string& text,
                    PostProcessorOptions options) {
   std::string written;
@@ -54,11 +73,6 @@ void set_place(PostProcessorOptions& options, DrawnPoint park, Nanometres height
 
 }  // namespace
 
-bool is_plain_program(const CamProgramArguments& arguments) {
-  return controller_of(arguments).knows_all() && arguments.start_text.empty() && arguments.tool_change_text.empty() &&
-         arguments.end_text.empty();
-}
-
 bool program_words_are_good(const CamProgramArguments& arguments, const std::string& units) {
   if (!controller_of(arguments).knows_all() && units == "cm") {
     fail(exit_bad_program, fmt::format("--for {}: expected --units mm or inch, found cm", arguments.controller));
@@ -76,17 +90,6 @@ SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments&
           .spindle_seconds = arguments.spindle_delay};
 }
 
-PostProcessorOptions post_processor_options_of(const CamProgramArguments& arguments, const std::string& units,
-                                               LengthUnit read_unit) {
-  PostProcessorOptions options;
-  options.read_unit = read_unit;
-  options.written_unit = unit_of(program_units_of(units));
-  options.spindle_seconds = arguments.spindle_delay;
-  Diagnostics findings;  // program_words_are_good() has shown them
-  read_texts(arguments, options, findings);
-  return options;
-}
-
 int write_program(const CamMillArguments& arguments, const MillPlan& plan, const MillProgramOptions& options) {
   const std::string text = write_mill_program(plan, options);
   if (is_plain_program(arguments)) return write_text(arguments.output, text);
@@ -94,7 +97,7 @@ int write_program(const CamMillArguments& arguments, const MillPlan& plan, const
   words.program = options.name;
   words.spindle = options.spindle;
   for (const MillTool& tool : plan.tools) words.tools.push_back({tool.words, to_mm(tool.width).value()});
-  set_place(words, options.park, options.change.height, *mm_of_unit(arguments.units));
+  set_place(words, options.park, std::max(options.change.height, options.clearance), *mm_of_unit(arguments.units));
   return write_in_words(arguments, arguments.output, text, std::move(words));
 }
 
@@ -110,7 +113,7 @@ int write_program(const CamDrillArguments& arguments, const DrillPlan& plan, con
     const double diameter = to_mm(tool.diameter).value();
     words.tools.push_back({fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", diameter), diameter});
   }
-  set_place(words, options.park, options.change.height, *mm_of_unit(arguments.units));
+  set_place(words, options.park, std::max(options.change.height, options.clearance), *mm_of_unit(arguments.units));
   return write_in_words(arguments, arguments.output, text, std::move(words));
 }
 
@@ -122,6 +125,30 @@ int write_program(const CamMillArguments& arguments, const std::string& text, co
   words.program = name;
   set_place(words, park, {}, *mm_of_unit(arguments.units));
   return write_in_words(arguments, arguments.output, text, std::move(words));
+}
+
+ReliefReport write_relief_in_words(const CamReliefArguments& arguments, const ReliefProgramOptions& program,
+                                   OutputFile& file, std::optional<std::string>& refused,
+                                   const std::function<ReliefReport(const ReliefSink&)>& make) {
+  const auto to_file = [&](std::string_view text) { file.write(text); };
+  if (is_plain_program(arguments) && arguments.units == "mm") return make(to_file);
+  PostProcessorOptions options = post_processor_options_of(arguments, arguments.units, LengthUnit::mm);
+  options.program = program.name;
+  options.spindle = program.change.spindle;
+  const auto add = [&](const ReliefTool& tool) {
+    options.tools.push_back({describe(tool.cutter), 2 * tool.cutter.radius.value()});
+  };
+  if (program.roughing) add(program.roughing->tool);
+  add(program.finish);
+  if (program.rest) add(program.rest->tool);
+  const double unit = *mm_of_unit(arguments.units);
+  options.park_x = program.change.park.x.value() / unit;
+  options.park_y = program.change.park.y.value() / unit;
+  options.change_height = std::max(program.change.height, program.clearance).value() / unit;
+  PostProcessor words(*find_controller(arguments.controller), std::move(options), to_file);
+  ReliefReport report = make([&](std::string_view text) { words.add(text); });
+  refused = words.finish();
+  return report;
 }
 
 }  // namespace passo

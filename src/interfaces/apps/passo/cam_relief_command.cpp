@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <numbers>
 #include <thread>
 
 #include "cam_commands.hpp"
+#include "cam_job.hpp"
 #include "cam_program.hpp"
 #include "length_argument.hpp"
 #include "named_files.hpp"
@@ -179,10 +179,10 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   read_rows(arguments, program, read);
   program.ramps = arguments.entry == "ramp";
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
-  if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.change = {.height = read.length("--change-height", arguments.change_height, least_length, Mm(1000)),
                     .park = read.place("--park", arguments.park),
                     .spindle_seconds = arguments.spindle_delay};
+  if (arguments.spindle > 0) program.change.spindle = arguments.spindle;
   program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   return program;
 }
@@ -432,40 +432,6 @@ std::string summary_of(const ReliefReport& report) {
   return text;
 }
 
-// The program passes through the words of its controller while it is made. `refused`: why that is not possible.
-ReliefReport write_in_words(const CamReliefArguments& arguments, const ReliefProgramOptions& program, OutputFile& file,
-                            std::optional<std::string>& refused,
-                            const std::function<ReliefReport(const ReliefSink&)>& make) {
-  const auto to_file = [&](std::string_view text) { file.write(text); };
-  if (is_plain_program(arguments) && arguments.units == "mm") return make(to_file);
-  PostProcessorOptions options = post_processor_options_of(arguments, arguments.units, LengthUnit::mm);
-  options.program = program.name;
-  options.spindle = program.spindle;
-  const auto add = [&](const ReliefTool& tool) {
-    options.tools.push_back({describe(tool.cutter), 2 * tool.cutter.radius.value()});
-  };
-  if (program.roughing) add(program.roughing->tool);
-  add(program.finish);
-  if (program.rest) add(program.rest->tool);
-  const double unit = *mm_of_unit(arguments.units);
-  options.park_x = program.change.park.x.value() / unit;
-  options.park_y = program.change.park.y.value() / unit;
-  options.change_height = program.change.height.value() / unit;
-  PostProcessor words(*find_controller(arguments.controller), std::move(options), to_file);
-  ReliefReport report = make([&](std::string_view text) { words.add(text); });
-  refused = words.finish();
-  return report;
-}
-
-int draw(const std::string& path, const std::string& bytes) {
-  if (bytes.empty()) return fail(exit_failed, "the picture cannot be drawn: out of memory");
-  Result<OutputFile, OutputError> file = OutputFile::open(path);
-  if (!file) return fail(exit_failed, file.error().message);
-  file->write(bytes);
-  const Status<OutputError> written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error().message);
-}
-
 }  // namespace
 
 int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress) {
@@ -509,15 +475,17 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!file) return fail(exit_failed, file.error().message);
   std::optional<std::string> refused;
-  const ReliefReport report = write_in_words(arguments, job.program, *file, refused, [&](const ReliefSink& sink) {
-    return write_relief(read->grid, job.program, sink, progress.part(0.05, 0.95), !arguments.picture.empty());
-  });
+  const ReliefReport report =
+      write_relief_in_words(arguments, job.program, *file, refused, [&](const ReliefSink& sink) {
+        return write_relief(read->grid, job.program, sink, progress.part(0.05, 0.95), !arguments.picture.empty());
+      });
   if (refused) return fail(exit_bad_program, fmt::format("--for {}: {}", arguments.controller, *refused));
   ProgressDisplay::clear_shown();  // the program may go to the same terminal
   if (const Status<OutputError> written = file->commit(); !written) return fail(exit_failed, written.error().message);
   if (!arguments.picture.empty()) {
     const std::string picture = draw_carved(report.carved, read->grid.pitch_x, read->grid.pitch_y);
-    if (const int code = draw(arguments.picture, picture); code != exit_done) return code;
+    if (picture.empty()) return fail(exit_failed, "the picture cannot be drawn: out of memory");
+    if (const int code = write_text(arguments.picture, picture); code != exit_done) return code;
   }
   progress.update(1);
   if (!arguments.output.empty() && arguments.output != "-") {

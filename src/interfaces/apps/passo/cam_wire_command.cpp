@@ -15,6 +15,7 @@
 #include "passo/cam/wire_core.hpp"
 #include "passo/cam/wire_program.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/post_processor/controller_words.hpp"
 #include "passo/report/wire_picture.hpp"
 
 namespace passo {

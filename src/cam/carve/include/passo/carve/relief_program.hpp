@@ -83,11 +83,12 @@ struct ReliefArea {
   bool is_all() const { return !only_on_model && within.empty(); }
 };
 
-// Where the program starts, changes tools and ends, and how long its spindle needs to reach its speed.
+// Where the program starts, changes tools and ends, and its spindle.
 struct ReliefChange {
   Mm height{30};  // Z of the first and the last rapid, and of tool changes; at least the clearance height
   ReliefPoint park = {};
-  double spindle_seconds = 2;  // dwell after M3
+  std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
+  double spindle_seconds = 2;                 // dwell after M3
 };
 
 struct ReliefProgramOptions {
@@ -99,13 +100,12 @@ struct ReliefProgramOptions {
   ReliefRows rows = {};
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
-  Mm scallop{0.02};                           // scallop height between two rows on a flat area, if no stepover is given
-  Mm tolerance{0.01};                         // tolerance of lines, upward only
-  Mm clearance{5};                            // clearance height
-  bool ramps = true;                          // enter the stock along a ramp; otherwise straight down
-  Radians ramp{0.0873};                       // ramp angle
-  std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
-  Mm x0{0};                                   // position of node (0, 0)
+  Mm scallop{0.02};      // scallop height between two rows on a flat area, if no stepover is given
+  Mm tolerance{0.01};    // tolerance of lines, upward only
+  Mm clearance{5};       // clearance height
+  bool ramps = true;     // enter the stock along a ramp; otherwise straight down
+  Radians ramp{0.0873};  // ramp angle
+  Mm x0{0};              // position of node (0, 0)
   Mm y0{0};
   // Empty: the finishing cutter's radius; for the roughing cutter at least its own radius.
   std::optional<Mm> overrun = {};
