@@ -29,6 +29,9 @@ std::vector<CamOption> mill_rows(CamMillArguments& arguments, CamFor layer = exp
 // The options for cutting along an edge: depths, tabs, ramps, lead-ins.
 std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
 
+// A tool library, and what the chosen tool cuts.
+std::vector<CamOption> tool_rows(CamToolArguments& arguments);
+
 // The unit of the program, and of lengths given without a unit.
 CamOption units_row(std::string& units);
 // The unit of the numbers in the files.

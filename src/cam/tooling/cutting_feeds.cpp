@@ -78,6 +78,7 @@ class FeedFinder {
   void find_feed();
   void find_plunge();
   double most_rpm() const;
+  const char* limit_in_words() const;  // what sets most_rpm()
 
   const CuttingTool& tool_;
   const FeedRequest& request_;
@@ -96,6 +97,12 @@ void FeedFinder::find_pass() {
          table_.pass_share == 1 ? std::string("as deep as the diameter, for which the chart holds")
                                 : fmt::format("{:g} of the diameter, a light cut", table_.pass_share),
          table_.pass_source);
+    const bool is_cone = tool_.shape == CuttingShape::vee || tool_.shape == CuttingShape::taper;
+    const Mm half = shape_of(tool_).cutter.height(tool_.diameter / 4);
+    if (is_cone && half > Mm(0) && pass > half) {
+      pass = half;
+      tell("depth", "not deeper than where the cone is half as wide as the tool");
+    }
     if (tool_.flute_length > Mm(0) && pass > tool_.flute_length) {
       pass = tool_.flute_length;
       tell("depth", fmt::format("the flutes are {:g} mm long", pass.value()));
@@ -149,10 +156,14 @@ double FeedFinder::most_rpm() const {
   return tool_.most_rpm ? std::min(*tool_.most_rpm, spindle) : spindle;
 }
 
+const char* FeedFinder::limit_in_words() const {
+  if (tool_.most_rpm && *tool_.most_rpm <= most_rpm()) return "the limit of the tool";
+  return request_.spindle.most_rpm > 0 ? "the limit of the spindle" : "as fast as the usual spindles of routers";
+}
+
 void FeedFinder::find_rpm() {
   double rpm = table_.usual_rpm > 0 ? table_.usual_rpm : most_rpm();
-  std::string why = table_.usual_rpm > 0 ? fmt::format("{:g} rpm, as routers turn", rpm)
-                                         : fmt::format("{:g} rpm, the most that spindle and tool permit", rpm);
+  std::string why = fmt::format("{:g} rpm, {}", rpm, table_.usual_rpm > 0 ? "as routers turn" : limit_in_words());
   std::string_view source = table_.usual_rpm > 0 ? chips::yeti : std::string_view();
   if (table_.surface_speed > 0) {
     const bool is_hss = tool_.material == ToolMaterial::hss;
@@ -173,12 +184,7 @@ void FeedFinder::find_rpm() {
   tell("spindle", why, source);
   if (rpm > most_rpm()) {
     rpm = most_rpm();
-    const bool by_tool = tool_.most_rpm && *tool_.most_rpm <= rpm;
-    const bool is_known = by_tool || request_.spindle.most_rpm > 0;
-    tell("spindle", fmt::format("at most {:g} rpm, {}", rpm,
-                                by_tool    ? "the limit of the tool"
-                                : is_known ? "the limit of the spindle"
-                                           : "as nothing is known about the spindle"));
+    tell("spindle", fmt::format("at most {:g} rpm, {}", rpm, limit_in_words()));
   }
   const double least = std::max(request_.spindle.least_rpm, fewest_rpm);
   if (rpm < least) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cam_part.hpp"
+#include "cam_tools.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -117,7 +118,7 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
   }
   progress.update(1);
   if (arguments.json) {
-    fmt::print("{}\n", result.json);
+    fmt::print("{}\n", with_tool_warnings(result.json, arguments));
     return exit_done;
   }
   return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,

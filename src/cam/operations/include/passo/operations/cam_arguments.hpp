@@ -13,7 +13,17 @@
 
 namespace passo {
 
-struct CamDrillArguments {
+// The tools of a library. Options for a cutter then take its number: T3.
+struct CamToolArguments {
+  std::string tool_table;  // tool library (TOML); empty: none
+  std::string material;    // what is cut; empty: feeds are the options'
+  std::string limits;      // machine file, whose speeds limit those of the tables; empty: none
+  // Not options: what the command line has found in the library, for the head of the program and for the summary.
+  std::vector<std::string> tool_remarks = {};
+  std::string tool_warnings_json = {};
+};
+
+struct CamDrillArguments : CamToolArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -46,8 +56,8 @@ struct CamDrillArguments {
 };
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
-// The arguments of every milling operation.
-struct CamMillArguments {
+// The arguments of every milling operation. Profile, pocket and engrave have the options of the tools.
+struct CamMillArguments : CamToolArguments {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -224,7 +234,7 @@ struct CamBoardArguments {
 std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 
 // Lengths without a unit are in mm. Cutters are in the format of parse_cutter().
-struct CamReliefArguments {
+struct CamReliefArguments : CamToolArguments {
   std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none
