@@ -116,7 +116,10 @@ const CuttingTool* ToolShelf::find(const char* option, const std::string& text,
   const CuttingTool* const tool = find(option, text);
   if (tool == nullptr || std::ranges::find(shapes, tool->shape) != shapes.end()) return tool;
   std::string expected;
-  for (const CuttingShape shape : shapes) expected += (expected.empty() ? "" : " or ") + std::string(name_of(shape));
+  for (const CuttingShape shape : shapes) {
+    const bool is_last = shape == *(shapes.end() - 1);
+    expected += (expected.empty() ? "" : is_last ? " or " : ", ") + std::string(name_of(shape));
+  }
   code_ = fail(exit_bad_program, fmt::format("{}: expected a tool of shape {}, found {} [tool.wrong-shape]", option,
                                              expected, describe(*tool)));
   return nullptr;
