@@ -9,18 +9,21 @@ export function readToolFile(text: string): Record<string, StockTool> {
   let values: Record<string, string> = {};
   const take = (number: string): void => {
     const size = (key: string, usual: number): number => (values[key] === undefined ? usual : Number(values[key]));
-    const kind = (values.shape ?? '').replace(/["']/g, '');
+    const shape = (values.shape ?? '').replace(/["']/g, '');
+    // A drill cuts as a cone with its point angle.
+    const isDrill = shape === 'drill';
+    const kind = isDrill ? 'vee' : shape;
     const tool: StockTool = {
       kind: kind as ToolKind,
       diameter: size('diameter_mm', NaN),
-      angle: size('angle_deg', 60),
+      angle: size('angle_deg', isDrill ? 118 : 60),
       tip: kind === 'bull' ? size('corner_radius_mm', NaN) : size('tip_diameter_mm', 0),
     };
     if (kindNames.includes(kind) && isGoodTool(tool)) tools[number] = tool;
   };
   let number = '';
   for (const line of text.split(/\r?\n/)) {
-    const bare = line.replace(/#.*$/, '').trim();
+    const bare = line.replace(/("[^"]*"|'[^']*')|#.*$/g, '$1').trim();
     const table = /^\[\s*tool\s*\.\s*(\d+)\s*\]$/.exec(bare);
     if (bare.startsWith('[')) {
       if (number !== '') take(number);

@@ -67,6 +67,7 @@ void DrillProgram::begin() {
     line("(tool {}: {}, {})", i + 1, diameter_words(plan_.tools[i]), contents_of(plan_.tools[i]));
   }
   line("(X0 Y0 is the drawing's zero, Z0 the face of the board)");
+  for (const std::string& remark : options_.remarks) line("({})", in_comment(remark));
   text_.begin_modes();
 }
 

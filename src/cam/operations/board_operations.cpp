@@ -28,8 +28,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
       {"tools", &a.tools, length,
        "diameters of the available drills, e.g. 0.8,1.0,1.3 (default: one drill for each hole diameter)"},
       {"tolerance", &a.tolerance, length, "largest difference between a hole and its drill from --tools", experts_only},
-      {"drill", &a.drill, length, "diameter of a single drill that makes every hole"},
-      {"mill", &a.mill, length, "diameter of a milling cutter, which makes the wider holes and all slots"},
+      {"drill", &a.drill, length, "diameter of a single drill that makes every hole, or its number in --tool-table"},
+      {"mill", &a.mill, length, "diameter of a milling cutter, which makes the wider holes and all slots, or its number in --tool-table"},
       {"mill-step", &a.mill_step, length, "depth of one helical turn of the milling cutter", experts_only},
       clearance_row(a.clearance, "clearance height: rapids run this far above the board"),
       {"feed-height", &a.feed_height, length, "height above the board down to which the drill goes by rapid",
@@ -47,7 +47,7 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
        "largest number of search steps for the order of each tool's holes",
        {.range = CamRange{0, 1e10}, .matters_to = CamFor::programs}},
   };
-  return all_of({rows, program_rows(a)});
+  return all_of({rows, tool_rows(a), program_rows(a)});
 }
 
 std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {

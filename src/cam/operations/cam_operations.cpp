@@ -19,6 +19,8 @@ Examples:
                                                            the cutter's centre follows the lines, also open ones
   passo cam profile window.svg --side inside --tool 2 --ramp 3 --lead 2 -o window.ngc
   passo cam profile sheet.svg --layer cut --zero lower-left -p sheet.png -o sheet.ngc
+  passo cam profile bracket.dxf --depth -6 --tool-table tools.toml --tool T1 --material plywood -o bracket.ngc
+                                                           feeds, spindle speed and depth of a pass from a tool library
   passo cam profile sheet.svg --for linuxcnc -o sheet.ngc  in the words of another controller
 
 All options: docs/manual/parts.md.)";
@@ -31,6 +33,7 @@ constexpr const char* pocket_examples =
   passo cam pocket tray.svg --tool 6 --depth -12 --step 12 --engagement 60 -o tray.ngc
                                                            full flute length, never a full slot: for hard materials
   passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
+  passo cam pocket tray.svg --depth -8 --tool-table tools.toml --tool T1 --material hardwood --limits router.toml -o tray.ngc
 
 A contour inside another contour is an island, which stays. All options: docs/manual/parts.md.)";
 
@@ -169,24 +172,24 @@ constexpr std::array board_parts = {"drill", "isolate", "outline"};
 constexpr std::array operations = {
     CamOperation{.name = "profile",
                  .purpose = "cut parts out along the contours of a drawing, or cut on its lines",
-                 .accepts = ".svg,.dxf,.hpgl,.plt",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.toml",
                  .examples = profile_examples,
                  .options = options_with_defaults<CamProfileArguments>},
     CamOperation{.name = "pocket",
                  .purpose = "clear the areas inside the closed contours of a drawing",
-                 .accepts = ".svg,.dxf,.hpgl,.plt",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.toml",
                  .examples = pocket_examples,
                  .options = options_with_defaults<CamPocketArguments>},
     CamOperation{.name = "engrave",
                  .purpose = "carve text, drawings and traced pictures with a V-shaped cutter",
-                 .accepts = ".svg,.dxf,.hpgl,.plt,.ttf,.otf,.lff,.jhf,.png,.tif,.tiff",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.ttf,.otf,.lff,.jhf,.png,.tif,.tiff,.toml",
                  .examples = engrave_examples,
                  .options = options_with_defaults<CamEngraveArguments>,
                  .instead_of_files = "text"},
     CamOperation{
         .name = "drill",
         .purpose = "drill the holes of DXF drawings, Excellon drill files and boards of KiCad, EAGLE or EasyEDA",
-        .accepts = ".drl,.xln,.exc,.txt,.dxf,.kicad_pcb,.brd,.json",
+        .accepts = ".drl,.xln,.exc,.txt,.dxf,.kicad_pcb,.brd,.json,.toml",
         .examples = drill_examples,
         .options = options_with_defaults<CamDrillArguments>},
     CamOperation{.name = "isolate",
@@ -209,7 +212,7 @@ constexpr std::array operations = {
         .parts = board_parts},
     CamOperation{.name = "relief",
                  .purpose = "carve a relief from a picture, or from a model seen from above",
-                 .accepts = ".png,.jpg,.jpeg,.tif,.tiff,.stl,.3mf,.csv,.xyz",
+                 .accepts = ".png,.jpg,.jpeg,.tif,.tiff,.stl,.3mf,.csv,.xyz,.toml",
                  .examples = relief_examples,
                  .options = options_with_defaults<CamReliefArguments>,
                  .picture_ending = ".png"},

@@ -10,6 +10,25 @@ std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> part
   return rows;
 }
 
+std::vector<CamOption> tool_rows(CamToolArguments& a) {
+  using enum CamKind;
+  return {
+      {"tool-table", &a.tool_table, file, "tool library (TOML): cutters are then given by their numbers, e.g. T3",
+       of_one_job},
+      {"material",
+       &a.material,
+       choice,
+       "material that is cut: feeds, spindle speed, depth of a pass and stepover follow from it and the tool",
+       {.choices = {"softwood", "hardwood", "plywood", "mdf", "acrylic", "hdpe", "fr4", "foam", "aluminium", "brass"},
+        .is_of_job = true}},
+      {"limits",
+       &a.limits,
+       file,
+       "machine file, whose highest feed rates and spindle speed limit those of --material",
+       {.matters_to = cli, .is_of_job = true}},
+  };
+}
+
 CamOption units_row(std::string& units) {
   using enum CamKind;
   return {"units",

@@ -33,6 +33,9 @@ std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
 std::vector<CamOption> controller_rows(CamProgramArguments& arguments);
 // The same, and the height of tool changes and the dwell of the spindle.
 std::vector<CamOption> program_rows(CamProgramArguments& arguments);
+// A tool library, and what the chosen tool cuts.
+std::vector<CamOption> tool_rows(CamToolArguments& arguments);
+
 // The unit of the program, and of lengths given without a unit.
 CamOption units_row(std::string& units);
 // The unit of the numbers in the files.

@@ -24,6 +24,7 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
         choice,
         "side of the line: part (outside the contours, inside their holes), outside, inside, or on (the line)",
         {.choices = {"part", "outside", "inside", "on"}}}},
+      tool_rows(a),
       edge_rows(a),
       mill_rows(a, CamFor::everyone),
       {sheet_row(a.sheet)},
@@ -33,8 +34,9 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
 std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, drawings, vector_drawings, are_needed},
-       {"tool", &a.tool, length, "diameter of the cutter"},
+      {{"FILE", &a.files, drawings, vector_drawings, are_needed}},
+      tool_rows(a),
+      {{"tool", &a.tool, length, "diameter of the cutter, or its number in --tool-table"},
        {"depth", &a.depth, length, "depth of the pocket, a negative Z", {.is_of_machine = true}},
        {"step", &a.step, length, "largest depth of a layer"},
        {"step-over", &a.step_over, percent, "stepover, % of the cutter's diameter", {.range = CamRange{1, 95}}},
@@ -111,11 +113,13 @@ std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
   return {
       {"angle", &a.angle, degrees, "included angle of the V-shaped cutter, degrees", {.range = CamRange{5, 170}}},
       {"tip", &a.tip, length, "tip width of the V-shaped cutter"},
-      {"tool", &a.tool, length, "diameter of the V-shaped cutter, the widest groove that it can carve"},
+      {"tool", &a.tool, length,
+       "diameter of the V-shaped cutter, the widest groove that it can carve; or its number in --tool-table"},
       {"depth", &a.depth, length,
        "lowest Z, negative (default: as deep as the cutter's width allows; along lines -0.3mm)"},
       {"step", &a.step, length, "depth of a layer (default: full depth in one pass)", experts_only},
-      {"clear", &a.clear, length, "diameter of a flat cutter that clears wide areas first"},
+      {"clear", &a.clear, length,
+       "diameter of a flat cutter that clears wide areas first, or its number in --tool-table"},
       {"clear-step", &a.clear_step, length, "largest depth of a clearing layer", experts_only},
       {"inlay",
        &a.inlay,
@@ -139,6 +143,7 @@ std::vector<CamOption> cam_options_of(CamEngraveArguments& a) {
         "drawings: SVG, DXF or HPGL; closed contours are carved out. With --trace: pictures"}},
       letter_rows(a),
       trace_rows(a),
+      tool_rows(a),
       carving_rows(a),
       mill_rows(a),
       {sheet_row(a.sheet)},

@@ -80,7 +80,7 @@ std::vector<CamOption> shape_rows(CamReliefArguments& a) {
 std::vector<CamOption> finishing_rows(CamReliefArguments& a) {
   using enum CamKind;
   return {
-      {"cutter", &a.cutter, text, "finishing cutter"},
+      {"cutter", &a.cutter, text, "finishing cutter, e.g. ball:3, or its number in --tool-table"},
       {"way",
        &a.way,
        choice,
@@ -143,7 +143,7 @@ std::vector<CamOption> finishing_rows(CamReliefArguments& a) {
 std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
   using enum CamKind;
   return {
-      {"rough", &a.rough, text, "roughing cutter, which works level by level"},
+      {"rough", &a.rough, text, "roughing cutter, which works level by level; or its number"},
       {"rough-way",
        &a.rough_strategy,
        choice,
@@ -160,7 +160,8 @@ std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
        removal,
        "target removal rate of this cutter, mm3/min",
        {.range = any_removal, .matters_to = experts}},
-      {"rest", &a.rest, text, "rest-machining cutter, for areas that the finishing cutter is too large for"},
+      {"rest", &a.rest, text,
+       "rest-machining cutter, for areas that the finishing cutter is too large for; or its number"},
       {"rest-step", &a.rest_step, length, "stepover of rest machining (default: from --scallop)", experts_only},
       {"rest-least", &a.rest_least, length,
        "material that the finishing cutter may leave; areas with more get rest machining", experts_only},
@@ -191,6 +192,7 @@ std::vector<CamOption> cam_options_of(CamReliefArguments& a) {
         "unit of the program, and of lengths given without a unit: mm or inch",
         {.choices = {"mm", "inch"}, .matters_to = experts}}},
       shape_rows(a),
+      tool_rows(a),
       finishing_rows(a),
       roughing_rows(a),
       {park_row(a.park)},

@@ -107,6 +107,11 @@ Result<CamOrder, std::string> order_from(const Json& said, const std::vector<std
   return order;
 }
 
+// Whether feeds follow from a tool library, so that the machine's limits hold.
+bool has_tools(const CamOrder& order) {
+  return std::ranges::any_of(order.options, [](const std::string& word) { return word.starts_with("--tool-table="); });
+}
+
 }  // namespace
 
 WebAnswer CamApi::state_answer(unsigned status) {
@@ -188,7 +193,8 @@ WebAnswer CamApi::begin(const ApiCall& call) {
   auto order = order_from(said, maker.files());
   if (!order) return bad_body(order.error());
   const MachineFileAccess& file = shared_.options.machine_access;
-  if (!find_cam_operation(order->job)->parts.empty() && file.read) order->machine = file.read().value_or("");
+  const bool has_parts = !find_cam_operation(order->job)->parts.empty();
+  if ((has_parts || has_tools(*order)) && file.read) order->machine = file.read().value_or("");
   if (!maker.begin(*order)) {
     if (maker.result().state == CamResult::State::running)
       return error_answer(409, "make.busy", "another program is being generated");

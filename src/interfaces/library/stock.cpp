@@ -9,6 +9,7 @@
 #include "passo/cutting/simulation.hpp"
 #include "passo/cutting/stock_job.hpp"
 #include "passo/library/picture.hpp"
+#include "passo/tooling/tool_library.hpp"
 
 namespace passo::v1 {
 namespace {
@@ -104,7 +105,8 @@ Outcome<Stock> cut_stock(const Program& program, const StockOptions& options) {
   if (options.cell_mm > 0) wishes.cell = options.cell_mm;
   if (options.tool) wishes.any_tool = shape_of(*options.tool);
   if (!options.tools_file.empty()) {
-    if (auto shapes = passo::read_tool_shapes(options.tools_file, diagnostics)) wishes.shapes = std::move(*shapes);
+    if (const auto library = passo::ToolLibrary::read(options.tools_file, diagnostics))
+      wishes.shapes = library->shapes();
   }
   passo::InterpreterOptions read = interpreter_options_of(options.read, diagnostics);
   if (diagnostics.any_error()) return Outcome<Stock>(findings_of(diagnostics));

@@ -65,6 +65,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   for (const std::string& file : arguments.files) {
     program.files.push_back(std::filesystem::path(file).filename().string());
   }
+  program.remarks = arguments.tool_remarks;
   program.units = program_units_of(arguments.units);
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
   program.feed_height = lengths.above_0("--feed-height", arguments.feed_height);

@@ -112,6 +112,7 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
                                           is_x ? "from left to right" : "from top to bottom", is_x ? "X" : "Y",
                                           to_mm(job.mirror.at).value()));
   }
+  program.remarks.insert(program.remarks.end(), arguments.tool_remarks.begin(), arguments.tool_remarks.end());
   program.units = program_units_of(arguments.units);
   program.clearance = lengths.above_0("--clearance", arguments.clearance);
   program.feed = lengths.above_0("--feed", arguments.feed);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <type_traits>
 
+#include "cam_tools.hpp"
 #include "command_table.hpp"
 #include "number_range.hpp"
 #include "progress_display.hpp"
@@ -105,6 +106,17 @@ int shown(const Arguments& arguments) {
 template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
 constexpr auto operation_of = options_of<Arguments, add_cam_options<Arguments>, shown<Arguments, run>>;
 
+// The same for an operation whose cutters can be tools of a library.
+template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
+std::function<int()> with_tools(CLI::App& command) {
+  const auto arguments = std::make_shared<Arguments>();
+  add_cam_options(command, *arguments);
+  return [arguments, &command] {
+    const int code = use_tools(*arguments, [&](const char* option) { return command.count(option) > 0; });
+    return code == exit_done ? run_with_progress(*arguments, run) : code;
+  };
+}
+
 // The options of a command whose options can be remembered for a machine. `part` is the member that they fill in.
 template <auto part, auto run>
 std::function<int()> remembered_of(CLI::App& command) {
@@ -112,8 +124,11 @@ std::function<int()> remembered_of(CLI::App& command) {
   add_cam_options(command, (*all).*part);
   add_remember_options(command, *all);
   return [all, &command] {
-    const int code = use_remembered(command, *all);
-    if (code != exit_done) return code;
+    if (const int code = use_remembered(command, *all); code != exit_done) return code;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype((*all).*part)>, CamDrillArguments>) {
+      const int code = use_tools((*all).*part, [&](const char* option) { return command.count(option) > 0; });
+      if (code != exit_done) return code;
+    }
     return run_with_progress((*all).*part, [](const auto& arguments, const WorkProgress& progress) {
       return run(arguments, progress, nullptr, nullptr);
     });
@@ -153,12 +168,12 @@ std::span<const Command> cam_commands() {
        command_of("isolate", remembered_of<&CamArguments::isolate, cam_isolate>),
        command_of("outline", remembered_of<&CamArguments::outline, cam_outline>),
        command_of("board", operation_of<CamBoardArguments, make_board_job>),
-       command_of("profile", operation_of<CamProfileArguments, cam_profile>),
-       command_of("pocket", operation_of<CamPocketArguments, cam_pocket>),
-       command_of("engrave", operation_of<CamEngraveArguments, cam_engrave>),
+       command_of("profile", with_tools<CamProfileArguments, cam_profile>),
+       command_of("pocket", with_tools<CamPocketArguments, cam_pocket>),
+       command_of("engrave", with_tools<CamEngraveArguments, cam_engrave>),
        command_of("plot", operation_of<CamPlotArguments, cam_plot>),
        command_of("wire", operation_of<CamWireArguments, cam_wire>),
-       command_of("relief", operation_of<CamReliefArguments, cam_relief>)}};
+       command_of("relief", with_tools<CamReliefArguments, cam_relief>)}};
   return commands;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cam_part.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -118,7 +119,7 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
   }
   progress.update(1);
   if (arguments.json) {
-    fmt::print("{}\n", result.json);
+    fmt::print("{}\n", with_tool_warnings(result.json, arguments));
     return exit_done;
   }
   return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,

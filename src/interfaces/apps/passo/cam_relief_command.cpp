@@ -471,6 +471,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   }
   const std::string what = std::filesystem::path(arguments.file).filename().string();
   job.program.words = {fmt::format("from {}: {}", what, read->words), grid_words(read->grid)};
+  for (const std::string& remark : arguments.tool_remarks) job.program.words.push_back(remark);
 
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!file) return fail(exit_failed, file.error().message);

@@ -25,6 +25,7 @@
 #include "program_options.hpp"
 #include "simulate_options.hpp"
 #include "study_options.hpp"
+#include "tools_options.hpp"
 #include <CLI/CLI.hpp>
 
 #include "passo/operations/study_arguments.hpp"
@@ -55,6 +56,7 @@ constexpr const char* examples = R"(Examples:
   passo probe corner --side front-left -o corner.ngc          generate a probing program
   passo level board.ngc --map board.csv -o level.ngc          apply a height map to a program
   passo cam drill pads.dxf -o board.ngc                       generate a program for the holes of a circuit board
+  passo tools feeds tools.toml -t 3 --material plywood        calculate feeds and speeds of a cutter
   passo board list                                            list the boards on this computer's serial ports
   passo interpolate --compare --to 27,10                      compare how interpolation methods step along a line
   passo motor --help                                          calculate the torque of a stepper motor at each speed
@@ -112,6 +114,7 @@ const std::vector<Command>& all_commands() {
        options_of<LevelArguments, add_level_options, level>},
       {"cam", "generate programs from drawings and pictures: parts, pockets, circuit boards, reliefs", nullptr,
        cam_commands()},
+      {"tools", "list a library of cutters, and calculate their feeds and speeds", nullptr, tools_commands()},
       {"interpolate", "show which axes step at each pulse, with any interpolation method",
        options_of<InterpolateArguments, add_interpolate_options, interpolate>},
       {"ramp", "calculate the step times of ramps and whole moves, with any method",

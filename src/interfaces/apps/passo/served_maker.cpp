@@ -93,6 +93,7 @@ bool ServedMaker::begin(const CamOrder& order) {
     result_.names = {stem_ + "-" + order.job + ".ngc"};
     made_ = {program_file(result_.names.front())};
     words.insert(words.end(), {"--output", made_.front(), "--picture", picture_file(order.job)});
+    if (!order.machine.empty() && !add_file("--limits", board_machine, order.machine)) return failed();
   }
   words.emplace_back("--");
   words.insert(words.end(), order.files.begin(), order.files.end());

@@ -22,8 +22,9 @@
 namespace passo {
 
 struct DrillProgramOptions {
-  std::string name = {};                // program name, for the first comment
-  std::vector<std::string> files = {};  // names of the drawing files
+  std::string name = {};                  // program name, for the first comment
+  std::vector<std::string> files = {};    // names of the drawing files
+  std::vector<std::string> remarks = {};  // comments at the head of the program
   ProgramUnits units = ProgramUnits::mm;
   Nanometres clearance{2'000'000};            // clearance height above the board
   Nanometres feed_height{500'000};            // height above the board at which the feed begins, at most `clearance`

@@ -23,7 +23,17 @@ struct CamProgramArguments {
   double spindle_delay = 2;            // seconds
 };
 
-struct CamDrillArguments : CamProgramArguments {
+// The tools of a library. Options for a cutter then take its number: T3.
+struct CamToolArguments {
+  std::string tool_table;  // tool library (TOML); empty: none
+  std::string material;    // what is cut; empty: feeds are the options'
+  std::string limits;      // machine file, whose speeds limit those of the tables; empty: none
+  // Not options: what the command line has found in the library, for the head of the program and for the summary.
+  std::vector<std::string> tool_remarks = {};
+  std::string tool_warnings_json = {};
+};
+
+struct CamDrillArguments : CamProgramArguments, CamToolArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -56,8 +66,8 @@ struct CamDrillArguments : CamProgramArguments {
 };
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
-// The arguments of every milling operation.
-struct CamMillArguments : CamProgramArguments {
+// The arguments of every milling operation. Profile, pocket and engrave have the options of the tools.
+struct CamMillArguments : CamProgramArguments, CamToolArguments {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -234,7 +244,7 @@ struct CamBoardArguments {
 std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 
 // Cutters are in the format of parse_cutter().
-struct CamReliefArguments : CamProgramArguments {
+struct CamReliefArguments : CamProgramArguments, CamToolArguments {
   std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none

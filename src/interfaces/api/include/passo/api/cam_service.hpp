@@ -18,8 +18,8 @@ struct CamOrder {
   std::vector<std::string> files;    // names of kept files
   std::vector<std::string> options;  // "--depth=-2"
   std::string profile = {};          // for a board: options of the required commands, as TOML; empty: none
-  std::string machine = {};          // for a board: contents of the machine file, for the time estimates; empty:
-                                     // unknown
+  std::string machine = {};          // contents of the machine file, for the time estimates of a board and for the
+                                     // limits of feeds from a tool library; empty: unknown
 };
 
 struct CamResult {

@@ -1,0 +1,177 @@
+#include "tools_command.hpp"
+
+#include <cstdio>
+#include <numbers>
+
+#include "commands.hpp"
+#include "program_input.hpp"
+#include "tool_limits.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "passo/tooling/cutting_feeds.hpp"
+#include "passo/tooling/tool_library.hpp"
+
+namespace passo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+std::optional<ToolLibrary> shown_library(const std::string& path) {
+  Diagnostics findings;
+  auto library = ToolLibrary::read(path, findings);
+  show(findings);
+  return library;
+}
+
+int print_json(const Json& json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  return flush_output();
+}
+
+Json known(Mm length) {
+  return length > Mm(0) ? Json(length.value()) : Json();
+}
+
+Json json_of(const CuttingTool& tool) {
+  Json json = {{"number", tool.number},
+               {"name", tool.name},
+               {"shape", name_of(tool.shape)},
+               {"diameter_mm", tool.diameter.value()}};
+  if (tool.shape == CuttingShape::bull) json["corner_radius_mm"] = tool.corner_radius.value();
+  if (tool.angle.value > 0) json["angle_deg"] = tool.angle.value * degrees_per_radian;
+  if (tool.shape == CuttingShape::vee || tool.shape == CuttingShape::taper) json["tip_diameter_mm"] = tool.tip.value();
+  json["flutes"] = tool.flutes;
+  json["flute_length_mm"] = known(tool.flute_length);
+  json["stick_out_mm"] = known(tool.stick_out);
+  json["holder_diameter_mm"] = known(tool.holder_diameter);
+  json["centre_cutting"] = tool.centre_cutting;
+  json["material"] = name_of(tool.material);
+  json["max_rpm"] = tool.most_rpm ? Json(*tool.most_rpm) : Json();
+  Json loads = Json::object();
+  for (const auto& [material, load] : tool.chip_loads) loads[std::string(name_of(material))] = load.value();
+  json["chip_load_mm"] = loads;
+  return json;
+}
+
+std::string cell(Mm length) {
+  return length > Mm(0) ? fmt::format("{:g}", length.value()) : "-";
+}
+
+double per_minute(MmPerSecond speed) {
+  return speed.value() * seconds_per_minute;
+}
+
+Json json_of(const CuttingTool& tool, WorkMaterial material, const CuttingFeeds& feeds) {
+  Json json = {{"tool", tool.number},
+               {"description", describe(tool)},
+               {"material", name_of(material)},
+               {"rpm", feeds.rpm},
+               {"feed_mm_min", per_minute(feeds.feed)},
+               {"plunge_mm_min", feeds.plunge > MmPerSecond(0) ? Json(per_minute(feeds.plunge)) : Json()},
+               {"depth_per_pass_mm", known(feeds.depth_per_pass)},
+               {"step_over_percent", feeds.step_over > 0 ? Json(feeds.step_over * 100) : Json()},
+               {"chip_load_mm", feeds.chip_load.value()},
+               {"chip_load_least_mm", feeds.chip_range.least.value()},
+               {"chip_load_most_mm", feeds.chip_range.most.value()}};
+  json["reasons"] = Json::array();
+  for (const FeedReason& reason : feeds.reasons) {
+    json["reasons"].push_back(
+        {{"of", reason.of}, {"text", reason.text}, {"source", reason.source.empty() ? Json() : Json(reason.source)}});
+  }
+  return json;
+}
+
+void print_feeds(const CuttingTool& tool, WorkMaterial material, const CuttingFeeds& feeds) {
+  fmt::print("{} in {}\n\n", describe(tool), name_of(material));
+  const auto row = [&](std::string_view name, const std::string& value, std::string_view of) {
+    fmt::print("{:<10} {:<18}", name, value);
+    bool is_first = true;
+    for (const FeedReason& reason : feeds.reasons) {
+      if (reason.of != of) continue;
+      fmt::print("{}{}\n", is_first ? "" : fmt::format("{:29}", ""), reason.text);
+      if (!reason.source.empty()) fmt::print("{:31}{}\n", "", reason.source);
+      is_first = false;
+    }
+    if (is_first) fmt::print("\n");
+  };
+  row("chip load", fmt::format("{:.3g} mm/tooth", feeds.chip_load.value()), "chip load");
+  row("spindle", fmt::format("{:g} rpm", feeds.rpm), "spindle");
+  row("feed", fmt::format("{:g} mm/min", per_minute(feeds.feed)), "feed");
+  row("plunge", feeds.plunge > MmPerSecond(0) ? fmt::format("{:g} mm/min", per_minute(feeds.plunge)) : "none",
+      "plunge");
+  if (feeds.depth_per_pass > Mm(0))
+    row("depth", fmt::format("{:.3g} mm a pass", feeds.depth_per_pass.value()), "depth");
+  if (feeds.step_over > 0) row("stepover", fmt::format("{:g} %", feeds.step_over * 100), "stepover");
+  if (feeds.chip_load < feeds.chip_range.least * 0.5) {
+    note(
+        fmt::format("{:.3g} mm per tooth is less than half of {:.3g} mm: the teeth rub. Use fewer flutes, a smaller "
+                    "tool, or a slower spindle [tool.chip-small]",
+                    feeds.chip_load.value(), feeds.chip_range.least.value()));
+  }
+}
+
+}  // namespace
+
+int tools_list(const ToolsListArguments& arguments) {
+  const auto library = shown_library(arguments.library);
+  if (!library) return exit_bad_program;
+  if (arguments.json) {
+    Json json = Json::array();
+    for (const CuttingTool& tool : library->tools()) json.push_back(json_of(tool));
+    return print_json({{"file", arguments.library}, {"tools", json}});
+  }
+  fmt::print("{:<6} {:<7} {:>8} {:>6} {:>8} {:>9} {:>7}  {:<7}  {}\n", "tool", "shape", "diameter", "flutes", "cuts to",
+             "stick-out", "max rpm", "of", "name");
+  for (const CuttingTool& tool : library->tools()) {
+    const std::string rpm = tool.most_rpm ? fmt::format("{:g}", *tool.most_rpm) : "-";
+    const std::string_view plunges = tool.centre_cutting ? "" : "(does not plunge)";
+    std::string line = fmt::format("{:<6} {:<7} {:>8g} {:>6} {:>8} {:>9} {:>7}  {:<7}  {}{}{}",
+                                   fmt::format("T{}", tool.number), name_of(tool.shape), tool.diameter.value(),
+                                   tool.flutes, cell(tool.flute_length), cell(tool.stick_out), rpm,
+                                   name_of(tool.material), tool.name, tool.name.empty() ? "" : " ", plunges);
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  }
+  return flush_output();
+}
+
+int tools_feeds(const ToolsFeedsArguments& arguments) {
+  const auto library = shown_library(arguments.library);
+  if (!library) return exit_bad_program;
+  const auto number = parse_tool_number(arguments.tool);
+  const CuttingTool* const tool = number ? library->find(*number) : nullptr;
+  if (tool == nullptr) {
+    return fail(exit_bad_program, fmt::format("--tool: expected one of {}, found '{}' [tool.unknown]",
+                                              library->numbers(), arguments.tool));
+  }
+  FeedRequest request{.material = *work_material_of(arguments.material),
+                      .depth = Mm(arguments.depth),
+                      .width = arguments.width / 100,
+                      .rpm = arguments.rpm};
+  if (!arguments.machine.empty()) {
+    Diagnostics findings;
+    const auto machine = load_machine_file(arguments.machine, findings);
+    show(findings);
+    if (!machine) return exit_bad_machine;
+    const ToolLimits limits = tool_limits_of(*machine);
+    request.spindle = limits.spindle;
+    request.most_feed = limits.most_feed;
+    request.most_plunge = limits.most_plunge;
+  }
+  if (arguments.least_rpm) request.spindle.least_rpm = *arguments.least_rpm;
+  if (arguments.most_rpm) request.spindle.most_rpm = *arguments.most_rpm;
+  if (request.spindle.most_rpm > 0 && request.spindle.least_rpm > request.spindle.most_rpm) {
+    return fail(exit_bad_program, fmt::format("--min-rpm: expected at most {:g}, found {:g}", request.spindle.most_rpm,
+                                              request.spindle.least_rpm));
+  }
+  const CuttingFeeds feeds = feeds_of(*tool, request);
+  if (arguments.json) return print_json(json_of(*tool, request.material, feeds));
+  print_feeds(*tool, request.material, feeds);
+  return flush_output();
+}
+
+}  // namespace passo
