@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "table_reader.hpp"
+#include "passo/machine_file/table_reader.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 

@@ -1,4 +1,4 @@
-#include "table_reader.hpp"
+#include "passo/machine_file/table_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

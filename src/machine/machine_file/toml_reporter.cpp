@@ -1,4 +1,4 @@
-#include "toml_reporter.hpp"
+#include "passo/machine_file/toml_reporter.hpp"
 
 #include <algorithm>
 #include <utility>

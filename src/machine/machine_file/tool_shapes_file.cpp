@@ -4,9 +4,9 @@
 #include <numbers>
 #include <variant>
 
-#include "fit_for_parser.hpp"
+#include "passo/machine_file/fit_for_parser.hpp"
 #include "machine_file_sentences.hpp"
-#include "table_reader.hpp"
+#include "passo/machine_file/table_reader.hpp"
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
@@ -64,7 +64,9 @@ Cutter read_cutter(TableReader& reader) {
   return Cutter::flat_end(diameter);
 }
 
-ToolShape read_tool(TableReader& reader) {
+}  // namespace
+
+ToolShape read_tool_shape(TableReader& reader) {
   ToolShape tool{.cutter = read_cutter(reader)};
   tool.flute_length = Mm(reader.number(flute_key, Need::optional).value_or(0));
   tool.holder_radius = Mm(reader.number(holder_key, Need::optional).value_or(0) / 2);
@@ -72,6 +74,8 @@ ToolShape read_tool(TableReader& reader) {
   tool.holder_from = Mm(reader.number(holder_from_key, from).value_or(0));
   return tool;
 }
+
+namespace {
 
 ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter, const Diagnostics& found) {
   ToolShapes tools;
@@ -88,7 +92,7 @@ ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter
       }
       const std::size_t errors = found.errors();
       TableReader reader(*table, fmt::format("tool.{}", entry.key), entry.place, reporter);
-      const ToolShape tool = read_tool(reader);
+      const ToolShape tool = read_tool_shape(reader);
       reader.finish(document.complete, {});
       if (found.errors() > errors) continue;
       if (const std::string flaw = flaw_of(tool); !flaw.empty()) {

@@ -182,7 +182,7 @@ int tell(const std::string& output, const MillPlan& plan, const std::string& wor
     for (const MillTool& tool : plan.tools) made->tools.push_back(tool.words);
     made->summary = words;
   } else if (!output.empty() && output != "-") {
-    fmt::print("{}", words);
+    say(words);
   }
   return exit_done;
 }

@@ -117,7 +117,7 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
   }
   progress.update(1);
   if (arguments.json) {
-    fmt::print("{}\n", result.json);
+    say(result.json + "\n");
     return exit_done;
   }
   return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,

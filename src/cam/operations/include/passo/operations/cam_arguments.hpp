@@ -159,6 +159,16 @@ struct CamEngraveArguments : CamMillArguments, CamTraceArguments {
 };
 std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
 
+// Makes a part by several operations, which a job file describes.
+struct CamJobArguments {
+  std::vector<std::string> files;  // one job file
+  std::string output;              // empty: as the job file says
+  std::string picture;             // .svg or .png; empty: none
+  bool check = false;              // only tells whether the programs on disk are those of the inputs
+  bool json = false;               // prints the report as JSON on standard output
+};
+std::vector<CamOption> cam_options_of(CamJobArguments& arguments);
+
 struct CamPlotArguments : CamMillArguments {
   CamPlotArguments() {
     feed = "1500mm";

@@ -1,0 +1,259 @@
+// passo cam job: the programs of a part, from a job file with a list of operations.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cam_job.hpp"
+#include "named_files.hpp"
+#include "part_job_operation.hpp"
+#include "part_job_record.hpp"
+#include "part_job_trial.hpp"
+#include "picture_names.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "passo/confinement/temporary_folder.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
+#include "passo/part_job/joined_program.hpp"
+
+namespace passo {
+namespace {
+
+struct JobRun {
+  const CamJobArguments& arguments;
+  PartJob job;
+  std::string text;  // of the job file
+  std::string output = {};
+  std::string fingerprint = {};
+  std::vector<OrderedOperation> order = {};
+  std::vector<MadeOperation> made = {};  // as in PartJob::operations
+  std::vector<TrialProgram> programs = {};
+};
+
+std::string tool_words(const PartJob& job, std::int32_t number) {
+  return describe(job.tools.at(number).shape.cutter);
+}
+
+// The value of an option, in the job's unit without a unit's name.
+std::string option_text(PartOperation operation, std::string_view name) {
+  const std::vector<CamOption> options = cam_options_of(operation);
+  const auto found = std::ranges::find(options, name, &CamOption::name);
+  return found == options.end() ? "" : text_of(*found);
+}
+
+// A length of the job as a word of the program: "5" of "5mm" in a program in mm.
+std::string program_number(const PartJob& job, std::string_view key, const std::string& text) {
+  const double unit = *mm_of_unit(job.units);
+  const Result<Mm, std::string> length = parse_length(std::string(key).c_str(), text, unit);
+  const double value = length ? length->value() / unit : 0;
+  return fmt::format("{:.5g}", std::round(value * 1e5) / 1e5 + 0.0);
+}
+
+// The park position "X0 Y0" as the operation's own program has it.
+std::string park_words(const PartJob& job, const PartOperation& operation) {
+  const std::string park = option_text(operation, "park");
+  const std::size_t comma = park.find(',');
+  if (comma == std::string::npos) return "X0 Y0";
+  return fmt::format("X{} Y{}", program_number(job, "park", park.substr(0, comma)),
+                     program_number(job, "park", park.substr(comma + 1)));
+}
+
+JoinedOperation joined_operation(const JobRun& run, std::size_t index) {
+  const PartOperation& operation = run.job.operations[index];
+  JoinedOperation joined{.title = fmt::format("{}: {}, tool {}", operation.title, name_of(operation.kind), operation.tool),
+                         .program = run.made[index].program};
+  for (const std::int32_t tool : {operation.first_tool, operation.tool}) {
+    if (tool > 0) joined.tools.push_back({tool, tool_words(run.job, tool)});
+  }
+  joined.park = park_words(run.job, operation);
+  return joined;
+}
+
+// plate-1-T3.ngc of plate.ngc.
+std::string part_name(const std::string& output, std::size_t number, std::int32_t tool) {
+  const std::filesystem::path path(output);
+  return (path.parent_path() /
+          fmt::format("{}-{}-T{}{}", path.stem().string(), number, tool, path.extension().string()))
+      .string();
+}
+
+void join_programs(JobRun& run) {
+  const PartJob& job = run.job;
+  std::size_t at = 0;
+  while (at < run.order.size()) {
+    TrialProgram program;
+    const std::int32_t tool = job.operations[run.order[at].index].tool;
+    program.file = job.one_program ? run.output : part_name(run.output, run.programs.size() + 1, tool);
+    std::vector<std::string> head = {
+        fmt::format("{}, by passo cam job", std::filesystem::path(program.file).filename().string()),
+        fmt::format("from {}, inputs {}", std::filesystem::path(job.file).filename().string(), run.fingerprint)};
+    JoinedProgram joined(head);
+    for (; at < run.order.size(); ++at) {
+      const std::size_t index = run.order[at].index;
+      if (!job.one_program && job.operations[index].tool != tool) break;
+      joined.add(joined_operation(run, index));
+      program.operations.push_back(index);
+    }
+    program.first_lines = joined.first_lines();
+    program.text = joined.take();
+    run.programs.push_back(std::move(program));
+  }
+}
+
+// All operations are tried, so that all errors are shown at once.
+bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& progress) {
+  const std::optional<PartJobZero> zero = find_zero(run.job, findings);
+  if (!zero) return false;
+  TemporaryFolder folder;
+  if (!folder.make()) {
+    findings.add(of_file("job.operation", run.job.file, "a temporary folder cannot be made", "room in TMPDIR"));
+    return false;
+  }
+  run.made.resize(run.job.operations.size());
+  const double share = 0.8 / static_cast<double>(run.order.size());
+  for (std::size_t i = 0; i < run.order.size(); ++i) {
+    const std::size_t index = run.order[i].index;
+    const PartOperation& operation = run.job.operations[index];
+    const double from = share * static_cast<double>(i);
+    auto made = make_operation(run.job, operation, *zero, folder.name(), findings, progress.part(from, from + share));
+    if (made) run.made[index] = std::move(*made);
+  }
+  return !findings.any_error();
+}
+
+Status<OutputError> write_all(const JobRun& run, const std::string& record) {
+  std::vector<OutputFile> files;
+  const auto add = [&](const std::string& name, const std::string& text) -> Status<OutputError> {
+    Result<OutputFile, OutputError> file = OutputFile::open(name);
+    if (!file) return Failure{file.error()};
+    file->write(text);
+    files.push_back(std::move(*file));
+    return Unit{};
+  };
+  for (const TrialProgram& program : run.programs) {
+    if (auto added = add(program.file, program.text); !added) return added;
+  }
+  if (auto added = add(record_file_of(run.output), record); !added) return added;
+  for (OutputFile& file : files) {
+    if (auto done = file.commit(); !done) return done;
+  }
+  return Unit{};
+}
+
+int draw(const JobRun& run, const Trial& trial) {
+  MillPlan plan;
+  for (const OrderedOperation& ordered : run.order) {
+    const PartOperation& operation = run.job.operations[ordered.index];
+    std::vector<MillRun> ways = trial.operations[ordered.index].ways;
+    std::erase_if(ways, [](const MillRun& way) { return way.size() < 2; });
+    if (ways.empty()) continue;
+    const Cutter& cutter = run.job.tools.at(operation.tool).shape.cutter;
+    const bool is_vee = cutter.kind() == Cutter::Kind::v;
+    plan.tools.push_back({.width = to_nanometres(is_vee ? 2 * cutter.flat : 2 * cutter.radius),
+                          .words = operation.title,
+                          .runs = std::move(ways)});
+  }
+  Region face;
+  if (run.job.stock) {
+    const PartStock& stock = *run.job.stock;
+    face = filled({rectangle({{to_nanometres(Mm(stock.x)), to_nanometres(Mm(stock.y))},
+                              {to_nanometres(Mm(stock.x + stock.width)), to_nanometres(Mm(stock.y + stock.length))}})});
+  }
+  const Region nothing;
+  const MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing};
+  return write_picture(run.arguments.picture, run.job.name,
+                       [&](const PictureOptions& options, OutputFile& file) { return draw_mill_plan(scene, options, file); });
+}
+
+int check_only(const JobRun& run) {
+  const auto record = read_job_record(run.output);
+  const std::string why = record ? out_of_date(*record, run.fingerprint, run.output)
+                                 : fmt::format("{} is missing", record_file_of(run.output));
+  if (!why.empty()) {
+    return fail(exit_failed, fmt::format("{}: out of date: {} [job.out-of-date]", run.output, why));
+  }
+  if (!run.arguments.json) say(fmt::format("{}: up to date\n", run.output));
+  return exit_done;
+}
+
+bool names_are_apart(const JobRun& run) {
+  NamedFiles files;
+  files.reads("the job file", run.job.file);
+  for (const PartOperation& operation : run.job.operations) {
+    for (const std::string& file : operation.files) files.reads("a drawing", file);
+  }
+  files.writes("--output", run.output);
+  files.writes("the record", record_file_of(run.output));
+  files.writes("--picture", run.arguments.picture);
+  return files.are_apart();
+}
+
+// What is told after all is written.
+void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again) {
+  if (run.arguments.json) {
+    record["changes"] = changes;
+    say(record.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return;
+  }
+  std::string text = report_of(record);
+  for (const OrderedOperation& ordered : run.order) {
+    for (const std::string& words : run.made[ordered.index].notes) {
+      text += fmt::format("note: '{}': {}\n", run.job.operations[ordered.index].title, words);
+    }
+  }
+  for (const std::string& change : changes) text += "changed: " + change + "\n";
+  if (is_again && changes.empty()) text += "changed: nothing since the last time\n";
+  for (const TrialProgram& program : run.programs) text += fmt::format("written: {}\n", program.file);
+  say(text);
+}
+
+int make_job(JobRun& run, const WorkProgress& progress) {
+  Diagnostics findings(1000);
+  run.order = order_operations(run.job);
+  for (const PartOperation& operation : run.job.operations) {
+    if (run.job.one_program || operation.first_tool == 0 || operation.first_tool == operation.tool) continue;
+    findings.add(run.job.finding("job.two-tools", operation.place,
+                                 fmt::format("'{}' needs two tools", operation.title), "programs = \"one\""));
+  }
+  const bool is_made = make_operations(run, findings, progress);
+  if (!is_made || findings.any_error()) {
+    show(findings, run.job.file);
+    return exit_bad_program;
+  }
+  join_programs(run);
+  progress.update(0.85);
+  const Trial trial = try_programs(run.job, run.programs, findings);
+  show(findings, run.job.file);
+  if (findings.any_error()) return exit_bad_program;
+  const nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
+  const auto before = read_job_record(run.output);
+  const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();
+  const std::string text = record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (const auto written = write_all(run, text); !written) return fail(exit_failed, written.error().message);
+  if (!run.arguments.picture.empty()) {
+    if (const int code = draw(run, trial); code != exit_done) return code;
+  }
+  progress.update(1);
+  report(run, record, changes, before.has_value());
+  return exit_done;
+}
+
+}  // namespace
+
+int cam_job_file(const CamJobArguments& arguments, const WorkProgress& progress) {
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
+  if (arguments.files.size() != 1) return fail(exit_bad_program, "expected one job file");
+  Diagnostics findings;
+  const auto text = read_bytes(arguments.files.front(), {.area = "job", .expected = "a job file in TOML"}, findings);
+  auto job = text ? parse_part_job(*text, arguments.files.front(), findings) : std::nullopt;
+  show(findings);
+  if (!job) return exit_bad_program;
+  JobRun run{.arguments = arguments, .job = std::move(*job), .text = *text};
+  run.output = arguments.output.empty() ? run.job.output : arguments.output;
+  if (run.output == "-") return fail(exit_bad_program, "--output: expected a file: the job's record is written beside it");
+  if (!names_are_apart(run)) return exit_bad_program;
+  run.fingerprint = fingerprint_of_inputs(run.job, run.text);
+  return arguments.check ? check_only(run) : make_job(run, progress);
+}
+
+}  // namespace passo
