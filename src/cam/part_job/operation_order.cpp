@@ -46,7 +46,7 @@ bool is_finish(PartKind kind) {
 }
 
 bool OrderSearch::share_layers(const PartOperation& a, const PartOperation& b) const {
-  if (a.files != b.files) return false;
+  if (a.files != b.files || a.files.empty()) return false;
   return a.layers.empty() || b.layers.empty() || std::ranges::any_of(a.layers, [&](const std::string& layer) {
            return std::ranges::find(b.layers, layer) != b.layers.end();
          });
@@ -55,16 +55,17 @@ bool OrderSearch::share_layers(const PartOperation& a, const PartOperation& b) c
 std::string OrderSearch::must_precede(std::size_t first, std::size_t then) const {
   const PartOperation& a = operations_[first];
   const PartOperation& b = operations_[then];
-  if (a.kind == PartKind::face && b.kind != PartKind::face) return "facing makes the surface from which depths count";
+  if (a.kind == PartKind::face && b.kind != PartKind::face) return "facing comes first";
   if (b.kind == PartKind::face) return "";
   if (frees_the_part(b) && !frees_the_part(a)) {
-    return is_inside(a) ? "what is inside is cut before what is outside"
-                        : fmt::format("'{}' frees the part, so it comes last", b.title);
+    return is_inside(a) ? "what is inside is cut before what is outside" : "it frees the part, so it comes last";
   }
   if (frees_the_part(a)) return "";
-  if (is_finish(b.kind) && !is_finish(a.kind)) return "chamfers and engravings come after the cuts";
+  if (is_finish(b.kind) && !is_finish(a.kind) && (a.kind == PartKind::relief || share_layers(a, b))) {
+    return fmt::format("it comes after '{}', which cuts the same", a.title);
+  }
   if (a.kind == b.kind && a.kind == PartKind::pocket && share_layers(a, b) && width_of(a) > width_of(b)) {
-    return "the wider cutter clears first";
+    return "a wider cutter clears first";
   }
   if (a.kind == PartKind::relief && is_inside(b)) return "what is inside is cut after the face above it";
   return "";
@@ -96,19 +97,18 @@ std::size_t OrderSearch::best_of_ready() const {
   return first_at_once ? *first_at_once : *first;
 }
 
+// An operation is explained if one that was written after it now comes before it. Those that only moved up are not.
 void OrderSearch::give_reasons(std::vector<OrderedOperation>& order) const {
   for (std::size_t at = 0; at < order.size(); ++at) {
     OrderedOperation& one = order[at];
-    // The later ones that were written before it.
-    for (std::size_t later = at + 1; later < order.size() && one.reason.empty(); ++later) {
-      if (order[later].index > one.index) continue;
-      one.reason = must_precede(one.index, order[later].index);
-      const bool follows = at > 0 && operations_[order[at - 1].index].tool == operations_[one.index].tool;
-      if (one.reason.empty() && follows) one.reason = fmt::format("tool {} is in the spindle", operations_[one.index].tool);
-      if (one.reason.empty()) {
-        one.reason = fmt::format("all cuts of tool {} are possible without another change",
-                                 operations_[one.index].tool);
-      }
+    std::optional<std::size_t> before;
+    for (std::size_t earlier = 0; earlier < at && one.reason.empty(); ++earlier) {
+      if (order[earlier].index < one.index) continue;
+      if (!before) before = order[earlier].index;
+      one.reason = must_precede(order[earlier].index, one.index);
+    }
+    if (before && one.reason.empty()) {
+      one.reason = fmt::format("the cuts of tool {} follow each other", operations_[*before].tool);
     }
   }
 }

@@ -49,7 +49,7 @@ TEST(OperationOrder, operations_of_a_tool_follow_each_other) {
 TEST(OperationOrder, the_wide_cutter_clears_before_the_narrow_one) {
   const PartJob job = ordered_job(operation("pocket", "fine", 2, "layer = \"a\"") + operation("pocket", "rough", 1, "layer = \"a\""));
   EXPECT_EQ(titles(job), "rough fine");
-  EXPECT_EQ(order_operations(job).front().reason, "the wider cutter clears first");
+  EXPECT_EQ(order_operations(job).back().reason, "a wider cutter clears first");
 }
 
 TEST(OperationOrder, a_chamfer_comes_after_the_cuts_and_before_the_part_is_free) {
@@ -58,11 +58,19 @@ TEST(OperationOrder, a_chamfer_comes_after_the_cuts_and_before_the_part_is_free)
   EXPECT_EQ(titles(job), "pocket edge out");
 }
 
+TEST(OperationOrder, an_engraving_elsewhere_need_not_wait) {
+  const PartJob job = ordered_job(operation("engrave", "ticks", 3, "layer = \"ticks\"") +
+                                  operation("bore", "shaft", 2, "layer = \"shaft\"") +
+                                  operation("profile", "out", 2, "layer = \"out\""));
+  EXPECT_EQ(titles(job), "ticks shaft out");
+  EXPECT_EQ(tool_changes(job, order_operations(job)), 1U);
+}
+
 TEST(OperationOrder, what_was_moved_has_a_reason_and_the_rest_has_none) {
   const PartJob job = ordered_job(operation("profile", "out", 1) + operation("pocket", "pocket", 1));
   const auto order = order_operations(job);
-  EXPECT_EQ(order[0].reason, "'out' frees the part, so it comes last");
-  EXPECT_EQ(order[1].reason, "");
+  EXPECT_EQ(order[0].reason, "");
+  EXPECT_EQ(order[1].reason, "it frees the part, so it comes last");
 }
 
 TEST(OperationOrder, as_written_means_as_written) {

@@ -159,6 +159,11 @@ Diagnostic finding_of(const PartJob& job, const PartOperation& operation, const 
   return job.finding("job.operation", operation.place, fmt::format("'{}': {}", operation.title, failure), "");
 }
 
+// A job selects layers, and says what is a bore: notes for drawings of boards are none here.
+bool is_news(const std::string& note) {
+  return note.find("on other layers") == std::string::npos && note.find("the scale may be off") == std::string::npos;
+}
+
 }  // namespace
 
 std::optional<PartJobZero> find_zero(const PartJob& job, Diagnostics& findings) {
@@ -212,7 +217,7 @@ std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperat
     }
   }
   for (const std::string& failure : messages.failures) findings.add(finding_of(job, operation, failure));
-  std::ranges::move(messages.notes, std::back_inserter(made.notes));
+  std::ranges::copy_if(messages.notes, std::back_inserter(made.notes), is_news);
   if (code != exit_done) {
     if (messages.failures.empty()) {
       findings.add(job.finding("job.operation", operation.place, fmt::format("'{}' cannot be made", operation.title), ""));

@@ -249,8 +249,8 @@ std::string report_of(const Json& record) {
                         value_of(operation, "cut_mm", 0.0), value_of(operation, "rapid_mm", 0.0));
     const std::string reason = value_of<std::string>(operation, "reason", "");
     if (!reason.empty()) {
-      reasons += fmt::format("order: '{}', written as number {}, is number {}: {}\n", title,
-                             value_of(operation, "written", 0), number, reason);
+      reasons += fmt::format("order: '{}' is number {} instead of {}: {}\n", title, number,
+                             value_of(operation, "written", 0), reason);
     }
   }
   text += reasons;

@@ -1,8 +1,8 @@
 // order_operations: the order in which the operations of a job are machined.
 //
 // What must be: facing first, because it makes Z0. Whatever frees the part (a profile around it) last. Of the rest,
-// roughing before finishing: an operation with a wider cutter before one with a narrower cutter in the same place, and
-// chamfers and engravings after the cuts that they belong to. Profiles inside before those outside. Among all orders
+// roughing before finishing: a pocket with a wider cutter before one with a narrower cutter on the same layer, and
+// chamfers and engravings after the other cuts of their layers, and after reliefs. Profiles inside before those outside. Among all orders
 // that keep to this, the one that is found has few changes of the tool; apart from that, operations stay as written.
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace passo {
 
 struct OrderedOperation {
-  std::size_t index = 0;     // in the order of the file
-  std::string reason = {};   // why it is not where it was written; empty: it is
+  std::size_t index = 0;    // in the order of the file
+  std::string reason = {};  // why operations that were written after it come before it; empty: none do
 };
 
 std::vector<OrderedOperation> order_operations(const PartJob& job);
