@@ -1,7 +1,7 @@
 // The keys of an axis in a machine file that carry a unit in their names.
 #pragma once
 
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 
 namespace passo {
 

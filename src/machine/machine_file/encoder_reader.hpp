@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 

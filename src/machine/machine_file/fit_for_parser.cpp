@@ -1,4 +1,4 @@
-#include "passo/machine_file/fit_for_parser.hpp"
+#include "fit_for_parser.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "passo/machine_file/fit_for_parser.hpp"
+#include "fit_for_parser.hpp"
 #include "machine_file_sentences.hpp"
 #include "machine_reader.hpp"
 #include <fmt/format.h>

@@ -12,7 +12,7 @@
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
 #include "surface_radius_reader.hpp"
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
 

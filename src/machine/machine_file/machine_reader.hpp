@@ -1,8 +1,8 @@
 // Creates a MachineDescription from a parsed TOML file. Checks the keys, their ranges, and their consistency.
 #pragma once
 
-#include "passo/machine_file/toml_document.hpp"
-#include "passo/machine_file/toml_reporter.hpp"
+#include "toml_document.hpp"
+#include "toml_reporter.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "passo/machine_file/fit_for_parser.hpp"
-#include "passo/machine_file/toml_document.hpp"
+#include "fit_for_parser.hpp"
+#include "toml_document.hpp"
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"

@@ -1,7 +1,7 @@
 // Reads the board's pins in a machine file: [inputs], [outputs], windings on pins, and [silence]; and checks [work].
 #pragma once
 
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 

@@ -1,4 +1,4 @@
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "passo/machine_file/toml_document.hpp"
+#include "toml_document.hpp"
 
 #include <algorithm>
 #include <cctype>

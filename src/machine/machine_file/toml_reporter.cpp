@@ -1,4 +1,4 @@
-#include "passo/machine_file/toml_reporter.hpp"
+#include "toml_reporter.hpp"
 
 #include <algorithm>
 #include <utility>

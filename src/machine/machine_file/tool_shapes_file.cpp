@@ -4,9 +4,9 @@
 #include <numbers>
 #include <variant>
 
-#include "passo/machine_file/fit_for_parser.hpp"
+#include "fit_for_parser.hpp"
 #include "machine_file_sentences.hpp"
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
@@ -64,9 +64,7 @@ Cutter read_cutter(TableReader& reader) {
   return Cutter::flat_end(diameter);
 }
 
-}  // namespace
-
-ToolShape read_tool_shape(TableReader& reader) {
+ToolShape read_tool(TableReader& reader) {
   ToolShape tool{.cutter = read_cutter(reader)};
   tool.flute_length = Mm(reader.number(flute_key, Need::optional).value_or(0));
   tool.holder_radius = Mm(reader.number(holder_key, Need::optional).value_or(0) / 2);
@@ -74,8 +72,6 @@ ToolShape read_tool_shape(TableReader& reader) {
   tool.holder_from = Mm(reader.number(holder_from_key, from).value_or(0));
   return tool;
 }
-
-namespace {
 
 ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter, const Diagnostics& found) {
   ToolShapes tools;
@@ -92,7 +88,7 @@ ToolShapes read_tools(const TomlDocument& document, const TomlReporter& reporter
       }
       const std::size_t errors = found.errors();
       TableReader reader(*table, fmt::format("tool.{}", entry.key), entry.place, reporter);
-      const ToolShape tool = read_tool_shape(reader);
+      const ToolShape tool = read_tool(reader);
       reader.finish(document.complete, {});
       if (found.errors() > errors) continue;
       if (const std::string flaw = flaw_of(tool); !flaw.empty()) {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "passo/machine_file/table_reader.hpp"
+#include "table_reader.hpp"
 
 #include "passo/machine_file/axis_motor.hpp"
 

@@ -24,16 +24,10 @@
 
 namespace passo {
 
-class TableReader;
-
 using ToolShapes = std::map<std::int32_t, ToolShape>;  // by tool number, 0 to 99999
 
 // Empty: the file has errors, which are in `diagnostics`.
 std::optional<ToolShapes> read_tool_shapes(const std::string& path, Diagnostics& diagnostics);
 std::optional<ToolShapes> parse_tool_shapes(std::string_view text, const std::string& file, Diagnostics& diagnostics);
-
-// Reads the keys of a shape from a tool's table, which may have other keys, too. The caller calls finish(), and checks
-// flaw_of(), which is meaningless after errors.
-ToolShape read_tool_shape(TableReader& reader);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // The work before and after TOML parsing, common to all TOML files written by users.
 #pragma once
 
-#include "passo/machine_file/toml_reporter.hpp"
+#include "toml_reporter.hpp"
 
 #include "passo/diagnostics/diagnostic.hpp"
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "passo/machine_file/toml_document.hpp"
-#include "passo/machine_file/toml_reporter.hpp"
+#include "toml_document.hpp"
+#include "toml_reporter.hpp"
 
 namespace passo {
 

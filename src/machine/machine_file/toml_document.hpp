@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "passo/machine_file/toml_reporter.hpp"
+#include "toml_reporter.hpp"
 
 namespace passo {
 
