@@ -28,7 +28,7 @@ target_compile_options(passo_together INTERFACE -Wno-shadow $<${by_gcc}:-Wno-sub
 # What waits for people, files and lines: a third less time to compile, and it runs hardly longer.
 set(PASSO_LESS_OPTIMISED $<$<CONFIG:Release>:-O1>)
 set(PASSO_LESS_OPTIMISED_MODULES activity cam carve confinement controller_file emulator grading job journal judge machine_file machine_import operations
-    probing session surface_file verdict)
+    probing session surface_file toml tooling verdict)
 # Those that call ensure(), whose message names the source. It does not name the folder in which the program was built;
 # a test of the installed program finds a module that is missing here.
 set(PASSO_MODULES_WITH_PLACES drive journal link stepgen trajectory)
@@ -119,7 +119,7 @@ option(PASSO_TESTS_IN_FULL "Slow tests make all of their trials" OFF)
 # With PASSO_SANITIZE only the modules that read what others wrote have tests, and of the tests of the whole street one
 # program (tests/CMakeLists.txt). Libraries are built that these need. PASSO_TESTS_IN_FULL adds those with the most
 # arithmetic of indices.
-set(PASSO_SANITIZED_MODULES gcode interpreter machine_file wire link)
+set(PASSO_SANITIZED_MODULES gcode interpreter machine_file tooling wire link)
 if(PASSO_TESTS_IN_FULL)
   list(APPEND PASSO_SANITIZED_MODULES base diagnostics geometry path trajectory firmware)
 endif()

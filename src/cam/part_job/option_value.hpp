@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "passo/machine_file/toml_document.hpp"
+#include "passo/toml/toml_document.hpp"
 #include "passo/operations/cam_option.hpp"
 
 namespace passo {

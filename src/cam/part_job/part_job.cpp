@@ -7,7 +7,7 @@
 #include "part_job_reader.hpp"
 
 #include "passo/diagnostics/file_bytes.hpp"
-#include "passo/machine_file/fit_for_parser.hpp"
+#include "passo/toml/fit_for_parser.hpp"
 
 namespace passo {
 namespace {

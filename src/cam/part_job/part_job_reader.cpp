@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "option_value.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "passo/machine_file/tool_shapes_file.hpp"
 #include "passo/operations/cam_operation.hpp"
+#include "passo/tooling/cutting_feeds.hpp"
+#include "passo/tooling/tool_library.hpp"
 
 namespace passo {
 namespace {
@@ -29,7 +31,9 @@ void PartJobReader::read() {
   // Operations need what the tables before them say.
   if (const TomlEntry* job = top.table("job", "a table [job]", Need::optional)) read_job(*job);
   if (const TomlEntry* stock = top.table("stock", "a table [stock]", Need::optional)) read_stock(*stock);
-  if (const TomlEntry* tools = top.table("tool", "a table [tool.1] for each tool", Need::required)) read_tools(*tools);
+  const Need own_tools = job_.tools.empty() ? Need::required : Need::optional;
+  if (const TomlEntry* tools = top.table("tool", "a table [tool.1] for each tool", own_tools)) read_tools(*tools);
+  for (auto& [number, tool] : job_.tools) find_feeds(tool);
   for (const std::string_view key : {"clamp", "fixture"}) {
     top.know(key);
     if (const TomlEntry* const list = entry(key)) {
@@ -129,6 +133,9 @@ void PartJobReader::read_job(const TomlEntry& entry) {
   job_.output = in_folder(reader.text("output", "plate.ngc", Need::optional).value_or(""));
   job_.one_program = !reader.is_second_of("job.bad-value", "programs", "one", "each-tool", Need::optional).value_or(false);
   job_.keeps_order = reader.is_second_of("job.bad-value", "order", "by-tool", "as-written", Need::optional).value_or(false);
+  if (const auto library = reader.text("tools", "router-tools.toml", Need::optional)) {
+    read_library(in_folder(*library), reader.place_of("tools"));
+  }
   // The rest: options of operations.
   std::set<std::string_view> known;
   for (const PartKind kind : {PartKind::profile, PartKind::pocket, PartKind::drill, PartKind::engrave, PartKind::relief}) {
@@ -138,7 +145,7 @@ void PartJobReader::read_job(const TomlEntry& entry) {
     }
   }
   for (const TomlEntry& option : table.entries) {
-    if (!known.contains(option.key) || option.key == "units") continue;
+    if (!known.contains(option.key) || option.key == "units" || option.key == "tools") continue;
     reader.know(option.key);
     defaults_.entries.push_back(option);
   }
@@ -153,6 +160,7 @@ void PartJobReader::read_stock(const TomlEntry& entry) {
   stock.thickness = length(reader, "thickness", 1e-3, "12", Need::required).value_or(0);
   stock.margin_below = length(reader, "below", 0, "0.5", Need::optional).value_or(stock.margin_below);
   stock.material = reader.text("material", "plywood", Need::optional).value_or("");
+  stock.known_material = work_material_of(stock.material);
   if (corner) {
     stock.x = corner->low;
     stock.y = corner->high;
@@ -203,16 +211,50 @@ void PartJobReader::read_tool(const TomlEntry& entry) {
     return;
   }
   TableReader reader(*table, fmt::format("tool.{}", entry.key), entry.place, reporter_);
-  PartTool tool{.shape = read_tool_shape(reader)};
+  PartTool tool;
+  tool.tool = read_cutting_tool(reader, reporter_, document_.complete);
+  tool.tool.number = number;
+  tool.shape = shape_of(tool.tool);
   tool.feed = reader.number(feed_key, Need::optional);
   tool.plunge = reader.number(plunge_key, Need::optional);
-  if (const auto speed = reader.whole_number(speed_key, Need::optional)) tool.spindle = static_cast<std::uint32_t>(*speed);
+  if (const auto speed = reader.whole_number(speed_key, Need::optional)) {
+    tool.spindle = static_cast<std::uint32_t>(*speed);
+  }
   reader.finish(document_.complete, {});
   if (const std::string flaw = flaw_of(tool.shape); !flaw.empty()) {
     reporter_.error("job.tool", entry.place, fmt::format("tool.{} cannot exist", entry.key), flaw);
     return;
   }
-  job_.tools.emplace(number, tool);
+  job_.tools.insert_or_assign(number, tool);
+}
+
+// A tool of the job takes the place of the library's tool of the same number.
+void PartJobReader::read_library(const std::string& path, const SourceLocation& place) {
+  Diagnostics found;
+  const auto library = ToolLibrary::read(path, found);
+  if (!library) {
+    reporter_.error("job.tools", place, fmt::format("{} is not a tool library: {}", path, found.all().front().message),
+                    "a file with tables [tool.1], see passo tools --help");
+    return;
+  }
+  job_.library = path;
+  for (const CuttingTool& tool : library->tools()) {
+    if (tool.number > 0) job_.tools.emplace(tool.number, PartTool{.tool = tool, .shape = shape_of(tool)});
+  }
+}
+
+// What the file does not say follows from the material.
+void PartJobReader::find_feeds(PartTool& tool) {
+  if (!job_.stock || !job_.stock->known_material || (tool.feed && tool.spindle)) return;
+  FeedRequest request{.material = *job_.stock->known_material};
+  if (tool.spindle) request.rpm = *tool.spindle;
+  const CuttingFeeds feeds = feeds_of(tool.tool, request);
+  constexpr double per_minute = 60;
+  if (!tool.spindle) tool.spindle = static_cast<std::uint32_t>(std::lround(feeds.rpm));
+  if (!tool.feed) tool.feed = std::round(feeds.feed.value() * per_minute);
+  if (!tool.plunge && feeds.plunge.value() > 0) tool.plunge = std::round(feeds.plunge.value() * per_minute);
+  tool.feeds_from = fmt::format("{:g} mm/min at {} rpm: {:.3g} mm per tooth in {}", *tool.feed, *tool.spindle,
+                                feeds.chip_load.value(), name_of(*job_.stock->known_material));
 }
 
 }  // namespace passo

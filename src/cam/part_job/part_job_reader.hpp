@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passo/machine_file/table_reader.hpp"
+#include "passo/toml/table_reader.hpp"
 #include "passo/part_job/part_job.hpp"
 
 namespace passo {
@@ -27,6 +27,8 @@ class PartJobReader {
   void read_stock(const TomlEntry& entry);
   void read_tools(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
+  void read_library(const std::string& path, const SourceLocation& place);
+  void find_feeds(PartTool& tool);
   void read_clamp(const TomlTable& table, const std::string& path, const SourceLocation& place);
   void read_operation(const TomlTable& table, const std::string& path, const SourceLocation& place);
   void read_options(const TomlTable& table, TableReader& reader, PartOperation& operation);

@@ -76,13 +76,14 @@ std::string cutter_words(const Cutter& cutter) {
 }
 
 // What kind of tool an operation needs. Empty: this one is good.
-std::string tool_expected(PartKind kind, const Cutter& cutter) {
-  const bool is_vee = cutter.kind() == Cutter::Kind::v;
-  if (kind == PartKind::engrave || kind == PartKind::chamfer) return is_vee ? "" : "a tool with shape = \"vee\"";
-  if (kind == PartKind::relief || kind == PartKind::drill) return "";
-  return cutter.kind() == Cutter::Kind::flat || cutter.kind() == Cutter::Kind::bull_nose
-             ? ""
-             : "a tool with shape = \"flat\" or \"bull\"";
+std::string tool_expected(PartKind kind, CuttingShape shape) {
+  if (kind == PartKind::drill) return "";
+  if (kind == PartKind::relief) return shape != CuttingShape::drill ? "" : "a milling cutter";
+  if (kind == PartKind::engrave || kind == PartKind::chamfer) {
+    return shape == CuttingShape::vee ? "" : "a tool with shape = \"vee\"";
+  }
+  return shape == CuttingShape::flat || shape == CuttingShape::bull ? ""
+                                                                    : "a tool with shape = \"flat\" or \"bull\"";
 }
 
 }  // namespace
@@ -132,11 +133,10 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
     if (const auto at = pair(reader, "at", -1e4, Need::optional)) operation.at = {at->low, at->high};
   }
   if (operation.tool > 0) {
-    const std::string expected = tool_expected(*kind, job_.tools.at(operation.tool).shape.cutter);
+    const std::string expected = tool_expected(*kind, job_.tools.at(operation.tool).tool.shape);
     if (!expected.empty()) {
       reader.error("job.wrong-tool", "tool",
-                   fmt::format("tool {} is not for {}: {}", operation.tool, name_of(*kind),
-                               describe(job_.tools.at(operation.tool).shape.cutter)),
+                   fmt::format("{} is not for this: {}", name_of(*kind), describe(job_.tools.at(operation.tool).tool)),
                    expected);
     }
   }

@@ -1,7 +1,7 @@
 // The keys of an axis in a machine file that carry a unit in their names.
 #pragma once
 
-#include "table_reader.hpp"
+#include "passo/toml/table_reader.hpp"
 
 namespace passo {
 

@@ -4,9 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "table_reader.hpp"
-
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/toml/table_reader.hpp"
 
 namespace passo {
 

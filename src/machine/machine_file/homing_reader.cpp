@@ -8,6 +8,8 @@
 #include "machine_file_sentences.hpp"
 #include <fmt/format.h>
 
+#include "passo/toml/toml_sentences.hpp"
+
 namespace passo {
 namespace {
 
@@ -58,10 +60,10 @@ const char* const homing_code = "machine.homing";
 void check_speed(const TableReader& reader, const NumberKey& key, MmPerSecond speed, MmPerSecond most,
                  std::string_view than) {
   if (speed <= most || most == MmPerSecond(0)) return;
-  reader.error(homing_code, key.name,
-               machine_file_says::key_is.with(
-                   {{"key", reader.full_name(key.name)}, {"value", fmt::format("{:g}", speed.value())}}),
-               fmt::format("{:g} or less, {}", most.value(), than));
+  reader.error(
+      homing_code, key.name,
+      toml_says::key_is.with({{"key", reader.full_name(key.name)}, {"value", fmt::format("{:g}", speed.value())}}),
+      fmt::format("{:g} or less, {}", most.value(), than));
 }
 
 void check_rest(const TableReader& reader, const HomeKeys& keys, const HomeDescription& home,
@@ -183,7 +185,7 @@ std::optional<SecondMotor> read_second_motor(TableReader& reader, const AxisDesc
   second.skew = reader.number(keys.skew, Need::optional).value_or(0);
   if (std::abs(second.square) <= second.most_skew) return second;
   reader.error(homing_code, keys.square.name,
-               machine_file_says::key_is.with(
+               toml_says::key_is.with(
                    {{"key", reader.full_name(keys.square.name)}, {"value", fmt::format("{:g}", second.square)}}),
                fmt::format("at most {:g} in either direction, {}", second.most_skew, keys.most_skew.name));
   return std::nullopt;
@@ -199,7 +201,7 @@ HomingOrder read_homing_order(TableReader* homing, const std::vector<AxisDescrip
   HomingOrder order = order_of(*text);
   if (!std::ranges::is_permutation(order.axes, usual.axes)) {
     homing->error(homing_code, "order",
-                  machine_file_says::key_is.with({{"key", "homing.order"}, {"value", fmt::format("\"{}\"", *text)}}),
+                  toml_says::key_is.with({{"key", "homing.order"}, {"value", fmt::format("\"{}\"", *text)}}),
                   letters.empty() ? "a table [axis.X.home] for each of them"
                                   : fmt::format("each axis with a table [axis.X.home] once: the letters {}", letters));
     return usual;

@@ -5,12 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "fit_for_parser.hpp"
 #include "machine_file_sentences.hpp"
 #include "machine_reader.hpp"
 #include <fmt/format.h>
 
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/toml/fit_for_parser.hpp"
 
 namespace passo {
 namespace {

@@ -14,9 +14,6 @@ inline constexpr SentenceRow has_left_travel{
     "{key} is {value}; after a pull-off of {off} the axis would be outside its travel of {low} to {high}"};
 inline constexpr SentenceRow switch_within_travel{
     "expected.switch-within-travel", "a switch position that leaves the axis within its travel after {key}"};
-inline constexpr SentenceRow key_is{"machine.bad-value", "{key} is {value}"};
-inline constexpr SentenceRow number_within{"expected.number-within", "a number from {low} to {high}"};
-inline constexpr SentenceRow whole_number_within{"expected.whole-number-within", "a whole number from {low} to {high}"};
 inline constexpr SentenceRow motor_taken{"machine.motor.taken", "motor {motor} is already assigned to axis {axis}"};
 inline constexpr SentenceRow own_motor{"expected.own-motor", "a different motor for each axis"};
 inline constexpr SentenceRow no_such_motor{"machine.motor.none", "axis {axis} has motor {motor}, which does not exist"};
@@ -36,9 +33,6 @@ inline constexpr SentenceRow both_given{"machine.both-given", "{first} and {seco
 inline constexpr SentenceRow no_axis{"machine.no-axis", "the machine has no axis"};
 inline constexpr SentenceRow unknown_axis{"machine.unknown-axis", "there is no axis {name}"};
 inline constexpr SentenceRow axis_table{"expected.axis-table", "a table for each axis, as in [axis.X]"};
-inline constexpr SentenceRow lacks{"machine.missing-key", "{where} lacks {what}"};
-inline constexpr SentenceRow unknown_key{"machine.unknown-key", "{where} has no key {key}"};
-inline constexpr SentenceRow unknown_table{"machine.unknown-table", "{where} has no table {key}"};
 inline constexpr SentenceRow shared_switch{"machine.homing.shared-switch",
                                            "the two motors of axis {axis} share limit switch {input}"};
 

@@ -12,9 +12,10 @@
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
 #include "surface_radius_reader.hpp"
-#include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
+
+#include "passo/toml/table_reader.hpp"
 
 namespace passo {
 namespace {
@@ -247,7 +248,7 @@ void MachineReader::read_axes(const TomlEntry& entry) {
                            : "an axis X, Y, Z, A, B, C, U, V or W");
     } else if (!std::holds_alternative<TomlTable>(table.value.content)) {
       reporter_.error("machine.wrong-type", table.value.place,
-                      machine_file_says::key_is.with({{"key", "axis." + table.key}, {"value", kind_of(table.value)}}),
+                      toml_says::key_is.with({{"key", "axis." + table.key}, {"value", kind_of(table.value)}}),
                       fmt::format("a table [axis.{}]", table.key));
     } else {
       read_axis(table, *axis);

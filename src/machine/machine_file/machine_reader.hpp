@@ -1,10 +1,9 @@
 // Creates a MachineDescription from a parsed TOML file. Checks the keys, their ranges, and their consistency.
 #pragma once
 
-#include "toml_document.hpp"
-#include "toml_reporter.hpp"
-
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/toml/toml_document.hpp"
+#include "passo/toml/toml_reporter.hpp"
 
 namespace passo {
 

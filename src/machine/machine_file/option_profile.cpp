@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "fit_for_parser.hpp"
-#include "toml_document.hpp"
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/toml/fit_for_parser.hpp"
+#include "passo/toml/toml_document.hpp"
 
 namespace passo {
 namespace {

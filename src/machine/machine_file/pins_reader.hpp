@@ -1,9 +1,8 @@
 // Reads the board's pins in a machine file: [inputs], [outputs], windings on pins, and [silence]; and checks [work].
 #pragma once
 
-#include "table_reader.hpp"
-
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/toml/table_reader.hpp"
 
 namespace passo {
 

@@ -1,7 +1,8 @@
 #include "surface_radius_reader.hpp"
 
-#include "machine_file_sentences.hpp"
 #include <fmt/format.h>
+
+#include "passo/toml/toml_sentences.hpp"
 
 namespace passo {
 namespace {
@@ -21,8 +22,7 @@ std::optional<Mm> read_surface_radius(TableReader& reader, Axis axis) {
   if (word == radius_of_tool && axis != Axis::c) return Mm(0);
   reader.error(
       "machine.radius", radius_key.name,
-      machine_file_says::key_is.with(
-          {{"key", reader.full_name(radius_key.name)}, {"value", fmt::format("\"{}\"", *word)}}),
+      toml_says::key_is.with({{"key", reader.full_name(radius_key.name)}, {"value", fmt::format("\"{}\"", *word)}}),
       axis == Axis::c ? "a radius in millimetres" : fmt::format("a radius in millimetres, or \"{}\"", radius_of_tool));
   return std::nullopt;
 }

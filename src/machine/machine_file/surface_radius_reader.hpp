@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "table_reader.hpp"
-
 #include "passo/geometry/axes.hpp"
+#include "passo/toml/table_reader.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "toml_parse.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "passo/toml/toml_parse.hpp"
 
 namespace passo {
 namespace {

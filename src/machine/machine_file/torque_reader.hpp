@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "table_reader.hpp"
-
 #include "passo/machine_file/axis_motor.hpp"
+#include "passo/toml/table_reader.hpp"
 
 namespace passo {
 

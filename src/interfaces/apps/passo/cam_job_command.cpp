@@ -15,6 +15,7 @@
 #include "passo/confinement/temporary_folder.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 #include "passo/part_job/joined_program.hpp"
+#include "passo/tooling/tool_warnings.hpp"
 
 namespace passo {
 namespace {
@@ -30,8 +31,10 @@ struct JobRun {
   std::vector<TrialProgram> programs = {};
 };
 
+// "flat end mill 6 mm", without the number.
 std::string tool_words(const PartJob& job, std::int32_t number) {
-  return describe(job.tools.at(number).shape.cutter);
+  const std::string words = describe(job.tools.at(number).tool);
+  return words.substr(words.find(' ') + 1);
 }
 
 // The value of an option, in the job's unit without a unit's name.
@@ -165,6 +168,45 @@ int draw(const JobRun& run, const Trial& trial) {
                        [&](const PictureOptions& options, OutputFile& file) { return draw_mill_plan(scene, options, file); });
 }
 
+double number_of(const JobRun& run, const PartOperation& operation, std::string_view option) {
+  const std::string text = option_text(operation, option);
+  const Result<Mm, std::string> length = parse_length("", text, *mm_of_unit(run.job.units));
+  return length ? length->value() : 0;
+}
+
+// How the tool is used, as the trial has seen it.
+ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOperation& tried) {
+  ToolUse use;
+  use.depth = Mm(tried.depth_mm);
+  use.depth_per_pass = Mm(tried.pass_mm);
+  use.plunges = tried.plunges && operation.kind != PartKind::drill;
+  std::visit([&](const auto& arguments) { use.rpm = arguments.spindle; }, operation.arguments);
+  const bool mills = operation.kind == PartKind::face || operation.kind == PartKind::pocket ||
+                     operation.kind == PartKind::profile;
+  if (!mills) return use;
+  constexpr double seconds_per_minute = 60;
+  use.feed = MmPerSecond(number_of(run, operation, "feed") / seconds_per_minute);
+  if (const auto* pocket = std::get_if<CamPocketArguments>(&operation.arguments)) {
+    const double diameter = run.job.tools.at(operation.tool).tool.diameter.value();
+    if (pocket->engagement <= 0) use.step_over = Mm(diameter * pocket->step_over / 100);
+  }
+  return use;
+}
+
+// Adds to the notes of each operation where its feeds come from, and what is wrong with them.
+void note_tools(JobRun& run, const Trial& trial) {
+  const auto material = run.job.stock ? run.job.stock->known_material : std::nullopt;
+  for (std::size_t i = 0; i < run.job.operations.size(); ++i) {
+    const PartOperation& operation = run.job.operations[i];
+    const PartTool& tool = run.job.tools.at(operation.tool);
+    std::vector<std::string>& notes = run.made[i].notes;
+    if (!tool.feeds_from.empty() && !operation.has("feed")) notes.push_back(tool.feeds_from);
+    for (const ToolWarning& warning : warnings_of(tool.tool, use_of(run, operation, trial.operations[i]), material)) {
+      notes.push_back(fmt::format("warning: {}: {} [{}]", warning.message, warning.advice, warning.code));
+    }
+  }
+}
+
 int check_only(const JobRun& run) {
   const auto record = read_job_record(run.output);
   const std::string why = record ? out_of_date(*record, run.fingerprint, run.output)
@@ -225,6 +267,7 @@ int make_job(JobRun& run, const WorkProgress& progress) {
   const Trial trial = try_programs(run.job, run.programs, findings);
   show(findings, run.job.file);
   if (findings.any_error()) return exit_bad_program;
+  note_tools(run, trial);
   const nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
   const auto before = read_job_record(run.output);
   const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();

@@ -30,6 +30,7 @@ std::optional<std::string> bytes_of(const std::string& path) {
 // All files that operations read: drawings, models, fonts, curves.
 std::set<std::string> files_of(const PartJob& job) {
   std::set<std::string> files;
+  if (!job.library.empty()) files.insert(job.library);
   for (const PartOperation& operation : job.operations) {
     files.insert(operation.files.begin(), operation.files.end());
     PartOperation copy = operation;

@@ -16,9 +16,9 @@ namespace {
 constexpr double least_depth = 0.005;  // mm; less is rounding
 constexpr std::size_t most_points = 200'000;  // of a picture
 
-Diagnostic trouble(Severity severity, const char* code, const TrialProgram& program, std::uint32_t line,
+Diagnostic trouble(const char* code, const TrialProgram& program, std::uint32_t line,
                    std::string message, std::string expected) {
-  return {.severity = severity,
+  return {.severity = Severity::error,
           .code = code,
           .file = program.file,
           .place = {.line = line, .column = 0, .length = 1},
@@ -42,7 +42,7 @@ class ProgramTrial {
   StockWishes wishes() const;
   void record(const MoveCut& cut);
   void judge(const MoveCut& cut, const PartOperation& operation);
-  void report(Severity severity, const char* code, const MoveCut& cut, const PartOperation& operation,
+  void report(const char* code, const MoveCut& cut, const PartOperation& operation,
               const std::string& what, std::string expected);
   void draw(const Curve& curve, const Vector3& zero, std::uint32_t line);
   std::size_t operation_at(std::uint32_t line) const;
@@ -93,11 +93,11 @@ const PartClamp* ProgramTrial::clamp_at(const Vector3& place) const {
 }
 
 // The first place of each trouble of an operation, with the number of further moves.
-void ProgramTrial::report(Severity severity, const char* code, const MoveCut& cut, const PartOperation& operation,
+void ProgramTrial::report(const char* code, const MoveCut& cut, const PartOperation& operation,
                           const std::string& what, std::string expected) {
   const std::string key = fmt::format("{} {} {}", code, operation.title, expected);
   if (reported_[key]++ > 0) return;
-  findings_.add(trouble(severity, code, program_, cut.move.line,
+  findings_.add(trouble(code, program_, cut.move.line,
                         fmt::format("'{}', tool {}: {}", operation.title, numbers_[cut.move.tool], what),
                         std::move(expected)));
 }
@@ -106,7 +106,7 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
   const char* const move = cut.move.rapid ? "a rapid" : "a feed move";
   if (cut.clamp > least_depth) {
     const PartClamp* const clamp = clamp_at(cut.clamp_place);
-    report(Severity::error, "job.clamp", cut, operation,
+    report("job.clamp", cut, operation,
            fmt::format("{} goes {:.2f} mm into '{}' at {}", move, cut.clamp, clamp != nullptr ? clamp->name : "a clamp",
                        place_words(cut.clamp_place)),
            clamp == nullptr ? "no clamp in the way"
@@ -114,26 +114,20 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
                             : fmt::format("'{}' further away from what is cut", clamp->name));
   }
   if (cut.move.rapid && cut.depth > least_depth) {
-    report(Severity::error, "job.rapid-in-stock", cut, operation,
+    report("job.rapid-in-stock", cut, operation,
            fmt::format("a rapid goes {:.2f} mm into the stock at {}", cut.depth, place_words(cut.place)),
            "rapids above the stock");
   }
   if (cut.holder > least_depth) {
-    report(Severity::error, "job.holder", cut, operation,
+    report("job.holder", cut, operation,
            fmt::format("the holder goes {:.2f} mm into the stock at {}", cut.holder, place_words(cut.holder_place)),
            "a tool that sticks out further (holder_from_mm), or less depth");
   }
   const double below = job_.stock ? job_.stock->margin_below : 1e9;
   if (cut.below > below + least_depth) {
-    report(Severity::error, "job.below", cut, operation,
+    report("job.below", cut, operation,
            fmt::format("the tip goes {:.2f} mm below the stock at {}", cut.below, place_words(cut.place)),
            fmt::format("at most {:g} mm; stock.below allows more", below));
-  }
-  const Mm flutes = tools_[cut.move.tool].flute_length;
-  if (flutes > Mm(0) && cut.depth > flutes.value() + least_depth) {
-    report(Severity::warning, "job.flutes", cut, operation,
-           fmt::format("a cut is {:.2f} mm deep, the flutes are {:g} mm long", cut.depth, flutes.value()),
-           "a smaller step, or a longer tool");
   }
 }
 
@@ -147,6 +141,10 @@ void ProgramTrial::record(const MoveCut& cut) {
     tried.cut_mm += cut.way;
     tried.cut_s += cut.move.time.value();
     tried.removed_mm3 += cut.volume;
+    if (cut.volume > 0) {
+      tried.pass_mm = std::max(tried.pass_mm, cut.depth);
+      tried.plunges = tried.plunges || (cut.way_level <= 1e-6 && cut.depth > least_depth);
+    }
   }
   judge(cut, job_.operations[index]);
 }

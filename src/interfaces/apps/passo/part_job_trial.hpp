@@ -21,7 +21,8 @@ struct TriedOperation {
   double rapid_mm = 0;
   double depth_mm = 0;  // of the deepest feed below Z0
   double removed_mm3 = 0;
-  double engagement = 0;  // 0 to 1
+  double pass_mm = 0;      // the deepest cut of a feed
+  bool plunges = false;    // a feed goes straight down in the stock
   std::vector<MillRun> ways = {};  // the feeds, for the picture
 };
 
@@ -42,7 +43,7 @@ struct Trial {
 inline constexpr double usual_rapid_mm_min = 3000;
 
 // Errors are in `findings`: those of the interpreter, and "job.clamp", "job.rapid-in-stock", "job.holder" and
-// "job.below". Warnings: "job.flutes".
+// "job.below".
 Trial try_programs(const PartJob& job, const std::vector<TrialProgram>& programs, Diagnostics& findings);
 
 }  // namespace passo

@@ -3,6 +3,8 @@
 #include "program_input.hpp"
 #include <fmt/format.h>
 
+#include "passo/tooling/tool_library.hpp"
+
 namespace passo {
 
 Result<StockWishes, std::string> stock_wishes(const StockArguments& arguments) {
@@ -33,10 +35,10 @@ Result<StockWishes, std::string> stock_wishes(const StockArguments& arguments) {
 bool add_tool_shapes(const std::string& path, StockWishes& wishes) {
   if (path.empty()) return true;
   Diagnostics findings;
-  const auto shapes = read_tool_shapes(path, findings);
+  const auto library = ToolLibrary::read(path, findings);
   show(findings);
-  if (!shapes) return false;
-  wishes.shapes.insert(shapes->begin(), shapes->end());
+  if (!library) return false;
+  wishes.shapes.merge(library->shapes());
   return true;
 }
 

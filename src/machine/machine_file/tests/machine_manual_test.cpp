@@ -95,9 +95,12 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   }
   EXPECT_GE(seen.size(), 49U);
 
-  for (const char* source : {"encoder_reader", "machine_file", "machine_reader", "table_reader", "homing_reader",
-                             "pins_reader", "screw_reader", "toml_document", "torque_reader"}) {
-    const std::string code = content_of("src/machine/machine_file/" + std::string(source) + ".cpp");
+  for (const char* source :
+       {"machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
+        "machine/machine_file/machine_reader", "machine/machine_file/homing_reader", "machine/machine_file/pins_reader",
+        "machine/machine_file/screw_reader", "machine/machine_file/torque_reader", "core/toml/table_reader",
+        "core/toml/toml_document"}) {
+    const std::string code = content_of(fmt::format("src/{}.cpp", source));
     for (std::size_t i = code.find("\"machine."); i != std::string::npos; i = code.find("\"machine.", i + 1)) {
       const std::string name = code.substr(i + 1, code.find('"', i + 1) - i - 1);
       EXPECT_NE(manual.find("`" + name + "`"), std::string::npos) << name;

@@ -14,7 +14,7 @@
 //     to = [6, 50]
 //     height = 15                  # above Z0
 //
-//     [tool.1]                     # as in a tool file, with feeds and speed
+//     [tool.1]                     # as in a tool library, with feeds and speed
 //     shape = "flat"
 //     diameter_mm = 6
 //     feed_mm_min = 900
@@ -42,6 +42,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/geometry/tool_shape.hpp"
 #include "passo/operations/cam_arguments.hpp"
+#include "passo/tooling/cutting_tool.hpp"
 
 namespace passo {
 
@@ -51,10 +52,13 @@ enum class PartKind : std::uint8_t { face, profile, pocket, drill, bore, engrave
 std::string_view name_of(PartKind kind);
 
 struct PartTool {
+  CuttingTool tool = {};
   ToolShape shape = {};
-  std::optional<double> feed = {};    // mm/min
-  std::optional<double> plunge = {};  // mm/min
+  // What the job file says, or else follows from the chip load for the stock's material. Empty: neither.
+  std::optional<double> feed = {};            // mm/min
+  std::optional<double> plunge = {};          // mm/min
   std::optional<std::uint32_t> spindle = {};  // rpm
+  std::string feeds_from = {};                // e.g. "chip load 0.05 mm for plywood"; empty: the job file
 };
 
 // A key of an operation, and its position.
@@ -89,6 +93,7 @@ struct PartStock {
   double length = 0;
   double thickness = 0;  // Z0 is the top
   std::string material = {};
+  std::optional<WorkMaterial> known_material = {};  // that of feeds and chip loads
   double margin_below = 0.5;  // cuts may end this far below the stock, in the waste board
 };
 
@@ -111,6 +116,7 @@ struct PartJob {
   bool keeps_order = false;
   std::optional<PartStock> stock = {};
   std::vector<PartClamp> clamps = {};
+  std::string library = {};  // the tool library; empty: none
   std::map<std::int32_t, PartTool> tools = {};
   std::vector<PartOperation> operations = {};
   std::vector<std::string> lines = {};  // of the file, for findings

@@ -13,7 +13,6 @@
 #include "passo/cutting/simulated_path.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/geometry/tool_shape.hpp"
-#include "passo/machine_file/tool_shapes_file.hpp"
 #include "passo/stock/height_field.hpp"
 #include "passo/stock/stock_cutter.hpp"
 
@@ -31,7 +30,7 @@ struct WishedBlock {
 };
 struct StockWishes {
   WishedBlock block;
-  ToolShapes shapes;
+  std::map<std::int32_t, ToolShape> shapes;  // by tool number
   std::optional<ToolShape> any_tool;
   std::vector<StockBlock> clamps;
   std::optional<double> cell;  // mm

@@ -1,4 +1,4 @@
-#include "fit_for_parser.hpp"
+#include "passo/toml/fit_for_parser.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "toml_reporter.hpp"
+#include "passo/toml/toml_reporter.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "toml_reporter.hpp"
+#include "passo/toml/toml_reporter.hpp"
 
 namespace passo {
 

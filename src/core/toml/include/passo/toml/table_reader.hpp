@@ -1,4 +1,5 @@
-// TableReader: one table of a machine file, key by key.
+// TableReader: one table of a TOML file that a user writes, key by key: a machine file, a tool library, an option
+// profile.
 //
 // The caller reads each key that the table may have. Any other key is an error and is reported with the nearest known
 // key. Missing required keys are reported together, in one diagnostic for the table. An absent or invalid value gives
@@ -10,8 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "toml_document.hpp"
-#include "toml_reporter.hpp"
+#include "passo/toml/toml_document.hpp"
+#include "passo/toml/toml_reporter.hpp"
+#include "passo/toml/toml_sentences.hpp"
 
 namespace passo {
 

@@ -1,9 +1,8 @@
 // The work before and after TOML parsing, common to all TOML files written by users.
 #pragma once
 
-#include "toml_reporter.hpp"
-
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/toml/toml_reporter.hpp"
 
 namespace passo {
 

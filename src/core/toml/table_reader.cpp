@@ -1,12 +1,13 @@
-#include "table_reader.hpp"
+#include "passo/toml/table_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "machine_file_sentences.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "passo/toml/toml_sentences.hpp"
 
 namespace passo {
 namespace {
@@ -52,15 +53,15 @@ const TomlEntry* TableReader::ask(std::string_view key, std::string example, Nee
 
 void TableReader::wrong_type(const TomlEntry& entry, std::string expected) const {
   reporter_.error("machine.wrong-type", entry.value.place,
-                  machine_file_says::key_is.with({{"key", full_name(entry.key)}, {"value", kind_of(entry.value)}}),
+                  toml_says::key_is.with({{"key", full_name(entry.key)}, {"value", kind_of(entry.value)}}),
                   std::move(expected));
 }
 
 bool TableReader::in_range(const NumberKey& key, double value, const SourceLocation& place) const {
   if (value >= key.least && value <= key.most) return true;  // a NaN gives false
   reporter_.error("machine.out-of-range", place,
-                  machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", value)}}),
-                  range_in_words(machine_file_says::number_within, key));
+                  toml_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", value)}}),
+                  range_in_words(toml_says::number_within, key));
   return false;
 }
 
@@ -86,8 +87,8 @@ std::optional<double> TableReader::whole_number(const NumberKey& key, Need need)
   const auto value = number(key, need);
   if (!value || *value == std::floor(*value)) return value;
   error("machine.out-of-range", key.name,
-        machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", *value)}}),
-        range_in_words(machine_file_says::whole_number_within, key));
+        toml_says::key_is.with({{"key", full_name(key.name)}, {"value", fmt::format("{}", *value)}}),
+        range_in_words(toml_says::whole_number_within, key));
   return std::nullopt;
 }
 
@@ -120,8 +121,7 @@ std::optional<LowHigh> TableReader::pair_of(const NumberKey& key, const TomlValu
   const auto* list = std::get_if<TomlArray>(&value.content);
   if (list == nullptr || list->size() != 2) {
     reporter_.error("machine.wrong-type", value.place,
-                    machine_file_says::key_is.with({{"key", full_name(key.name)}, {"value", kind_of(value)}}),
-                    expected);
+                    toml_says::key_is.with({{"key", full_name(key.name)}, {"value", kind_of(value)}}), expected);
     return std::nullopt;
   }
   LowHigh ends;
@@ -167,7 +167,7 @@ std::optional<bool> TableReader::is_second_of(std::string_view code, std::string
   const auto word = text(key, first, need);
   if (!word) return given || need == Need::required ? std::nullopt : std::optional(false);
   if (*word == first || *word == second) return *word == second;
-  error(code, key, machine_file_says::key_is.with({{"key", full_name(key)}, {"value", fmt::format("\"{}\"", *word)}}),
+  error(code, key, toml_says::key_is.with({{"key", full_name(key)}, {"value", fmt::format("\"{}\"", *word)}}),
         fmt::format("\"{}\" or \"{}\"", first, second));
   return std::nullopt;
 }
@@ -223,7 +223,7 @@ void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::
     expected = fmt::format("one of {}", fmt::join(known_, ", "));
   }
   reporter_.error(is_table ? "machine.unknown-table" : "machine.unknown-key", entry.place,
-                  (is_table ? machine_file_says::unknown_table : machine_file_says::unknown_key)
+                  (is_table ? toml_says::unknown_table : toml_says::unknown_key)
                       .with({{"where", reporter_.kind_in_words()}, {"key", full_name(entry.key)}}),
                   expected);
 }
@@ -242,10 +242,9 @@ void TableReader::report_missing_keys() const {
     examples.push_back(key.example);
   }
   const std::string where = path_.empty() ? "the file" : fmt::format("[{}]", path_);
-  reporter_.error(
-      "machine.missing-key", place_,
-      machine_file_says::lacks.with({{"where", where}, {"what", fmt::format("{}", fmt::join(names, ", "))}}),
-      fmt::format("{}", fmt::join(examples, "; ")));
+  reporter_.error("machine.missing-key", place_,
+                  toml_says::lacks.with({{"where", where}, {"what", fmt::format("{}", fmt::join(names, ", "))}}),
+                  fmt::format("{}", fmt::join(examples, "; ")));
 }
 
 }  // namespace passo

@@ -1,14 +1,14 @@
-#include "toml_document.hpp"
+#include "passo/toml/toml_document.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <optional>
 #include <utility>
 
-#include "toml_parse.hpp"
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/toml/toml_parse.hpp"
 
 namespace passo {
 namespace {

@@ -1,0 +1,59 @@
+// CuttingTool: a milling cutter or a drill of the workshop, as a tool library describes it (tool_library.hpp).
+//
+// Invariant: the tools of a library are valid: sizes within their ranges, a tip narrower than the cutter, a corner
+// radius of at most half the diameter. Lengths that the library does not give are 0 and mean "unknown"; nothing is
+// checked against them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "passo/geometry/tool_shape.hpp"
+#include "passo/tooling/work_material.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+enum class CuttingShape : std::uint8_t { flat, ball, bull, vee, taper, drill };
+inline constexpr std::size_t cutting_shapes = 6;
+
+// "flat", "ball", "bull", "vee", "taper", "drill", as in the file.
+std::string_view name_of(CuttingShape shape);
+
+enum class ToolMaterial : std::uint8_t { carbide, hss };
+std::string_view name_of(ToolMaterial material);
+
+struct CuttingTool {
+  std::int32_t number = 0;  // of the T word, 0 to 99999
+  std::string name;         // for people, one line; may be empty
+  CuttingShape shape = CuttingShape::flat;
+  Mm diameter{3};       // where the tool is widest
+  Mm corner_radius{0};  // bull: of the corners
+  Radians angle{};      // vee, taper, drill: included angle of the tip
+  Mm tip{0};            // vee: diameter of the flat at the tip; taper: of the ball
+  std::uint32_t flutes = 2;
+  Mm flute_length{0};          // height of the cutting edges above the tip; 0: unknown
+  Mm stick_out{0};             // from the tip to the holder or the collet; 0: unknown
+  Mm holder_diameter{0};       // 0: unknown
+  bool centre_cutting = true;  // the edges reach the axis, so the tool may plunge
+  ToolMaterial material = ToolMaterial::carbide;
+  std::optional<double> most_rpm = {};  // highest permitted spindle speed
+  // Chip loads of this tool, mm per tooth. They take the place of those of the tables.
+  std::map<WorkMaterial, Mm> chip_loads = {};
+};
+
+// Returns the shape for the stock simulation and for toolpaths. A drill is a cone with its point angle.
+ToolShape shape_of(const CuttingTool& tool);
+
+// Describes a tool for comments and messages: "T2 ball nose 3 mm", with its name if it has one:
+// "T2 \"finishing\", ball nose 3 mm".
+std::string describe(const CuttingTool& tool);
+
+// Returns the diameter of the cut at this depth below the surface: narrower near the tip of a vee, a taper or a ball.
+Mm diameter_at(const CuttingTool& tool, Mm depth);
+
+}  // namespace passo
