@@ -161,6 +161,11 @@ std::vector<CamOption> cam_options_of(CamJobArguments& a) {
        "write nothing; exit with 1 if the programs on disk are out of date",
        {.matters_to = cli, .is_of_job = true}},
       {"json", &a.json, flag, "print the report as JSON", {.matters_to = cli, .is_of_job = true}},
+      {"only-folder",
+       &a.only_folder,
+       flag,
+       "refuse a job file that names files outside its folder",
+       {.matters_to = cli, .is_of_job = true}},
   };
 }
 

@@ -47,9 +47,12 @@ bool is_finish(PartKind kind) {
 
 bool OrderSearch::share_layers(const PartOperation& a, const PartOperation& b) const {
   if (a.files != b.files || a.files.empty()) return false;
-  return a.layers.empty() || b.layers.empty() || std::ranges::any_of(a.layers, [&](const std::string& layer) {
-           return std::ranges::find(b.layers, layer) != b.layers.end();
-         });
+  const auto may_meet = [](const std::vector<std::string>& some, const std::vector<std::string>& others) {
+    return some.empty() || others.empty() || std::ranges::any_of(some, [&](const std::string& one) {
+             return std::ranges::find(others, one) != others.end();
+           });
+  };
+  return may_meet(a.layers, b.layers) && may_meet(a.colors, b.colors) && may_meet(a.names, b.names);
 }
 
 std::string OrderSearch::must_precede(std::size_t first, std::size_t then) const {

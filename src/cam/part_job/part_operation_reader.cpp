@@ -162,9 +162,11 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
   }
   if (operation.title.empty()) {
     const auto number = job_.operations.size() + 1;
-    operation.title = operation.layers.empty()
-                          ? fmt::format("{} {}", name_of(*kind), number)
-                          : fmt::format("{} {}", name_of(*kind), fmt::join(operation.layers, " "));
+    std::vector<std::string> words = operation.layers;
+    words.insert(words.end(), operation.colors.begin(), operation.colors.end());
+    words.insert(words.end(), operation.names.begin(), operation.names.end());
+    if (words.empty()) words.push_back(fmt::format("{}", number));
+    operation.title = fmt::format("{} {}", name_of(*kind), fmt::join(words, " "));
   }
   job_.operations.push_back(std::move(operation));
 }
@@ -190,9 +192,13 @@ void PartJobReader::read_options(const TomlTable& table, TableReader& reader, Pa
       if (option.traits.names.empty() || std::filesystem::exists(inside)) **text = inside;
     }
   }
-  if (const auto found = std::ranges::find(options, "layer", &CamOption::name); found != options.end()) {
-    operation.layers = *std::get<std::vector<std::string>*>(found->value);
-  }
+  const auto selected = [&](std::string_view name) {
+    const auto found = std::ranges::find(options, name, &CamOption::name);
+    return found == options.end() ? std::vector<std::string>() : *std::get<std::vector<std::string>*>(found->value);
+  };
+  operation.layers = selected("layer");
+  operation.colors = selected("color");
+  operation.names = selected("name");
 }
 
 // What [job] says for all operations that have the option.

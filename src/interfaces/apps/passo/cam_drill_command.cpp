@@ -34,7 +34,10 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   DrillJob job;
   job.reading.dxf = dxf_options_of(arguments, unit, lengths);
   job.reading.dxf.is_for_drilling = true;
-  job.reading.svg = {.scale = arguments.scale.value_or(1), .layers = arguments.layers};
+  job.reading.svg = {.scale = arguments.scale.value_or(1),
+                     .layers = arguments.layers,
+                     .colors = arguments.colors,
+                     .names = arguments.names};
   if (!arguments.input.empty()) job.reading.excellon.inch = arguments.input == "inch";
   if (!arguments.zeros.empty()) {
     job.reading.excellon.zeros = arguments.zeros == "leading" ? LeftOutZeros::leading : LeftOutZeros::trailing;

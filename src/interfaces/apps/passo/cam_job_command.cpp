@@ -230,6 +230,34 @@ bool names_are_apart(const JobRun& run) {
   return files.are_apart();
 }
 
+bool is_outside(const std::string& file) {
+  const std::filesystem::path path(file);
+  return path.is_absolute() || std::ranges::any_of(path, [](const auto& part) { return part == ".."; });
+}
+
+// A job file of a stranger must not show what other files of this computer hold.
+void check_folder(const JobRun& run, Diagnostics& findings) {
+  const auto refuse = [&](const SourceLocation& place, const std::string& file) {
+    findings.add(run.job.finding("job.outside", place, fmt::format("'{}' is outside of the job's folder", file),
+                                 "the name of a file beside the job file"));
+  };
+  if (is_outside(run.job.library)) refuse({}, run.job.library);
+  if (!run.job.one_program) {
+    findings.add(run.job.finding("job.outside", {}, "there can only be one program here", "programs = \"one\""));
+  }
+  for (const PartOperation& operation : run.job.operations) {
+    for (const std::string& file : operation.files) {
+      if (is_outside(file)) refuse(operation.place, file);
+    }
+    PartOperation copy = operation;
+    for (const CamOption& option : cam_options_of(copy)) {
+      const auto key = std::ranges::find(operation.keys, option.name, &PartKey::name);
+      if (option.kind != CamKind::file || key == operation.keys.end()) continue;
+      if (const std::string file = text_of(option); is_outside(file)) refuse(key->place, file);
+    }
+  }
+}
+
 // What is told after all is written.
 void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again) {
   if (run.arguments.json) {
@@ -251,6 +279,11 @@ void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<
 
 int make_job(JobRun& run, const WorkProgress& progress) {
   Diagnostics findings(1000);
+  if (run.arguments.only_folder) check_folder(run, findings);
+  if (findings.any_error()) {
+    show(findings, run.job.file);
+    return exit_bad_program;
+  }
   run.order = order_operations(run.job);
   for (const PartOperation& operation : run.job.operations) {
     if (run.job.one_program || operation.first_tool == 0 || operation.first_tool == operation.tool) continue;

@@ -23,6 +23,10 @@ DrawingFileOptions reading_of(const PartOperation& operation, bool all_layers) {
           LengthArguments lengths(*mm_of_unit(arguments.units));
           reading.dxf = dxf_options_of(arguments, *mm_of_unit(arguments.units), lengths);
           reading.svg.scale = reading.hpgl.scale = arguments.scale.value_or(1);
+          if (!all_layers) {
+            reading.svg.colors = arguments.colors;
+            reading.svg.names = arguments.names;
+          }
         }
       },
       operation.arguments);

@@ -77,7 +77,10 @@ struct PartOperation {
   std::int32_t tool = 0;              // a key of PartJob::tools
   std::int32_t first_tool = 0;        // engrave: clears wide areas; relief: roughs; 0: none
   std::vector<std::string> files = {};  // its drawings, or the model of a relief; empty: none
-  std::vector<std::string> layers = {};  // the layers that it cuts; empty: all
+  // What it cuts of its drawings; empty: all.
+  std::vector<std::string> layers = {};
+  std::vector<std::string> colors = {};
+  std::vector<std::string> names = {};
   std::optional<std::array<double, 2>> at = {};  // engrave: X and Y of the text, mm, from the job's zero
   PartArguments arguments = {};
   std::vector<PartKey> keys = {};  // the given options, in the order of the file
