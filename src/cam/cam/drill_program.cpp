@@ -20,7 +20,7 @@ class DrillProgram {
   std::string write() {
     begin();
     for (std::size_t i = 0; i < plan_.tools.size(); ++i) write_tool(plan_.tools[i], i + 1);
-    text_.end(options_.spindle.has_value(), options_.park);
+    text_.end(options_.spindle.has_value(), options_.park, change_height());
     return text_.take();
   }
 
@@ -31,6 +31,7 @@ class DrillProgram {
   }
   void begin();
   void write_tool(const DrillTool& tool, std::size_t number);
+  static DrawnPoint start_of(const DrillTarget& target);
   static bool may_stay_low(const DrillTarget& target, const DrillTarget& next);
   void drill(const DrillTarget& target, bool is_first, bool stays_low);
   void drill_by_moves(const DrillTarget& target, bool stays_low);
@@ -38,6 +39,7 @@ class DrillProgram {
   void go_along(const std::vector<PathPoint>& points, bool is_closed, bool backwards);
   void arc(DrawnPoint from, DrawnPoint to, double bulge);
   std::vector<Nanometres> depths() const;
+  Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
   Nanometres feed_height() const { return std::min(options_.clearance, options_.feed_height); }
 
   std::string number(Nanometres length) const { return text_.number(length); }
@@ -66,14 +68,16 @@ void DrillProgram::begin() {
   }
   line("(X0 Y0 is the drawing's zero, Z0 the face of the board)");
   text_.begin_modes();
-  line("G0 Z{}", number(options_.clearance));
 }
 
 void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool) {
   line("");
   line("(tool {}: {}, {})", number_of_tool, diameter_words(tool), contents_of(tool));
   text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), options_.spindle, options_.park,
-                    options_.clearance});
+                    change_height(), options_.change.spindle_seconds});
+  // A cycle returns to the height at which it began.
+  if (!tool.targets.empty()) line("G0 {}", place(start_of(tool.targets.front())));
+  line("G0 Z{}", number(options_.clearance));
   line("F{}", number(tool.is_mill ? options_.mill_feed : options_.feed));
   bool in_cycle = false;
   rises_ = true;
@@ -95,6 +99,12 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
     }
   }
   if (in_cycle) line("G80");
+}
+
+// A circle begins at its right.
+DrawnPoint DrillProgram::start_of(const DrillTarget& target) {
+  const DrawnPoint first = target.points.front().at;
+  return target.kind == DrillTarget::Kind::circle ? DrawnPoint{first.x + target.radius, first.y} : first;
 }
 
 // Whether the drill goes from one hole to the next at the feed height.
@@ -147,9 +157,8 @@ std::vector<Nanometres> DrillProgram::depths() const {
 }
 
 void DrillProgram::mill(const DrillTarget& target) {
-  const DrawnPoint centre = target.points.front().at;
   const bool is_circle = target.kind == DrillTarget::Kind::circle;
-  const DrawnPoint begin = is_circle ? DrawnPoint{centre.x + target.radius, centre.y} : centre;
+  const DrawnPoint begin = start_of(target);
   line("G0 {}", place(begin));
   line("G0 Z{}", number(feed_height()));
   line("G1 Z0 F{}", number(options_.feed));

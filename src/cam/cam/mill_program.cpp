@@ -23,13 +23,14 @@ class MillProgram {
       change_tool(i + 1);
       for (const MillRun& run : plan_.tools[i].runs) mill(run);
     }
-    text_.end(options_.spindle.has_value(), options_.park);
+    text_.end(options_.spindle.has_value(), options_.park, change_height());
     return text_.take();
   }
 
  private:
   void begin();
   void change_tool(std::size_t number);
+  Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
   void mill(const MillRun& run);
   void go(const MillPoint& from, const MillPoint& to);
   Nanometres feed_along(const MillPoint& from, const MillPoint& to) const;
@@ -60,13 +61,13 @@ void MillProgram::begin() {
   }
   for (const std::string& remark : options_.remarks) text_.line("({})", in_comment(remark));
   text_.begin_modes();
-  text_.line("G0 Z{}", text_.number(options_.clearance));
 }
 
 void MillProgram::change_tool(std::size_t number) {
   const MillTool& tool = plan_.tools[number - 1];
   text_.line("");
-  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle, options_.park, options_.clearance});
+  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle, options_.park, change_height(),
+                    options_.change.spindle_seconds});
   feed_ = {};
 }
 

@@ -21,7 +21,7 @@ class PlotProgram {
     text_.begin_modes();
     raise();
     for (const std::vector<PathPoint>& path : plan_.paths) draw(path);
-    text_.end(false, options_.park);
+    text_.end(false, options_.park, std::nullopt);
     return text_.take();
   }
 

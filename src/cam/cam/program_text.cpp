@@ -23,22 +23,22 @@ std::string ProgramText::number(Nanometres length) const {
 }
 
 void ProgramText::begin_tool(const ToolChange& change) {
+  if (change.number == 1 || !change.is_only) line("G0 Z{}", number(change.height));
   if (!change.is_only) {
-    if (change.number > 1) {
-      if (change.spindle) line("M5");
-      line("G0 {}", place(change.park));
-    }
+    if (change.number > 1 && change.spindle) line("M5");
+    line("G0 {}", place(change.park));
     line("(MSG, tool {}: {})", change.number, in_comment(change.words));
     line("T{} M6", change.number);
-    line("G0 Z{}", number(change.clearance));
+    line("G0 Z{}", number(change.height));
   }
   if (change.spindle) {
     line("M3 S{}", *change.spindle);
-    line("G4 P2 (the spindle reaches its speed)");
+    if (change.spindle_seconds > 0) line("G4 P{:g} (the spindle reaches its speed)", change.spindle_seconds);
   }
 }
 
-void ProgramText::end(bool has_spindle, DrawnPoint park) {
+void ProgramText::end(bool has_spindle, DrawnPoint park, std::optional<Nanometres> height) {
+  if (height) line("G0 Z{}", number(*height));
   if (has_spindle) line("M5");
   line("G0 {}", place(park));
   line("M2");

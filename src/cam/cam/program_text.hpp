@@ -13,6 +13,7 @@
 #include "passo/base/counted.hpp"
 #include "passo/cam/drawing.hpp"
 #include "passo/cam/program_units.hpp"
+#include "passo/cam/safe_change.hpp"
 
 namespace passo {
 
@@ -29,18 +30,19 @@ class ProgramText {
   // comment.
   void begin_modes();
 
-  // Names and changes the tool, if there are several, and starts the spindle.
+  // Rises to the change height. Names and changes the tool there, if there are several, and starts the spindle.
   struct ToolChange {
     std::size_t number = 1;  // tool number, from 1
     bool is_only = false;    // whether this is the only tool
     std::string words = {};  // tool name for the operator
     std::optional<std::uint32_t> spindle = {};
     DrawnPoint park = {};
-    Nanometres clearance = {};
+    Nanometres height = {};  // change height
+    double spindle_seconds = 0;
   };
   void begin_tool(const ToolChange& change);
-  // Moves the last tool to the park position and ends the program.
-  void end(bool has_spindle, DrawnPoint park);
+  // Moves the last tool up, then to the park position, and ends the program. `height`: without a Z axis, none.
+  void end(bool has_spindle, DrawnPoint park, std::optional<Nanometres> height);
 
   // Formats a length in the program's units, without trailing zeros.
   std::string number(Nanometres length) const;

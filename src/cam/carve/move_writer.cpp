@@ -155,8 +155,9 @@ void MoveWriter::settle() {
   if (taker_.settle) taker_.settle();
 }
 
-void MoveWriter::begin_at(std::int64_t z) {
+void MoveWriter::begin_at(std::int64_t z, std::int64_t above) {
   at_.z = z;
+  above_ = above;
   knows_xy_ = false;
   motion_ = 0;
   feed_ = 0;
@@ -172,6 +173,10 @@ void MoveWriter::rapid_to(std::int64_t x, std::int64_t y) {
   if (!knows_xy_ || to.y != at_.y) word('Y', y);
   end_line();
   at_ = to;
+  if (!knows_xy_ && above_ != at_.z) {
+    word('Z', at_.z);
+    end_line();
+  }
   knows_xy_ = true;
 }
 

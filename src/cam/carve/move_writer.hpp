@@ -79,8 +79,8 @@ class MoveWriter {
     std::function<void()> settle = {};
   };
   void set_taker(Taker taker) { taker_ = std::move(taker); }
-  // Begins with an unknown tool position, of which only the height is known.
-  void begin_at(std::int64_t z);
+  // Begins with an unknown tool position at the height `above`. The first rapid leads across there, and then down to z.
+  void begin_at(std::int64_t z, std::int64_t above);
   void rapid_to(std::int64_t x, std::int64_t y);
   void rapid_up_down(std::int64_t z);
   void cut_to(const CarvedPlace& to);
@@ -116,6 +116,7 @@ class MoveWriter {
   CarvingCost cost_;
   Taker taker_;
   CarvedPlace at_;
+  std::int64_t above_ = 0;  // height before the first rapid
   bool knows_xy_ = false;
   char motion_ = 0;
   CarvedCut::Kind plane_ = CarvedCut::Kind::arc_xy;

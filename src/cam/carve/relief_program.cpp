@@ -42,6 +42,7 @@ class ReliefProgram {
   using Cut = void (*)(ReliefPass&, const HeightGrid&, const NodeLattice&, const std::function<void(double)>&);
 
   void begin();
+  Mm change_height() const { return std::max(options_.change.height, options_.clearance); }
   void watch_stock();
   void begin_tool(const char* what, const ReliefTool& tool);
   void end_tool(const char* what, const ReliefTool& tool, Mm step);
@@ -71,7 +72,7 @@ void ReliefProgram::begin() {
   for (const std::string& words : options_.words) writer_.line("({})", without_brackets(words));
   writer_.line("(Z0 is the top of the stock)");
   writer_.line("G17 G21 G40 G80 G90 G94");
-  writer_.line("G0 Z{:g}", options_.clearance.value());
+  writer_.line("G0 Z{:g}", change_height().value());
 }
 
 void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
@@ -80,16 +81,19 @@ void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
   writer_.line("");
   writer_.line("({}: {})", what, words);
   if (tools_ > 1) {
+    if (tool_ > 1) writer_.line("G0 Z{:g}", change_height().value());
     if (tool_ > 1 && options_.spindle) writer_.line("M5");
+    writer_.line("G0 X{:g} Y{:g}", options_.change.park.x.value(), options_.change.park.y.value());
     writer_.line("(MSG, tool {}: {})", tool_, words);
     writer_.line("T{} M6", tool_);
-    writer_.line("G0 Z{:g}", options_.clearance.value());
+    writer_.line("G0 Z{:g}", change_height().value());
   }
   if (options_.spindle) {
     writer_.line("M3 S{}", *options_.spindle);
-    writer_.line("G4 P2 (the spindle reaches its speed)");
+    const double seconds = options_.change.spindle_seconds;
+    if (seconds > 0) writer_.line("G4 P{:g} (the spindle reaches its speed)", seconds);
   }
-  writer_.begin_at(carved_height(options_.clearance.value()));
+  writer_.begin_at(carved_height(options_.clearance.value()), carved_height(change_height().value()));
   writer_.set_feeds({.along = tool.feed, .down = tool.plunge});
   if (!stock_) return;
   stock_->use(tool.cutter);
@@ -197,7 +201,9 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
     end_tool("rest finishing", tool, nodes_step(tool, false, surface_.pitch_y));
   }
   writer_.restore_plane();
+  writer_.line("G0 Z{:g}", change_height().value());
   if (options_.spindle) writer_.line("M5");
+  writer_.line("G0 X{:g} Y{:g}", options_.change.park.x.value(), options_.change.park.y.value());
   writer_.line("M2");
   writer_.flush();
   return std::move(report_);

@@ -5,7 +5,7 @@ namespace passo {
 
 std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
   using enum CamKind;
-  return {
+  std::vector<CamOption> rows{
       {"FILE", &a.files, drawings,
        "DXF drawings, drill files or boards of KiCad, EAGLE or EasyEDA; the format is detected from the contents",
        are_needed},
@@ -49,6 +49,7 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
        "largest number of search steps for the order of each tool's holes",
        {.range = CamRange{0, 1e10}, .matters_to = CamFor::programs}},
   };
+  return all_of({rows, program_rows(a)});
 }
 
 std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {

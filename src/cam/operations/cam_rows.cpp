@@ -19,6 +19,40 @@ CamOption units_row(std::string& units) {
           {.choices = {"mm", "cm", "inch"}, .matters_to = experts}};
 }
 
+std::vector<CamOption> controller_rows(CamProgramArguments& a) {
+  using enum CamKind;
+  return {
+      {"for",
+       &a.controller,
+       choice,
+       "controller that runs the program: passo, linuxcnc, grbl, grblhal, mach3 or fanuc-like",
+       {.choices = {"passo", "linuxcnc", "grbl", "grblhal", "mach3", "fanuc-like"}}},
+      {"start-text",
+       &a.start_text,
+       file,
+       "file with lines for the start of the program; may contain {placeholders}",
+       {.matters_to = cli}},
+      {"tool-change-text",
+       &a.tool_change_text,
+       file,
+       "file with lines that replace the words of a tool change, e.g. T{tool} M6",
+       {.matters_to = cli}},
+      {"end-text", &a.end_text, file, "file with lines for the end of the program, before M2", {.matters_to = cli}},
+  };
+}
+
+std::vector<CamOption> program_rows(CamProgramArguments& a) {
+  using enum CamKind;
+  return all_of({controller_rows(a),
+                 {{"change-height", &a.change_height, length,
+                   "Z at the start, at tool changes and at the end of the program", experts_only},
+                  {"spindle-delay",
+                   &a.spindle_delay,
+                   number,
+                   "pause after the spindle has started, seconds",
+                   {.range = CamRange{0, 60}, .matters_to = experts}}}});
+}
+
 CamOption join_row(std::string& join) {
   using enum CamKind;
   return {"join", &join, length, "largest gap across which the ends of lines are joined", experts_only};
@@ -98,13 +132,13 @@ CamOption mirror_at_row(std::string& place) {
 }
 
 CamOption park_row(std::string& park) {
-  return {"park", &park, CamKind::length, "X,Y: park position at the start, at tool changes and at the end",
+  return {"park", &park, CamKind::length, "X,Y: park position at tool changes and at the end of the program",
           experts_only};
 }
 
 std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
   using enum CamKind;
-  return {
+  std::vector<CamOption> rows{
       output_row(a.output),
       picture_row(a.picture, "picture of the milled areas and the rapids (FILE.svg or FILE.png)"),
       {"json", &a.json, flag, "print a summary as JSON; needs --output", {.matters_to = cli, .is_of_job = true}},
@@ -126,6 +160,7 @@ std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
       spindle_row(a.spindle),
       park_row(a.park),
   };
+  return all_of({rows, program_rows(a)});
 }
 
 std::vector<CamOption> edge_rows(CamOutlineArguments& a) {

@@ -29,6 +29,10 @@ std::vector<CamOption> mill_rows(CamMillArguments& arguments, CamFor layer = exp
 // The options for cutting along an edge: depths, tabs, ramps, lead-ins.
 std::vector<CamOption> edge_rows(CamOutlineArguments& arguments);
 
+// The controller that is to run the program, and the operator's own texts in it.
+std::vector<CamOption> controller_rows(CamProgramArguments& arguments);
+// The same, and the height of tool changes and the dwell of the spindle.
+std::vector<CamOption> program_rows(CamProgramArguments& arguments);
 // The unit of the program, and of lengths given without a unit.
 CamOption units_row(std::string& units);
 // The unit of the numbers in the files.

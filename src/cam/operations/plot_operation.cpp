@@ -55,6 +55,7 @@ std::vector<CamOption> cam_options_of(CamPlotArguments& a) {
        {"sheet", &a.sheet, length,
         "W,H: size of the material, whose lower left corner is X0 Y0; a drawing that extends beyond it is refused",
         experts_only}},
+      controller_rows(a),
   });
 }
 

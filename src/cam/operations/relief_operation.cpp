@@ -184,10 +184,17 @@ std::vector<CamOption> cam_options_of(CamReliefArguments& a) {
         "PNG, JPEG or TIFF picture (bright is high), STL or 3MF model, or height map x,y,z",
         {.is_required = true, .most_files = 1}},
        output_row(a.output),
-       picture_row(a.picture, "picture of the finished surface (FILE.png)")},
+       picture_row(a.picture, "picture of the finished surface (FILE.png)"),
+       {"units",
+        &a.units,
+        choice,
+        "unit of the program, and of lengths given without a unit: mm or inch",
+        {.choices = {"mm", "inch"}, .matters_to = experts}}},
       shape_rows(a),
       finishing_rows(a),
       roughing_rows(a),
+      {park_row(a.park)},
+      program_rows(a),
   });
 }
 

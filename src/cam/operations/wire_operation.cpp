@@ -5,7 +5,7 @@ namespace passo {
 
 std::vector<CamOption> cam_options_of(CamWireArguments& a) {
   using enum CamKind;
-  return {
+  std::vector<CamOption> rows{
       {"PROFILE",
        &a.files,
        drawings,
@@ -58,6 +58,7 @@ std::vector<CamOption> cam_options_of(CamWireArguments& a) {
       layer_row(a.layers, "layer to read; can be repeated (default: all visible layers)"),
       zero_row(a.zero, "position of X0 Y0: file (the file's origin), lower-left (of the left profile), or X,Y"),
   };
+  return all_of({rows, controller_rows(a)});
 }
 
 }  // namespace passo

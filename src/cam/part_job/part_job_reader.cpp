@@ -136,12 +136,13 @@ void PartJobReader::read_job(const TomlEntry& entry) {
   if (const auto library = reader.text("tools", "router-tools.toml", Need::optional)) {
     read_library(in_folder(*library), reader.place_of("tools"));
   }
+  read_program_words(table, reader);
   // The rest: options of operations.
   std::set<std::string_view> known;
   for (const PartKind kind : {PartKind::profile, PartKind::pocket, PartKind::drill, PartKind::engrave, PartKind::relief}) {
     const CamOperation* const operation = find_cam_operation(name_of(kind));
     for (const CamOption& option : operation->options()) {
-      if (!option.traits.is_of_job && option.kind != CamKind::drawings) known.insert(option.name);
+      if (!option.traits.is_of_job && !is_of_program(option.name) && option.kind != CamKind::drawings) known.insert(option.name);
     }
   }
   for (const TomlEntry& option : table.entries) {
@@ -150,6 +151,24 @@ void PartJobReader::read_job(const TomlEntry& entry) {
     defaults_.entries.push_back(option);
   }
   reader.finish(document_.complete, {});
+}
+
+// A job has one controller, whatever its operations are.
+void PartJobReader::read_program_words(const TomlTable& table, TableReader& reader) {
+  CamPocketArguments arguments;
+  for (const CamOption& option : cam_options_of(arguments)) {
+    if (!is_of_program(option.name)) continue;
+    reader.know(option.name);
+    const TomlEntry* const entry = find(table, option.name);
+    if (entry == nullptr) continue;
+    const std::string expected = set_option(option, entry->value);
+    if (!expected.empty()) {
+      reader.error("job.bad-value", option.name, fmt::format("job.{} is {}", option.name, kind_of(entry->value)), expected);
+    }
+    auto* const* text = std::get_if<std::string*>(&option.value);
+    if (option.kind == CamKind::file && text != nullptr) **text = in_folder(**text);
+  }
+  job_.program = arguments;
 }
 
 void PartJobReader::read_stock(const TomlEntry& entry) {

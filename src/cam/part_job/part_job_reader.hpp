@@ -14,6 +14,11 @@ namespace passo {
 std::optional<PartKind> part_kind_of(std::string_view name);
 std::vector<std::string_view> names_of_part_kinds();
 
+// Options that are of the whole program, not of an operation: --for and the operator's texts.
+inline bool is_of_program(std::string_view option) {
+  return option == "for" || option == "start-text" || option == "tool-change-text" || option == "end-text";
+}
+
 class PartJobReader {
  public:
   PartJobReader(const TomlDocument& document, const TomlReporter& reporter, PartJob& job)
@@ -24,6 +29,7 @@ class PartJobReader {
 
  private:
   void read_job(const TomlEntry& entry);
+  void read_program_words(const TomlTable& table, TableReader& reader);
   void read_stock(const TomlEntry& entry);
   void read_tools(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);

@@ -32,7 +32,7 @@ bool is_set_by_job(const CamOption& option) {
   constexpr std::array<std::string_view, 21> names = {
       "output", "picture", "json", "units", "zero",  "sheet", "mirror", "mirror-at", "align", "align-drill", "tool",
       "tools",  "drill",   "mill", "cutter", "angle", "tip",   "clear",  "rough",     "rest",  "FILE"};
-  return option.kind == CamKind::drawings || std::ranges::find(names, option.name) != names.end();
+  return option.kind == CamKind::drawings || is_of_program(option.name) || std::ranges::find(names, option.name) != names.end();
 }
 
 // The key of another tool of the operation, and the option that it stands for.

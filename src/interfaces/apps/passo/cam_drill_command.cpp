@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cam_job.hpp"
+#include "cam_program.hpp"
 #include "commands.hpp"
 #include "length_arguments.hpp"
 #include "named_files.hpp"
@@ -85,6 +86,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.park = job.plan.park;
   program.canned = !arguments.plain;
+  program.change = safe_change_of(arguments, lengths);
   if (!lengths.message().empty()) return Failure{lengths.message()};
   return job;
 }
@@ -152,7 +154,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
-  if (!files.are_apart()) return exit_bad_program;
+  if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;
   const Result<DrillJob, std::string> job = job_of(arguments);
   if (!job) return fail(exit_bad_program, job.error());
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
@@ -180,8 +182,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
     show(findings, listed(arguments.files));
     return exit_bad_program;
   }
-  if (const int code = write_text(arguments.output, write_drill_program(plan, job->program)); code != exit_done)
-    return code;
+  if (const int code = write_program(arguments, plan, job->program); code != exit_done) return code;
   if (format) {
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }

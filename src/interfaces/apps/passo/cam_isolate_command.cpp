@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cam_job.hpp"
+#include "cam_program.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/sensible_number.hpp"
@@ -371,8 +372,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   result.nets = find_joined_nets(board->copper, board->nets, result.plan.mill, result.proof, finest);
   for (const std::string& words : result.plan.mill.notes) note(words);
   note_gaps(result, name);
-  if (const int code = write_text(arguments.output, write_mill_program(result.plan.mill, job.program));
-      code != exit_done) {
+  if (const int code = write_program(arguments, result.plan.mill, job.program); code != exit_done) {
     return code;
   }
   progress.update(0.95);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cam_program.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
 #include "progress_display.hpp"
@@ -117,6 +118,7 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
   program.plunge_feed = lengths.above_0("--plunge-feed", arguments.plunge_feed);
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
   program.park = lengths.place("--park", arguments.park);
+  program.change = safe_change_of(arguments, lengths);
   if (!arguments.sheet.empty()) {
     const DrawnPoint size = lengths.place("--sheet", arguments.sheet);
     if (size.x.count <= 0 || size.y.count <= 0) lengths.refuse("--sheet: expected W,H above 0");
@@ -131,7 +133,7 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
   files.reads("--edge", edge);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
-  if (!files.are_apart()) return false;
+  if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return false;
   if (const std::string why = refuse_picture(arguments.picture); !why.empty()) {
     fail(exit_bad_program, why);
     return false;

@@ -1,9 +1,11 @@
 // passo cam job: the programs of a part, from a job file with a list of operations.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "cam_job.hpp"
+#include "cam_program.hpp"
 #include "named_files.hpp"
 #include "part_job_operation.hpp"
 #include "part_job_record.hpp"
@@ -122,6 +124,35 @@ bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& pro
     if (made) run.made[index] = std::move(*made);
   }
   return !findings.any_error();
+}
+
+// The programs in the words of the controller of the job file. They were tried in Passo's own words.
+bool rewrite_programs(JobRun& run, Diagnostics& findings) {
+  const PartJob& job = run.job;
+  if (is_plain_program(job.program)) return true;
+  const ControllerWords* const words = find_controller(job.program.controller);
+  const LengthUnit unit = job.units == "inch" ? LengthUnit::inch : LengthUnit::mm;
+  for (TrialProgram& program : run.programs) {
+    PostProcessorOptions options = post_processor_options_of(job.program, job.units, unit);
+    const PartOperation& first = job.operations[program.operations.front()];
+    options.program = std::filesystem::path(program.file).filename().string();
+    options.tools.resize(static_cast<std::size_t>(job.tools.rbegin()->first));
+    for (const auto& [number, tool] : job.tools) {
+      options.tools[static_cast<std::size_t>(number) - 1] = {tool_words(job, number), tool.tool.diameter.value()};
+    }
+    std::visit([&](const auto& arguments) { options.spindle = arguments.spindle; }, first.arguments);
+    options.change_height = std::atof(program_number(job, "change-height", option_text(first, "change-height")).c_str());
+    std::string written;
+    PostProcessor processor(*words, std::move(options), [&](std::string_view piece) { written += piece; });
+    processor.add(program.text);
+    if (const auto why = processor.finish()) {
+      findings.add(of_file("job.controller", program.file, fmt::format("{} cannot run it: {}", job.program.controller, *why),
+                           "another controller in job.for"));
+      return false;
+    }
+    program.text = std::move(written);
+  }
+  return true;
 }
 
 Status<OutputError> write_all(const JobRun& run, const std::string& record) {
@@ -245,6 +276,9 @@ void check_folder(const JobRun& run, Diagnostics& findings) {
   if (!run.job.one_program) {
     findings.add(run.job.finding("job.outside", {}, "there can only be one program here", "programs = \"one\""));
   }
+  for (const std::string& file : {run.job.program.start_text, run.job.program.tool_change_text, run.job.program.end_text}) {
+    if (is_outside(file)) refuse({}, file);
+  }
   for (const PartOperation& operation : run.job.operations) {
     for (const std::string& file : operation.files) {
       if (is_outside(file)) refuse(operation.place, file);
@@ -298,6 +332,7 @@ int make_job(JobRun& run, const WorkProgress& progress) {
   join_programs(run);
   progress.update(0.85);
   const Trial trial = try_programs(run.job, run.programs, findings);
+  if (!findings.any_error()) static_cast<void>(rewrite_programs(run, findings));
   show(findings, run.job.file);
   if (findings.any_error()) return exit_bad_program;
   note_tools(run, trial);
@@ -328,6 +363,7 @@ int cam_job_file(const CamJobArguments& arguments, const WorkProgress& progress)
   run.output = arguments.output.empty() ? run.job.output : arguments.output;
   if (run.output == "-") return fail(exit_bad_program, "--output: expected a file: the job's record is written beside it");
   if (!names_are_apart(run)) return exit_bad_program;
+  if (!program_words_are_good(run.job.program, run.job.units)) return exit_bad_program;
   run.fingerprint = fingerprint_of_inputs(run.job, run.text);
   return arguments.check ? check_only(run) : make_job(run, progress);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cam_job.hpp"
+#include "cam_program.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -103,7 +104,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   show(findings, layer->lines.file);
   if (findings.any_error()) return exit_bad_program;
   for (const std::string& words : plan.mill.notes) note(words);
-  if (const int code = write_text(arguments.output, write_mill_program(plan.mill, job.program)); code != exit_done) {
+  if (const int code = write_program(arguments, plan.mill, job.program); code != exit_done) {
     return code;
   }
   progress.update(0.9);

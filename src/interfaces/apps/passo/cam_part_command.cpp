@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cam_part.hpp"
+#include "cam_program.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -96,7 +97,7 @@ std::string open_lines(const ProfilePlan& plan) {
 int deliver(const CamMillArguments& arguments, const MillJob& job, const PartResult& result,
             const WorkProgress& progress) {
   for (const std::string& words : result.mill.notes) note(words);
-  if (const int code = write_text(arguments.output, write_mill_program(result.mill, job.program)); code != exit_done) {
+  if (const int code = write_program(arguments, result.mill, job.program); code != exit_done) {
     return code;
   }
   progress.update(0.5);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cam_part.hpp"
+#include "cam_program.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -136,7 +137,9 @@ int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress) {
     program.remarks.push_back(fmt::format("drag knife: its blade trails the axis by {:.4g} mm, at first towards -X",
                                           to_mm(options.knife).value()));
   }
-  if (const int code = write_text(arguments.output, write_plot_program(plan, program)); code != exit_done) return code;
+  if (const int code = write_program(arguments, write_plot_program(plan, program), job.program.name, job.program.park);
+      code != exit_done)
+    return code;
   if (!arguments.picture.empty()) {
     if (const int code = draw_plot(arguments, job, plan, drawn_of(part->loops)); code != exit_done) return code;
   }

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 #include <thread>
 
 #include "cam_commands.hpp"
+#include "cam_program.hpp"
 #include "length_argument.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
@@ -28,8 +30,10 @@ namespace {
 // Reads arguments. Keeps the first message of what is wrong.
 class ReliefReading {
  public:
+  explicit ReliefReading(double unit_mm) : unit_mm_(unit_mm) {}
+
   Mm length(const char* option, const std::string& text, Mm least, Mm most) {
-    const Result<Mm, std::string> read = parse_length(option, text, 1);
+    const Result<Mm, std::string> read = parse_length(option, text, unit_mm_);
     if (!read) {
       refuse(read.error());
     } else if (*read < least || *read > most) {
@@ -46,7 +50,7 @@ class ReliefReading {
   // A Z, below the top at Z0.
   std::optional<Mm> depth(const char* option, const std::string& text) {
     if (text.empty()) return std::nullopt;
-    const Result<Mm, std::string> read = parse_length(option, text, 1);
+    const Result<Mm, std::string> read = parse_length(option, text, unit_mm_);
     if (read && *read >= Mm(0.001) && *read <= deepest_relief) {
       refuse(fmt::format("{1}: expected a Z below the top at Z0, found '{0}'; write {1} -{0}", text, option));
       return std::nullopt;
@@ -64,9 +68,17 @@ class ReliefReading {
   void refuse(const std::string& message) {
     if (message_.empty()) message_ = message;
   }
+  ReliefPoint place(const char* option, const std::string& text) {
+    const Result<std::vector<Mm>, std::string> both = parse_lengths(option, text, unit_mm_);
+    if (both && both->size() == 2) return {(*both)[0], (*both)[1]};
+    refuse(fmt::format("{}: expected X,Y, found '{}'", option, text));
+    return {};
+  }
+  double unit_mm() const { return unit_mm_; }
   const std::string& message() const { return message_; }
 
  private:
+  double unit_mm_;
   std::string message_;
 };
 
@@ -168,6 +180,9 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.ramps = arguments.entry == "ramp";
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
   if (arguments.spindle > 0) program.spindle = arguments.spindle;
+  program.change = {.height = read.length("--change-height", arguments.change_height, least_length, Mm(1000)),
+                    .park = read.place("--park", arguments.park),
+                    .spindle_seconds = arguments.spindle_delay};
   program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   return program;
 }
@@ -379,7 +394,7 @@ void place(const CamReliefArguments& arguments, const HeightGrid& grid, ReliefRe
       return;
     }
   }
-  const Result<std::vector<Mm>, std::string> lengths = parse_lengths("--origin", origin, 1);
+  const Result<std::vector<Mm>, std::string> lengths = parse_lengths("--origin", origin, read.unit_mm());
   if (!lengths || lengths->size() != 2) {
     read.refuse(fmt::format(
         "--origin: expected lower-left, lower-right, upper-left, upper-right, center or X,Y, found '{}'", origin));
@@ -417,6 +432,31 @@ std::string summary_of(const ReliefReport& report) {
   return text;
 }
 
+// The program passes through the words of its controller while it is made. `refused`: why that is not possible.
+ReliefReport write_in_words(const CamReliefArguments& arguments, const ReliefProgramOptions& program, OutputFile& file,
+                            std::optional<std::string>& refused,
+                            const std::function<ReliefReport(const ReliefSink&)>& make) {
+  const auto to_file = [&](std::string_view text) { file.write(text); };
+  if (is_plain_program(arguments) && arguments.units == "mm") return make(to_file);
+  PostProcessorOptions options = post_processor_options_of(arguments, arguments.units, LengthUnit::mm);
+  options.program = program.name;
+  options.spindle = program.spindle;
+  const auto add = [&](const ReliefTool& tool) {
+    options.tools.push_back({describe(tool.cutter), 2 * tool.cutter.radius.value()});
+  };
+  if (program.roughing) add(program.roughing->tool);
+  add(program.finish);
+  if (program.rest) add(program.rest->tool);
+  const double unit = *mm_of_unit(arguments.units);
+  options.park_x = program.change.park.x.value() / unit;
+  options.park_y = program.change.park.y.value() / unit;
+  options.change_height = program.change.height.value() / unit;
+  PostProcessor words(*find_controller(arguments.controller), std::move(options), to_file);
+  ReliefReport report = make([&](std::string_view text) { words.add(text); });
+  refused = words.finish();
+  return report;
+}
+
 int draw(const std::string& path, const std::string& bytes) {
   if (bytes.empty()) return fail(exit_failed, "the picture cannot be drawn: out of memory");
   Result<OutputFile, OutputError> file = OutputFile::open(path);
@@ -434,8 +474,8 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   files.reads("--within", arguments.within);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
-  if (!files.are_apart()) return exit_bad_program;
-  ReliefReading reading;
+  if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;
+  ReliefReading reading(*mm_of_unit(arguments.units));
   ReliefJob job{.shape = shape_of(arguments, reading), .program = program_of(arguments, reading)};
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   if (!arguments.picture.empty() && !arguments.picture.ends_with(".png")) {
@@ -468,9 +508,11 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
 
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!file) return fail(exit_failed, file.error().message);
-  const ReliefReport report = write_relief(
-      read->grid, job.program, [&](std::string_view text) { file->write(text); }, progress.part(0.05, 0.95),
-      !arguments.picture.empty());
+  std::optional<std::string> refused;
+  const ReliefReport report = write_in_words(arguments, job.program, *file, refused, [&](const ReliefSink& sink) {
+    return write_relief(read->grid, job.program, sink, progress.part(0.05, 0.95), !arguments.picture.empty());
+  });
+  if (refused) return fail(exit_bad_program, fmt::format("--for {}: {}", arguments.controller, *refused));
   ProgressDisplay::clear_shown();  // the program may go to the same terminal
   if (const Status<OutputError> written = file->commit(); !written) return fail(exit_failed, written.error().message);
   if (!arguments.picture.empty()) {

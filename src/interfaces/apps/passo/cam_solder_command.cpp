@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cam_job.hpp"
+#include "cam_program.hpp"
 
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
@@ -45,8 +46,7 @@ void note_narrow(const std::vector<Region>& openings, Nanometres cutter, const c
 
 int write_openings(const CamOpeningArguments& arguments, const MillJob& job, const MillScene& scene,
                    const std::string& words, CamMade* made) {
-  if (const int code = write_text(arguments.output, write_mill_program(scene.plan, job.program)); code != exit_done)
-    return code;
+  if (const int code = write_program(arguments, scene.plan, job.program); code != exit_done) return code;
   if (!arguments.picture.empty()) {
     const int code = write_picture(
         arguments.picture, job.program.name,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cam_part.hpp"
+#include "cam_program.hpp"
 #include "wire_kerfs.hpp"
 #include <nlohmann/json.hpp>
 
@@ -298,6 +299,12 @@ int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress) {
   const MillJob job = mill_job_of(arguments, "passo cam wire", lengths, "block");
   const WireJob wire = wire_job_of(arguments, lengths);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
+  const ControllerWords* const controller = find_controller(arguments.controller);
+  if (wire.has_four_axes && controller != nullptr && !controller->knows_letter('U')) {
+    return fail(exit_bad_program,
+                fmt::format("--for {}: {} has no axes U and V; expected --axes XY, or --for linuxcnc or grblhal",
+                            arguments.controller, controller->title));
+  }
   const auto profiles = read_profiles(arguments, wire, job);
   if (!profiles) return exit_bad_program;
   Diagnostics findings;
@@ -305,7 +312,8 @@ int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress) {
   show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   progress.update(0.8);
-  const int written = write_text(arguments.output, write_wire_program(plan, program_of(arguments, wire, job)));
+  const int written =
+      write_program(arguments, write_wire_program(plan, program_of(arguments, wire, job)), job.program.name, {});
   if (written != exit_done) return written;
   if (!arguments.picture.empty()) {
     const WireScene scene{plan, wire.block, wire.has_four_axes};

@@ -10,6 +10,7 @@
 
 #include "passo/cam/drawing_file.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/post_processor/controller_words.hpp"
 
 namespace passo {
 namespace {
@@ -127,6 +128,11 @@ void OperationRun::fill(const PartJobZero& zero) {
           if (operation_.at) arguments.zero = fmt::format("{}mm,{}mm", -operation_.at->front(), -operation_.at->back());
         }
         if constexpr (requires { arguments.json; }) arguments.json = true;
+        // Canned cycles of a program in the words of another controller cannot be written as moves afterwards.
+        if constexpr (requires { arguments.plain; }) {
+          const ControllerWords* const words = find_controller(job_.program.controller);
+          arguments.plain = arguments.plain || (words != nullptr && !(words->knows_g("81") && words->knows_g("83")));
+        }
       },
       arguments_);
   if (operation_.kind == PartKind::face) fill_face(std::get<CamPocketArguments>(arguments_));

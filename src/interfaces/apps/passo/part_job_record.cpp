@@ -30,7 +30,10 @@ std::optional<std::string> bytes_of(const std::string& path) {
 // All files that operations read: drawings, models, fonts, curves.
 std::set<std::string> files_of(const PartJob& job) {
   std::set<std::string> files;
-  if (!job.library.empty()) files.insert(job.library);
+  for (const std::string& file :
+       {job.library, job.program.start_text, job.program.tool_change_text, job.program.end_text}) {
+    if (!file.empty()) files.insert(file);
+  }
   for (const PartOperation& operation : job.operations) {
     files.insert(operation.files.begin(), operation.files.end());
     PartOperation copy = operation;

@@ -3,8 +3,9 @@
 // Holes use canned cycles (G81, or G83 for pecking) or plain moves. Rapids lead from the clearance height down to the
 // feed height, and at the feed height to the next hole if it is within 5 mm. Circles and slots are milled
 // counterclockwise (climb milling for a clockwise spindle) in passes of `mill_step`, with a final pass at full depth.
-// Multiple tools are changed with M6 at the park position, after a message to the operator. The program begins and ends
-// at the park position, at the clearance height.
+// The program begins with a rapid up to the change height, and reaches the first hole from there. Multiple tools are
+// changed with M6 at the change height above the park position, with the spindle off, after a message to the operator.
+// The program ends there too.
 //
 // Numbers are in mm (G21), inches (G20) or centimetres (ProgramUnits). Arcs are exact to the last written digit.
 #pragma once
@@ -16,6 +17,7 @@
 
 #include "passo/cam/drill_plan.hpp"
 #include "passo/cam/program_units.hpp"
+#include "passo/cam/safe_change.hpp"
 
 namespace passo {
 
@@ -33,6 +35,7 @@ struct DrillProgramOptions {
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
   DrawnPoint park = {};                       // park position, as in DrillOptions
   bool canned = true;                         // use G81 and G83; otherwise plain moves
+  SafeChange change = {};
 };
 
 // Returns the program text.

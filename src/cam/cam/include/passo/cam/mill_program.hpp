@@ -2,8 +2,9 @@
 //
 // For each run the cutter rapids to the XY position of the first point, rapids down to 0.5 mm above the board or above
 // the floor milled so far, plunges at the plunge feed, follows the run at the mill feed, and retracts. Arcs are G2 and
-// G3. Multiple tools are changed with M6 at the park position, after a message to the operator. The program begins and
-// ends at the park position, at the clearance height, and ends with M5 and M2.
+// G3. The program begins with a rapid up to the change height, and reaches the first run from there. Multiple tools are
+// changed with M6 at the change height above the park position, with the spindle off, after a message to the operator.
+// The program ends there too, with M5 and M2.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/program_units.hpp"
+#include "passo/cam/safe_change.hpp"
 
 namespace passo {
 
@@ -26,7 +28,8 @@ struct MillProgramOptions {
   Nanometres feed{200'000'000};               // cutting feed, nm/min
   Nanometres plunge_feed{60'000'000};         // plunge feed, nm/min; descents along the way are no faster
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
-  DrawnPoint park = {};                       // tool position at the start, at tool changes and at the end
+  DrawnPoint park = {};                       // position at tool changes and at the end
+  SafeChange change = {};
 };
 
 // Returns the program text.

@@ -83,6 +83,13 @@ struct ReliefArea {
   bool is_all() const { return !only_on_model && within.empty(); }
 };
 
+// Where the program starts, changes tools and ends, and how long its spindle needs to reach its speed.
+struct ReliefChange {
+  Mm height{30};  // Z of the first and the last rapid, and of tool changes; at least the clearance height
+  ReliefPoint park = {};
+  double spindle_seconds = 2;  // dwell after M3
+};
+
 struct ReliefProgramOptions {
   std::string name = {};                // program name, for the first comment
   std::vector<std::string> words = {};  // additional comments
@@ -105,6 +112,7 @@ struct ReliefProgramOptions {
   BesideGrid beside = BesideGrid::goes_on;
   ReliefArea area = {};
   unsigned threads = 1;  // at least 1
+  ReliefChange change = {};
 };
 
 // The statistics of one cutter's part of the program.

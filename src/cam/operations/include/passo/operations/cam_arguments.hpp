@@ -13,7 +13,17 @@
 
 namespace passo {
 
-struct CamDrillArguments {
+// How every program is written.
+struct CamProgramArguments {
+  std::string controller = "passo";  // a name of controllers() in post_processor/
+  std::string start_text;            // files with lines of the operator; empty: none
+  std::string tool_change_text;      // replaces the words that call a tool
+  std::string end_text;
+  std::string change_height = "30mm";  // Z at the start, at tool changes and at the end
+  double spindle_delay = 2;            // seconds
+};
+
+struct CamDrillArguments : CamProgramArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -49,7 +59,7 @@ struct CamDrillArguments {
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
 // The arguments of every milling operation.
-struct CamMillArguments {
+struct CamMillArguments : CamProgramArguments {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -238,8 +248,8 @@ struct CamBoardArguments {
 };
 std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 
-// Lengths without a unit are in mm. Cutters are in the format of parse_cutter().
-struct CamReliefArguments {
+// Cutters are in the format of parse_cutter().
+struct CamReliefArguments : CamProgramArguments {
   std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none
@@ -292,6 +302,8 @@ struct CamReliefArguments {
   std::string rest_feed;  // empty: as `feed`
   std::optional<double> rest_removal;
   std::uint32_t spindle = 12000;  // rpm; 0: no spindle commands
+  std::string units = "mm";       // unit of the program, and of lengths without a unit: mm or inch
+  std::string park = "0,0";
 };
 std::vector<CamOption> cam_options_of(CamReliefArguments& arguments);
 

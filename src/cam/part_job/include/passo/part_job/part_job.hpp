@@ -115,6 +115,8 @@ struct PartJob {
   std::vector<std::string> drawings = {};
   std::string zero = "file";
   std::string output = {};  // empty: the job file's name with .ngc
+  // The controller that runs the programs, and the operator's texts in them. Those of the operations are not used.
+  CamProgramArguments program = {};
   bool one_program = true;  // otherwise one for each tool
   bool keeps_order = false;
   std::optional<PartStock> stock = {};

@@ -1,0 +1,35 @@
+// Writes the program of an operation of `passo cam` in the words of the controller of --for, with the operator's texts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cam_commands.hpp"
+#include "length_arguments.hpp"
+
+#include "passo/cam/drill_program.hpp"
+#include "passo/cam/mill_program.hpp"
+#include "passo/post_processor/post_processor.hpp"
+
+namespace passo {
+
+// Checks --for and the operator's texts before any work. Shows what is wrong. `units`: those of the program.
+bool program_words_are_good(const CamProgramArguments& arguments, const std::string& units);
+
+SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments& lengths);
+
+// Returns the options for a program in `units`. `read_unit`: the unit in which the program was written.
+PostProcessorOptions post_processor_options_of(const CamProgramArguments& arguments, const std::string& units,
+                                               LengthUnit read_unit);
+
+// Whether the program is to be written as it is.
+bool is_plain_program(const CamProgramArguments& arguments);
+
+// These write to `arguments.output`, or to standard output if it is empty. They return an exit code.
+int write_program(const CamMillArguments& arguments, const MillPlan& plan, const MillProgramOptions& options);
+int write_program(const CamDrillArguments& arguments, const DrillPlan& plan, const DrillProgramOptions& options);
+// A program without tools, e.g. for a pen.
+int write_program(const CamMillArguments& arguments, const std::string& text, const std::string& name, DrawnPoint park);
+
+}  // namespace passo
