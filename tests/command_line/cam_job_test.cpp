@@ -29,17 +29,20 @@ class CamJob : public passo::test::CommandLine {
 
   // A plate of 40 x 30 mm with a pocket of 10 x 10 mm. `more`: other elements, and other lines of the job file.
   std::string small_job(const std::string& more_svg = "", const std::string& more_toml = "", const char* depth = "-2") {
-    write("small.svg", "<svg xmlns='http://www.w3.org/2000/svg' "
-                       "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='60mm' height='50mm' viewBox='0 0 60 50'>\n"
-                       "<g inkscape:groupmode='layer' inkscape:label='cut'><rect x='10' y='10' width='40' height='30'/></g>\n"
-                       "<g inkscape:groupmode='layer' inkscape:label='pockets'><rect x='20' y='20' width='10' height='10'/>" +
-                           more_svg + "</g>\n</svg>\n");
-    return write("small.toml", "[job]\ndrawing = \"small.svg\"\nclearance = 5\n"
-                               "[stock]\nsize = [60, 50]\nthickness = 4\n"
-                               "[tool.1]\nshape = \"flat\"\ndiameter_mm = 3\nfeed_mm_min = 600\nplunge_mm_min = 200\n"
-                               "[[operation]]\nkind = \"profile\"\ntool = 1\nlayer = \"cut\"\ndepth = -4.2\nstep = 2\n"
-                               "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"pockets\"\ndepth = " +
-                                   std::string(depth) + "\n" + more_toml);
+    write(
+        "small.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' "
+        "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='60mm' height='50mm' viewBox='0 0 60 50'>\n"
+        "<g inkscape:groupmode='layer' inkscape:label='cut'><rect x='10' y='10' width='40' height='30'/></g>\n"
+        "<g inkscape:groupmode='layer' inkscape:label='pockets'><rect x='20' y='20' width='10' height='10'/>" +
+            more_svg + "</g>\n</svg>\n");
+    return write("small.toml",
+                 "[job]\ndrawing = \"small.svg\"\nclearance = 5\n"
+                 "[stock]\nsize = [60, 50]\nthickness = 4\n"
+                 "[tool.1]\nshape = \"flat\"\ndiameter_mm = 3\nfeed_mm_min = 600\nplunge_mm_min = 200\n"
+                 "[[operation]]\nkind = \"profile\"\ntool = 1\nlayer = \"cut\"\ndepth = -4.2\nstep = 2\n"
+                 "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"pockets\"\ndepth = " +
+                     std::string(depth) + "\n" + more_toml);
   }
   nlohmann::json record(const std::string& name) const {
     return nlohmann::json::parse(read(path(name + ".job.json")), nullptr, false);
@@ -64,7 +67,8 @@ TEST_F(CamJob, every_example_cuts_its_stock_and_nothing_else) {
     ASSERT_EQ(job["programs"].size(), static_cast<std::size_t>(one.programs));
     for (const auto& operation : job["operations"]) {
       EXPECT_GT(operation["cut_mm"], 1.0) << operation["title"];
-      if (operation.contains("figures")) EXPECT_EQ(operation["figures"].value("lost_mm2", 0.0), 0.0) << operation["title"];
+      if (operation.contains("figures"))
+        EXPECT_EQ(operation["figures"].value("lost_mm2", 0.0), 0.0) << operation["title"];
     }
     for (const auto& program : job["programs"]) {
       const std::string file = path(program["file"]);
@@ -124,7 +128,8 @@ TEST_F(CamJob, the_report_explains_the_order_and_counts_the_changes) {
 }
 
 TEST_F(CamJob, a_clamp_in_the_way_is_named_with_operation_and_line_and_nothing_is_written) {
-  const std::string job = small_job("", "[[clamp]]\nname = \"toe clamp\"\nfrom = [50, 20]\nto = [60, 30]\nheight = 3\n");
+  const std::string job =
+      small_job("", "[[clamp]]\nname = \"toe clamp\"\nfrom = [50, 20]\nto = [60, 30]\nheight = 3\n");
   const Outcome made = passo("cam job " + job);
   EXPECT_EQ(made.code, 2) << made.out;
   EXPECT_THAT(made.err, HasSubstr("'profile cut', tool 1: a feed move goes"));
@@ -188,8 +193,9 @@ TEST_F(CamJob, a_wrong_value_points_at_its_key) {
 TEST_F(CamJob, all_wrong_operations_are_shown_at_once_and_an_old_program_stays) {
   ASSERT_EQ(passo("cam job " + small_job()).code, 0);
   const std::string before = read(path("small.ngc"));
-  const Outcome made = passo("cam job " + small_job("", "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"pocketz\"\n"
-                                                        "[[operation]]\nkind = \"drill\"\ntool = 1\nlayer = \"holes\"\n"));
+  const Outcome made = passo("cam job " + small_job("",
+                                                    "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"pocketz\"\n"
+                                                    "[[operation]]\nkind = \"drill\"\ntool = 1\nlayer = \"holes\"\n"));
   EXPECT_EQ(made.code, 2);
   EXPECT_THAT(made.err, HasSubstr("has no layer 'pocketz' [job.no-such-layer]"));
   EXPECT_THAT(made.err, HasSubstr("perhaps pockets"));

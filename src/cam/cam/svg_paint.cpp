@@ -19,10 +19,10 @@ namespace {
 constexpr std::string_view paint_blanks = " \t\r\n\f";
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 21> named_colours = {
-    {{"black", "#000000"}, {"white", "#ffffff"},   {"red", "#ff0000"},   {"lime", "#00ff00"},   {"green", "#008000"},
-     {"blue", "#0000ff"},  {"yellow", "#ffff00"},  {"cyan", "#00ffff"},  {"aqua", "#00ffff"},   {"magenta", "#ff00ff"},
+    {{"black", "#000000"},   {"white", "#ffffff"},  {"red", "#ff0000"},  {"lime", "#00ff00"},   {"green", "#008000"},
+     {"blue", "#0000ff"},    {"yellow", "#ffff00"}, {"cyan", "#00ffff"}, {"aqua", "#00ffff"},   {"magenta", "#ff00ff"},
      {"fuchsia", "#ff00ff"}, {"orange", "#ffa500"}, {"gray", "#808080"}, {"grey", "#808080"},   {"silver", "#c0c0c0"},
-     {"maroon", "#800000"}, {"olive", "#808000"},  {"navy", "#000080"},  {"purple", "#800080"}, {"teal", "#008080"},
+     {"maroon", "#800000"},  {"olive", "#808000"},  {"navy", "#000080"}, {"purple", "#800080"}, {"teal", "#008080"},
      {"brown", "#a52a2a"}}};
 
 bool are_digits(std::string_view digits) {
@@ -34,7 +34,8 @@ std::optional<std::string> rgb_colour(std::string_view text) {
   if (!text.starts_with("rgb(") || !text.ends_with(")")) return std::nullopt;
   std::string inside(text.substr(4, text.size() - 5));
   const double scale = inside.find('%') != std::string::npos ? 2.55 : 1;
-  std::ranges::replace_if(inside, [](char c) { return c == ',' || c == '%'; }, ' ');
+  std::ranges::replace_if(
+      inside, [](char c) { return c == ',' || c == '%'; }, ' ');
   SvgWords words(inside);
   std::string colour = "#";
   for (int i = 0; i < 3; ++i) {
@@ -58,7 +59,8 @@ std::string svg_colour(std::string_view text) {
   if (colour.size() == short_form && colour.front() == '#' && are_digits(std::string_view(colour).substr(1))) {
     return {'#', colour[1], colour[1], colour[2], colour[2], colour[3], colour[3]};
   }
-  const auto* const named = std::ranges::find(named_colours, colour, &std::pair<std::string_view, std::string_view>::first);
+  const auto* const named =
+      std::ranges::find(named_colours, colour, &std::pair<std::string_view, std::string_view>::first);
   if (named != named_colours.end()) return std::string(named->second);
   return rgb_colour(colour).value_or(colour);
 }

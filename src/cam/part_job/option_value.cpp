@@ -36,7 +36,8 @@ std::string example_of(const CamOption& option) {
   switch (option.kind) {
     case CamKind::length: return fmt::format("a length, e.g. {0} = 2 or {0} = \"2mm\"", name);
     case CamKind::feed: return fmt::format("a feed rate, e.g. {} = 600", name);
-    case CamKind::place: return fmt::format("{}, or X and Y, e.g. {} = [10, 0]", fmt::join(option.traits.choices, ", "), name);
+    case CamKind::place:
+      return fmt::format("{}, or X and Y, e.g. {} = [10, 0]", fmt::join(option.traits.choices, ", "), name);
     default: return fmt::format("a text in quotes, e.g. {} = \"A\"", name);
   }
 }
@@ -44,8 +45,8 @@ std::string example_of(const CamOption& option) {
 std::string set(const CamOption& option, std::string& member, const TomlValue& value) {
   const std::optional<std::string> words = words_of(value);
   if (!words) return example_of(option);
-  const bool is_one_of = option.kind != CamKind::choice || std::ranges::find(option.traits.choices, *words) !=
-                                                               option.traits.choices.end();
+  const bool is_one_of =
+      option.kind != CamKind::choice || std::ranges::find(option.traits.choices, *words) != option.traits.choices.end();
   if (!is_one_of) return fmt::format("{}", fmt::join(option.traits.choices, ", "));
   member = *words;
   return "";
@@ -79,12 +80,12 @@ std::string set(const CamOption& option, bool& member, const TomlValue& value) {
 
 template <class Number>
 std::string set_number(const CamOption& option, Number& member, const TomlValue& value) {
-  const CamRange range = option.traits.range.value_or(
-      std::is_integral_v<Number> ? CamRange{0, 4e9} : CamRange{-1e9, 1e9});
+  const CamRange range =
+      option.traits.range.value_or(std::is_integral_v<Number> ? CamRange{0, 4e9} : CamRange{-1e9, 1e9});
   const double* number = std::get_if<double>(&value.content);
   const bool is_whole = number != nullptr && *number == std::floor(*number);
-  const bool is_good = number != nullptr && *number >= range.least && *number <= range.most &&
-                       (is_whole || !std::is_integral_v<Number>);
+  const bool is_good =
+      number != nullptr && *number >= range.least && *number <= range.most && (is_whole || !std::is_integral_v<Number>);
   if (!is_good) {
     return fmt::format("a {}number from {:g} to {:g}", std::is_integral_v<Number> ? "whole " : "", range.least,
                        range.most);
@@ -93,9 +94,7 @@ std::string set_number(const CamOption& option, Number& member, const TomlValue&
   return "";
 }
 template <class Number>
-std::string set(const CamOption& option, Number& member, const TomlValue& value)
-  requires std::is_arithmetic_v<Number>
-{
+std::string set(const CamOption& option, Number& member, const TomlValue& value) requires std::is_arithmetic_v<Number> {
   return set_number(option, member, value);
 }
 template <class Number>

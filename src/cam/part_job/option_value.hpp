@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "passo/toml/toml_document.hpp"
 #include "passo/operations/cam_option.hpp"
+#include "passo/toml/toml_document.hpp"
 
 namespace passo {
 

@@ -58,9 +58,8 @@ void PartJobReader::read_list(const TomlEntry& entry, Read read) {
   const auto* list = std::get_if<TomlArray>(&entry.value.content);
   const std::string expected = fmt::format("[[{}]], a table for each", entry.key);
   if (list == nullptr || list->size() > most_part_operations) {
-    reporter_.error(
-        "job.wrong-type", entry.place, fmt::format("{} is {}", entry.key, kind_of(entry.value)),
-        list == nullptr ? expected : fmt::format("at most {} of [[{}]]", most_part_operations, entry.key));
+    reporter_.error("job.wrong-type", entry.place, fmt::format("{} is {}", entry.key, kind_of(entry.value)),
+                    list == nullptr ? expected : fmt::format("at most {} of [[{}]]", most_part_operations, entry.key));
     return;
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -86,10 +85,10 @@ std::vector<std::string> PartJobReader::names(const TomlTable& table, TableReade
   std::vector<std::string> all;
   const auto* list = std::get_if<TomlArray>(&entry->value.content);
   const bool is_good = list != nullptr && std::ranges::all_of(*list, [&](const TomlValue& item) {
-    const auto* text = std::get_if<std::string>(&item.content);
-    if (text != nullptr) all.push_back(*text);
-    return text != nullptr;
-  });
+                         const auto* text = std::get_if<std::string>(&item.content);
+                         if (text != nullptr) all.push_back(*text);
+                         return text != nullptr;
+                       });
   if (is_good) return all;
   reader.error("job.wrong-type", key, fmt::format("{} is {}", reader.full_name(key), kind_of(entry->value)),
                fmt::format("a text in quotes or a list of them, e.g. {} = \"plate.svg\"", key));
@@ -131,18 +130,22 @@ void PartJobReader::read_job(const TomlEntry& entry) {
     }
   }
   job_.output = in_folder(reader.text("output", "plate.ngc", Need::optional).value_or(""));
-  job_.one_program = !reader.is_second_of("job.bad-value", "programs", "one", "each-tool", Need::optional).value_or(false);
-  job_.keeps_order = reader.is_second_of("job.bad-value", "order", "by-tool", "as-written", Need::optional).value_or(false);
+  job_.one_program =
+      !reader.is_second_of("job.bad-value", "programs", "one", "each-tool", Need::optional).value_or(false);
+  job_.keeps_order =
+      reader.is_second_of("job.bad-value", "order", "by-tool", "as-written", Need::optional).value_or(false);
   if (const auto library = reader.text("tools", "router-tools.toml", Need::optional)) {
     read_library(in_folder(*library), reader.place_of("tools"));
   }
   read_program_words(table, reader);
   // The rest: options of operations.
   std::set<std::string_view> known;
-  for (const PartKind kind : {PartKind::profile, PartKind::pocket, PartKind::drill, PartKind::engrave, PartKind::relief}) {
+  for (const PartKind kind :
+       {PartKind::profile, PartKind::pocket, PartKind::drill, PartKind::engrave, PartKind::relief}) {
     const CamOperation* const operation = find_cam_operation(name_of(kind));
     for (const CamOption& option : operation->options()) {
-      if (!option.traits.is_of_job && !is_of_program(option.name) && option.kind != CamKind::drawings) known.insert(option.name);
+      if (!option.traits.is_of_job && !is_of_program(option.name) && option.kind != CamKind::drawings)
+        known.insert(option.name);
     }
   }
   for (const TomlEntry& option : table.entries) {
@@ -163,7 +166,8 @@ void PartJobReader::read_program_words(const TomlTable& table, TableReader& read
     if (entry == nullptr) continue;
     const std::string expected = set_option(option, entry->value);
     if (!expected.empty()) {
-      reader.error("job.bad-value", option.name, fmt::format("job.{} is {}", option.name, kind_of(entry->value)), expected);
+      reader.error("job.bad-value", option.name, fmt::format("job.{} is {}", option.name, kind_of(entry->value)),
+                   expected);
     }
     auto* const* text = std::get_if<std::string*>(&option.value);
     if (option.kind == CamKind::file && text != nullptr) **text = in_folder(**text);
@@ -201,7 +205,8 @@ void PartJobReader::read_clamp(const TomlTable& table, const std::string& path, 
   reader.finish(document_.complete, {});
   if (!from || !to || !height) return;
   if (from->low >= to->low || from->high >= to->high) {
-    reader.error("job.bad-value", "to", fmt::format("{} ends at [{:g}, {:g}], before it begins", path, to->low, to->high),
+    reader.error("job.bad-value", "to",
+                 fmt::format("{} ends at [{:g}, {:g}], before it begins", path, to->low, to->high),
                  fmt::format("X above {:g} and Y above {:g}", from->low, from->high));
     return;
   }

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "passo/toml/table_reader.hpp"
 #include "passo/part_job/part_job.hpp"
+#include "passo/toml/table_reader.hpp"
 
 namespace passo {
 

@@ -30,9 +30,10 @@ PartArguments arguments_of(PartKind kind) {
 // Options that a job sets for all operations, or by their tools.
 bool is_set_by_job(const CamOption& option) {
   constexpr std::array<std::string_view, 21> names = {
-      "output", "picture", "json", "units", "zero",  "sheet", "mirror", "mirror-at", "align", "align-drill", "tool",
+      "output", "picture", "json", "units",  "zero",  "sheet", "mirror", "mirror-at", "align", "align-drill", "tool",
       "tools",  "drill",   "mill", "cutter", "angle", "tip",   "clear",  "rough",     "rest",  "FILE"};
-  return option.kind == CamKind::drawings || is_of_program(option.name) || std::ranges::find(names, option.name) != names.end();
+  return option.kind == CamKind::drawings || is_of_program(option.name) ||
+         std::ranges::find(names, option.name) != names.end();
 }
 
 // The key of another tool of the operation, and the option that it stands for.
@@ -82,8 +83,7 @@ std::string tool_expected(PartKind kind, CuttingShape shape) {
   if (kind == PartKind::engrave || kind == PartKind::chamfer) {
     return shape == CuttingShape::vee ? "" : "a tool with shape = \"vee\"";
   }
-  return shape == CuttingShape::flat || shape == CuttingShape::bull ? ""
-                                                                    : "a tool with shape = \"flat\" or \"bull\"";
+  return shape == CuttingShape::flat || shape == CuttingShape::bull ? "" : "a tool with shape = \"flat\" or \"bull\"";
 }
 
 }  // namespace
@@ -115,7 +115,8 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
       reader.error("job.unknown-kind", "kind", fmt::format("there is no operation \"{}\"", *word),
                    near.empty() ? fmt::format("{}", fmt::join(names_of_kinds, ", ")) : fmt::format("perhaps {}", near));
     } else {
-      reporter_.error("job.missing-key", place, fmt::format("[[operation]] number {} has no kind", path.substr(path.find('.') + 1)),
+      reporter_.error("job.missing-key", place,
+                      fmt::format("[[operation]] number {} has no kind", path.substr(path.find('.') + 1)),
                       fmt::format("kind = one of {}", fmt::join(names_of_kinds, ", ")));
     }
     return;
@@ -221,7 +222,11 @@ void PartJobReader::apply_tool(PartOperation& operation) {
   const Cutter& cutter = tool.shape.cutter;
   const std::vector<CamOption> options = cam_options_of(operation);
   const std::string diameter = mm_words(2 * cutter.radius);
-  give(options, operation.kind == PartKind::drill ? "drill" : operation.kind == PartKind::bore ? "mill" : "tool", diameter);
+  give(options,
+       operation.kind == PartKind::drill  ? "drill"
+       : operation.kind == PartKind::bore ? "mill"
+                                          : "tool",
+       diameter);
   give(options, "cutter", cutter_words(cutter));
   if (auto* engrave = std::get_if<CamEngraveArguments>(&operation.arguments)) {
     engrave->angle = degrees_of(cutter);

@@ -5,10 +5,13 @@
 namespace passo {
 namespace {
 
-JoinedOperation operation(std::string title, std::string body, std::int32_t tool, const std::string& spindle = "12000") {
+JoinedOperation operation(std::string title, std::string body, std::int32_t tool,
+                          const std::string& spindle = "12000") {
   return {.title = std::move(title),
-          .program = "(part.ngc, by passo cam pocket)\n(tool 1: cutter 3 mm, 1 run)\nG17 G21 G40 G80 G90 G94\nG0 Z5\n\n"
-                     "M3 S" + spindle + "\nG4 P2 (the spindle reaches its speed)\n" + body + "M5\nG0 X0 Y0\nM2\n",
+          .program =
+              "(part.ngc, by passo cam pocket)\n(tool 1: cutter 3 mm, 1 run)\nG17 G21 G40 G80 G90 G94\nG0 Z5\n\n"
+              "M3 S" +
+              spindle + "\nG4 P2 (the spindle reaches its speed)\n" + body + "M5\nG0 X0 Y0\nM2\n",
           .tools = {{tool, "cutter"}},
           .park = "X0 Y0"};
 }
@@ -36,13 +39,15 @@ TEST(JoinedProgram, another_tool_is_changed_at_the_park_position_with_a_stopped_
   joined.add(operation("first", "G1 X1\nG0 Z5\n", 3));
   joined.add(operation("second", "G1 X2\n", 4));
   const std::string text = joined.take();
-  EXPECT_NE(text.find("G0 Z5\nM5\nG0 X0 Y0\n(MSG, tool 4: cutter)\nT4 M6\nG0 Z5\nM3 S12000\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("G0 Z5\nM5\nG0 X0 Y0\n(MSG, tool 4: cutter)\nT4 M6\nG0 Z5\nM3 S12000\n"), std::string::npos)
+      << text;
 }
 
 TEST(JoinedProgram, an_operation_of_two_tools_has_the_numbers_of_the_job) {
   JoinedOperation two{.title = "sign",
-                      .program = "G17 G21\nG0 Z5\n\n(MSG, tool 1: flat)\nT1 M6\nG0 Z5\nG1 X1\nM5\nG0 X0 Y0\n"
-                                 "(MSG, tool 2: V)\nT2 M6\nG0 Z5\nG1 X2\nM5\nG0 X0 Y0\nM2\n",
+                      .program =
+                          "G17 G21\nG0 Z5\n\n(MSG, tool 1: flat)\nT1 M6\nG0 Z5\nG1 X1\nM5\nG0 X0 Y0\n"
+                          "(MSG, tool 2: V)\nT2 M6\nG0 Z5\nG1 X2\nM5\nG0 X0 Y0\nM2\n",
                       .tools = {{7, "flat cutter"}, {3, "V"}},
                       .park = "X0 Y0"};
   JoinedProgram joined({});

@@ -14,15 +14,16 @@ PartJob ordered_job(const std::string& operations) {
   auto job = parse_part_job(
       "[job]\ndrawing = \"a.svg\"\n[stock]\nsize = [100, 60]\nthickness = 8\n"
       "[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\n[tool.2]\nshape = \"flat\"\ndiameter_mm = 2\n"
-      "[tool.3]\nshape = \"vee\"\ndiameter_mm = 6\nangle_deg = 90\n" + operations,
+      "[tool.3]\nshape = \"vee\"\ndiameter_mm = 6\nangle_deg = 90\n" +
+          operations,
       "a.toml", findings);
   EXPECT_FALSE(findings.any_error()) << render(findings, false);
   return job.value_or(PartJob{});
 }
 
 std::string operation(const char* kind, const char* title, int tool, const char* more = "") {
-  return std::string("[[operation]]\nkind = \"") + kind + "\"\ntitle = \"" + title + "\"\ntool = " + std::to_string(tool) +
-         "\n" + more + "\n";
+  return std::string("[[operation]]\nkind = \"") + kind + "\"\ntitle = \"" + title +
+         "\"\ntool = " + std::to_string(tool) + "\n" + more + "\n";
 }
 
 std::string titles(const PartJob& job) {
@@ -34,27 +35,30 @@ std::string titles(const PartJob& job) {
 }
 
 TEST(OperationOrder, facing_is_first_and_what_frees_the_part_is_last) {
-  const PartJob job = ordered_job(operation("profile", "out", 1) + operation("pocket", "pocket", 1) +
-                             operation("profile", "hole", 1, "side = \"inside\"") + operation("face", "face", 1, "depth = -1"));
+  const PartJob job =
+      ordered_job(operation("profile", "out", 1) + operation("pocket", "pocket", 1) +
+                  operation("profile", "hole", 1, "side = \"inside\"") + operation("face", "face", 1, "depth = -1"));
   EXPECT_EQ(titles(job), "face pocket hole out");
 }
 
 TEST(OperationOrder, operations_of_a_tool_follow_each_other) {
-  const PartJob job = ordered_job(operation("pocket", "a", 1, "layer = \"a\"") + operation("pocket", "b", 2, "layer = \"b\"") +
-                             operation("pocket", "c", 1, "layer = \"c\"") + operation("pocket", "d", 2, "layer = \"d\""));
+  const PartJob job =
+      ordered_job(operation("pocket", "a", 1, "layer = \"a\"") + operation("pocket", "b", 2, "layer = \"b\"") +
+                  operation("pocket", "c", 1, "layer = \"c\"") + operation("pocket", "d", 2, "layer = \"d\""));
   EXPECT_EQ(titles(job), "a c b d");
   EXPECT_EQ(tool_changes(job, order_operations(job)), 1U);
 }
 
 TEST(OperationOrder, the_wide_cutter_clears_before_the_narrow_one) {
-  const PartJob job = ordered_job(operation("pocket", "fine", 2, "layer = \"a\"") + operation("pocket", "rough", 1, "layer = \"a\""));
+  const PartJob job =
+      ordered_job(operation("pocket", "fine", 2, "layer = \"a\"") + operation("pocket", "rough", 1, "layer = \"a\""));
   EXPECT_EQ(titles(job), "rough fine");
   EXPECT_EQ(order_operations(job).back().reason, "a wider cutter clears first");
 }
 
 TEST(OperationOrder, a_chamfer_comes_after_the_cuts_and_before_the_part_is_free) {
   const PartJob job = ordered_job(operation("profile", "out", 1) + operation("chamfer", "edge", 3, "depth = -1") +
-                             operation("pocket", "pocket", 1));
+                                  operation("pocket", "pocket", 1));
   EXPECT_EQ(titles(job), "pocket edge out");
 }
 

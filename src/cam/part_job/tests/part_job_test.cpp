@@ -24,8 +24,9 @@ PartJob job_of(const std::string& text) {
 }
 
 TEST(PartJob, an_operation_has_the_options_of_its_command_and_its_tool) {
-  const PartJob job = job_of(std::string(head) +
-                             "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = [\"a\", \"b\"]\ndepth = -4\nstep-over = 55\n");
+  const PartJob job =
+      job_of(std::string(head) +
+             "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = [\"a\", \"b\"]\ndepth = -4\nstep-over = 55\n");
   ASSERT_EQ(job.operations.size(), 1U);
   const auto& pocket = std::get<CamPocketArguments>(job.operations[0].arguments);
   EXPECT_EQ(pocket.depth, "-4");
@@ -43,8 +44,9 @@ TEST(PartJob, an_operation_has_the_options_of_its_command_and_its_tool) {
 
 // Every option of a command that is not set by the job can stand in an operation's table.
 TEST(PartJob, what_the_operation_says_goes_before_its_tool_and_the_job) {
-  const PartJob job = job_of(std::string(head) +
-                             "[[operation]]\nkind = \"profile\"\ntool = 1\nfeed = 400\nclearance = \"1cm\"\ntab = [[1, 2], [3, 4]]\n");
+  const PartJob job =
+      job_of(std::string(head) +
+             "[[operation]]\nkind = \"profile\"\ntool = 1\nfeed = 400\nclearance = \"1cm\"\ntab = [[1, 2], [3, 4]]\n");
   const auto& profile = std::get<CamProfileArguments>(job.operations[0].arguments);
   EXPECT_EQ(profile.feed, "400");
   EXPECT_EQ(profile.clearance, "1cm");
@@ -58,8 +60,10 @@ TEST(PartJob, a_misspelt_key_is_shown_with_its_place_and_what_was_meant) {
 }
 
 TEST(PartJob, a_wrong_value_names_what_the_option_takes) {
-  const std::string errors = errors_of(std::string(head) + "[[operation]]\nkind = \"profile\"\ntool = 1\nside = \"middle\"\n");
-  EXPECT_NE(errors.find("plate.toml:13:8: error: operation.1.side is the text \"middle\" [job.bad-value]"), std::string::npos)
+  const std::string errors =
+      errors_of(std::string(head) + "[[operation]]\nkind = \"profile\"\ntool = 1\nside = \"middle\"\n");
+  EXPECT_NE(errors.find("plate.toml:13:8: error: operation.1.side is the text \"middle\" [job.bad-value]"),
+            std::string::npos)
       << errors;
   EXPECT_NE(errors.find("expected: part, outside, inside, on"), std::string::npos) << errors;
   EXPECT_NE(errors_of(std::string(head) + "[[operation]]\nkind = \"pocket\"\ntool = 1\nstep-over = 120\n")
@@ -68,7 +72,8 @@ TEST(PartJob, a_wrong_value_names_what_the_option_takes) {
 }
 
 TEST(PartJob, an_unknown_kind_and_a_missing_tool_are_named) {
-  EXPECT_NE(errors_of(std::string(head) + "[[operation]]\nkind = \"poket\"\ntool = 1\n").find("perhaps pocket"), std::string::npos);
+  EXPECT_NE(errors_of(std::string(head) + "[[operation]]\nkind = \"poket\"\ntool = 1\n").find("perhaps pocket"),
+            std::string::npos);
   const std::string errors = errors_of(std::string(head) + "[[operation]]\nkind = \"pocket\"\ntool = 4\n");
   EXPECT_NE(errors.find("there is no table [tool.4] [job.no-such-tool]"), std::string::npos) << errors;
 }
@@ -88,8 +93,9 @@ TEST(PartJob, a_clamp_ends_after_it_begins) {
 }
 
 TEST(PartJob, lengths_of_stock_and_clamps_are_in_the_units_of_the_job) {
-  const PartJob job = job_of("[job]\nunits = \"inch\"\ndrawing = \"a.svg\"\n[stock]\nsize = [4, 2]\nthickness = 0.5\n"
-                             "[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\n[[operation]]\nkind = \"pocket\"\ntool = 1\n");
+  const PartJob job = job_of(
+      "[job]\nunits = \"inch\"\ndrawing = \"a.svg\"\n[stock]\nsize = [4, 2]\nthickness = 0.5\n"
+      "[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\n[[operation]]\nkind = \"pocket\"\ntool = 1\n");
   EXPECT_NEAR(job.stock->width, 101.6, 1e-9);
   EXPECT_NEAR(job.stock->thickness, 12.7, 1e-9);
   EXPECT_EQ(std::get<CamPocketArguments>(job.operations[0].arguments).units, "inch");

@@ -91,7 +91,10 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
                     const char* what) {
   MillJob job;
   job.reading.dxf = dxf_options_of(arguments, *mm_of_unit(arguments.units), lengths);
-  job.reading.svg = {.scale = arguments.scale.value_or(1), .layers = arguments.layers, .colors = arguments.colors, .names = arguments.names};
+  job.reading.svg = {.scale = arguments.scale.value_or(1),
+                     .layers = arguments.layers,
+                     .colors = arguments.colors,
+                     .names = arguments.names};
   job.reading.hpgl = {.scale = arguments.scale.value_or(1), .layers = arguments.layers};
   job.mirror = mirror_of(arguments, lengths);
   MillProgramOptions& program = job.program;

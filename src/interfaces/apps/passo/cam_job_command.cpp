@@ -65,8 +65,9 @@ std::string park_words(const PartJob& job, const PartOperation& operation) {
 
 JoinedOperation joined_operation(const JobRun& run, std::size_t index) {
   const PartOperation& operation = run.job.operations[index];
-  JoinedOperation joined{.title = fmt::format("{}: {}, tool {}", operation.title, name_of(operation.kind), operation.tool),
-                         .program = run.made[index].program};
+  JoinedOperation joined{
+      .title = fmt::format("{}: {}, tool {}", operation.title, name_of(operation.kind), operation.tool),
+      .program = run.made[index].program};
   for (const std::int32_t tool : {operation.first_tool, operation.tool}) {
     if (tool > 0) joined.tools.push_back({tool, tool_words(run.job, tool)});
   }
@@ -141,12 +142,14 @@ bool rewrite_programs(JobRun& run, Diagnostics& findings) {
       options.tools[static_cast<std::size_t>(number) - 1] = {tool_words(job, number), tool.tool.diameter.value()};
     }
     std::visit([&](const auto& arguments) { options.spindle = arguments.spindle; }, first.arguments);
-    options.change_height = std::atof(program_number(job, "change-height", option_text(first, "change-height")).c_str());
+    options.change_height =
+        std::atof(program_number(job, "change-height", option_text(first, "change-height")).c_str());
     std::string written;
     PostProcessor processor(*words, std::move(options), [&](std::string_view piece) { written += piece; });
     processor.add(program.text);
     if (const auto why = processor.finish()) {
-      findings.add(of_file("job.controller", program.file, fmt::format("{} cannot run it: {}", job.program.controller, *why),
+      findings.add(of_file("job.controller", program.file,
+                           fmt::format("{} cannot run it: {}", job.program.controller, *why),
                            "another controller in job.for"));
       return false;
     }
@@ -195,8 +198,9 @@ int draw(const JobRun& run, const Trial& trial) {
   }
   const Region nothing;
   const MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing};
-  return write_picture(run.arguments.picture, run.job.name,
-                       [&](const PictureOptions& options, OutputFile& file) { return draw_mill_plan(scene, options, file); });
+  return write_picture(run.arguments.picture, run.job.name, [&](const PictureOptions& options, OutputFile& file) {
+    return draw_mill_plan(scene, options, file);
+  });
 }
 
 double number_of(const JobRun& run, const PartOperation& operation, std::string_view option) {
@@ -212,8 +216,8 @@ ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOpe
   use.depth_per_pass = Mm(tried.pass_mm);
   use.plunges = tried.plunges && operation.kind != PartKind::drill;
   std::visit([&](const auto& arguments) { use.rpm = arguments.spindle; }, operation.arguments);
-  const bool mills = operation.kind == PartKind::face || operation.kind == PartKind::pocket ||
-                     operation.kind == PartKind::profile;
+  const bool mills =
+      operation.kind == PartKind::face || operation.kind == PartKind::pocket || operation.kind == PartKind::profile;
   if (!mills) return use;
   constexpr double seconds_per_minute = 60;
   use.feed = MmPerSecond(number_of(run, operation, "feed") / seconds_per_minute);
@@ -276,7 +280,8 @@ void check_folder(const JobRun& run, Diagnostics& findings) {
   if (!run.job.one_program) {
     findings.add(run.job.finding("job.outside", {}, "there can only be one program here", "programs = \"one\""));
   }
-  for (const std::string& file : {run.job.program.start_text, run.job.program.tool_change_text, run.job.program.end_text}) {
+  for (const std::string& file :
+       {run.job.program.start_text, run.job.program.tool_change_text, run.job.program.end_text}) {
     if (is_outside(file)) refuse({}, file);
   }
   for (const PartOperation& operation : run.job.operations) {
@@ -321,8 +326,8 @@ int make_job(JobRun& run, const WorkProgress& progress) {
   run.order = order_operations(run.job);
   for (const PartOperation& operation : run.job.operations) {
     if (run.job.one_program || operation.first_tool == 0 || operation.first_tool == operation.tool) continue;
-    findings.add(run.job.finding("job.two-tools", operation.place,
-                                 fmt::format("'{}' needs two tools", operation.title), "programs = \"one\""));
+    findings.add(run.job.finding("job.two-tools", operation.place, fmt::format("'{}' needs two tools", operation.title),
+                                 "programs = \"one\""));
   }
   const bool is_made = make_operations(run, findings, progress);
   if (!is_made || findings.any_error()) {
@@ -361,7 +366,8 @@ int cam_job_file(const CamJobArguments& arguments, const WorkProgress& progress)
   if (!job) return exit_bad_program;
   JobRun run{.arguments = arguments, .job = std::move(*job), .text = *text};
   run.output = arguments.output.empty() ? run.job.output : arguments.output;
-  if (run.output == "-") return fail(exit_bad_program, "--output: expected a file: the job's record is written beside it");
+  if (run.output == "-")
+    return fail(exit_bad_program, "--output: expected a file: the job's record is written beside it");
   if (!names_are_apart(run)) return exit_bad_program;
   if (!program_words_are_good(run.job.program, run.job.units)) return exit_bad_program;
   run.fingerprint = fingerprint_of_inputs(run.job, run.text);

@@ -230,7 +230,8 @@ std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperat
   std::ranges::copy_if(messages.notes, std::back_inserter(made.notes), is_news);
   if (code != exit_done) {
     if (messages.failures.empty()) {
-      findings.add(job.finding("job.operation", operation.place, fmt::format("'{}' cannot be made", operation.title), ""));
+      findings.add(
+          job.finding("job.operation", operation.place, fmt::format("'{}' cannot be made", operation.title), ""));
     }
     return std::nullopt;
   }

@@ -14,9 +14,9 @@
 namespace passo {
 
 struct MadeOperation {
-  std::string program = {};              // its own program
+  std::string program = {};                // its own program
   std::vector<std::string> contours = {};  // what it cuts, each in words: "12 x 8 mm at X20 Y10"
-  nlohmann::ordered_json figures = {};   // what its command prints with --json; empty: nothing
+  nlohmann::ordered_json figures = {};     // what its command prints with --json; empty: nothing
   std::vector<std::string> notes = {};
 };
 

@@ -119,8 +119,10 @@ std::string changes_of_operation(const Json& before, const Json& now) {
   if (std::lround(a) != std::lround(b)) changes.push_back(fmt::format("time {} -> {}", time_words(a), time_words(b)));
   const auto contours_before = texts_of(before, "contours");
   const auto contours_now = texts_of(now, "contours");
-  if (const auto added = without(contours_now, contours_before); !added.empty()) changes.push_back(listed(added, "added"));
-  if (const auto gone = without(contours_before, contours_now); !gone.empty()) changes.push_back(listed(gone, "removed"));
+  if (const auto added = without(contours_now, contours_before); !added.empty())
+    changes.push_back(listed(added, "added"));
+  if (const auto gone = without(contours_before, contours_now); !gone.empty())
+    changes.push_back(listed(gone, "removed"));
   return fmt::format("{}", fmt::join(changes, "; "));
 }
 

@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "part_job_operation.hpp"
 #include "part_job_trial.hpp"
+#include <nlohmann/json.hpp>
 
 #include "passo/part_job/operation_order.hpp"
 
@@ -36,7 +35,8 @@ nlohmann::ordered_json record_of(const MadeJob& made);
 std::optional<nlohmann::ordered_json> read_job_record(const std::string& output);
 
 // Why the programs on disk are not those of the inputs. Empty: they are.
-std::string out_of_date(const nlohmann::ordered_json& record, const std::string& fingerprint, const std::string& output);
+std::string out_of_date(const nlohmann::ordered_json& record, const std::string& fingerprint,
+                        const std::string& output);
 
 // What differs, one line for each operation. Empty: nothing.
 std::vector<std::string> changes_of(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);

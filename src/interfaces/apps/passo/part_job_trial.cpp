@@ -13,11 +13,11 @@
 namespace passo {
 namespace {
 
-constexpr double least_depth = 0.005;  // mm; less is rounding
+constexpr double least_depth = 0.005;         // mm; less is rounding
 constexpr std::size_t most_points = 200'000;  // of a picture
 
-Diagnostic trouble(const char* code, const TrialProgram& program, std::uint32_t line,
-                   std::string message, std::string expected) {
+Diagnostic trouble(const char* code, const TrialProgram& program, std::uint32_t line, std::string message,
+                   std::string expected) {
   return {.severity = Severity::error,
           .code = code,
           .file = program.file,
@@ -42,8 +42,8 @@ class ProgramTrial {
   StockWishes wishes() const;
   void record(const MoveCut& cut);
   void judge(const MoveCut& cut, const PartOperation& operation);
-  void report(const char* code, const MoveCut& cut, const PartOperation& operation,
-              const std::string& what, std::string expected);
+  void report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
+              std::string expected);
   void draw(const Curve& curve, const Vector3& zero, std::uint32_t line);
   std::size_t operation_at(std::uint32_t line) const;
   const PartClamp* clamp_at(const Vector3& place) const;
@@ -93,8 +93,8 @@ const PartClamp* ProgramTrial::clamp_at(const Vector3& place) const {
 }
 
 // The first place of each trouble of an operation, with the number of further moves.
-void ProgramTrial::report(const char* code, const MoveCut& cut, const PartOperation& operation,
-                          const std::string& what, std::string expected) {
+void ProgramTrial::report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
+                          std::string expected) {
   const std::string key = fmt::format("{} {} {}", code, operation.title, expected);
   if (reported_[key]++ > 0) return;
   findings_.add(trouble(code, program_, cut.move.line,
@@ -110,7 +110,8 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
            fmt::format("{} goes {:.2f} mm into '{}' at {}", move, cut.clamp, clamp != nullptr ? clamp->name : "a clamp",
                        place_words(cut.clamp_place)),
            clamp == nullptr ? "no clamp in the way"
-           : cut.move.rapid ? fmt::format("a clearance above {:g}, the top of '{}', or a clamp elsewhere", clamp->height, clamp->name)
+           : cut.move.rapid ? fmt::format("a clearance above {:g}, the top of '{}', or a clamp elsewhere",
+                                          clamp->height, clamp->name)
                             : fmt::format("'{}' further away from what is cut", clamp->name));
   }
   if (cut.move.rapid && cut.depth > least_depth) {

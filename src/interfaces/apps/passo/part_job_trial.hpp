@@ -16,13 +16,13 @@ namespace passo {
 
 struct TriedOperation {
   std::uint64_t moves = 0;
-  double cut_mm = 0;    // length of the feeds
-  double cut_s = 0;     // at the programmed feeds
+  double cut_mm = 0;  // length of the feeds
+  double cut_s = 0;   // at the programmed feeds
   double rapid_mm = 0;
   double depth_mm = 0;  // of the deepest feed below Z0
   double removed_mm3 = 0;
-  double pass_mm = 0;      // the deepest cut of a feed
-  bool plunges = false;    // a feed goes straight down in the stock
+  double pass_mm = 0;              // the deepest cut of a feed
+  bool plunges = false;            // a feed goes straight down in the stock
   std::vector<MillRun> ways = {};  // the feeds, for the picture
 };
 

@@ -46,8 +46,8 @@ class JoinedProgram {
   std::string text_;
   std::uint32_t lines_ = 0;
   std::vector<std::uint32_t> first_lines_;
-  std::int32_t tool_ = -1;      // -1: none yet
-  std::string spindle_;         // "M3 S12000"; empty: it is stopped
+  std::int32_t tool_ = -1;  // -1: none yet
+  std::string spindle_;     // "M3 S12000"; empty: it is stopped
   std::string park_;
 };
 

@@ -2,8 +2,9 @@
 //
 // What must be: facing first, because it makes Z0. Whatever frees the part (a profile around it) last. Of the rest,
 // roughing before finishing: a pocket with a wider cutter before one with a narrower cutter on the same layer, and
-// chamfers and engravings after the other cuts of their layers, and after reliefs. Profiles inside before those outside. Among all orders
-// that keep to this, the one that is found has few changes of the tool; apart from that, operations stay as written.
+// chamfers and engravings after the other cuts of their layers, and after reliefs. Profiles inside before those
+// outside. Among all orders that keep to this, the one that is found has few changes of the tool; apart from that,
+// operations stay as written.
 #pragma once
 
 #include <cstddef>

@@ -72,10 +72,10 @@ using PartArguments =
 
 struct PartOperation {
   PartKind kind = PartKind::profile;
-  std::string title = {};             // the user's, or made of kind and layers
-  SourceLocation place = {};          // of its kind
-  std::int32_t tool = 0;              // a key of PartJob::tools
-  std::int32_t first_tool = 0;        // engrave: clears wide areas; relief: roughs; 0: none
+  std::string title = {};               // the user's, or made of kind and layers
+  SourceLocation place = {};            // of its kind
+  std::int32_t tool = 0;                // a key of PartJob::tools
+  std::int32_t first_tool = 0;          // engrave: clears wide areas; relief: roughs; 0: none
   std::vector<std::string> files = {};  // its drawings, or the model of a relief; empty: none
   // What it cuts of its drawings; empty: all.
   std::vector<std::string> layers = {};
@@ -97,7 +97,7 @@ struct PartStock {
   double thickness = 0;  // Z0 is the top
   std::string material = {};
   std::optional<WorkMaterial> known_material = {};  // that of feeds and chip loads
-  double margin_below = 0.5;  // cuts may end this far below the stock, in the waste board
+  double margin_below = 0.5;                        // cuts may end this far below the stock, in the waste board
 };
 
 struct PartClamp {
