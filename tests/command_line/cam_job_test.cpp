@@ -57,6 +57,7 @@ TEST_F(CamJob, every_example_cuts_its_stock_and_nothing_else) {
       {"bracket", "X-5:95,Y-5:85,Z-10.5:0", "--tool 1=flat:8 --tool 2=flat:4 --tool 3=vee:90:8", 1},
       {"clock", "X-90:90,Y-90:90,Z-8.5:0", "--tool 1=vee:60:6:0.2 --tool 2=flat:3", 1},
       {"guitar", "X-12:218,Y-12:138,Z-20.5:0", "--tool 1=flat:8 --tool 2=flat:5", 1},
+      {"coaster", "X-50:50,Y-50:50,Z-8.5:0", "--tool 1=flat:4 --tool 2=ball:4", 1},
       {"gear", "X-45:45,Y-45:45,Z-6.5:0", "--tool 1=flat:4 --tool 2=flat:2", 2}};
   for (const JobExample& one : examples) {
     SCOPED_TRACE(one.name);
