@@ -158,8 +158,8 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
   if (*kind == PartKind::face && !job_.stock) {
     reporter_.error("job.missing-key", operation.place, "facing needs the size of the stock", "a table [stock]");
   }
-  if (*kind == PartKind::relief && job_.units != "mm") {
-    reporter_.error("job.bad-value", operation.place, "a relief is always in mm", "units = \"mm\"");
+  if (*kind == PartKind::relief && job_.units == "cm") {
+    reporter_.error("job.bad-value", operation.place, "a relief cannot be in cm", "units = \"mm\" or \"inch\"");
   }
   if (operation.title.empty()) {
     const auto number = job_.operations.size() + 1;
