@@ -41,6 +41,9 @@ bool frees_the_part(const PartOperation& operation) {
   return profile != nullptr && operation.kind == PartKind::profile &&
          (profile->side == "part" || profile->side == "outside");
 }
+std::int32_t begins_with(const PartOperation& operation) {
+  return operation.first_tool > 0 ? operation.first_tool : operation.tool;
+}
 bool is_finish(PartKind kind) {
   return kind == PartKind::chamfer || kind == PartKind::engrave;
 }
@@ -88,30 +91,29 @@ std::size_t OrderSearch::best_of_ready() const {
   std::optional<std::size_t> first_at_once;
   for (std::size_t i = 0; i < operations_.size(); ++i) {
     if (!is_ready(i)) continue;
-    const std::int32_t tool = operations_[i].tool;
+    const std::int32_t tool = begins_with(operations_[i]);
     if (tool_ == tool) return i;
     if (!first) first = i;
     bool is_at_once = true;
     for (std::size_t k = 0; k < operations_.size(); ++k) {
-      if (!done_[k] && operations_[k].tool == tool && !is_ready(k)) is_at_once = false;
+      if (!done_[k] && begins_with(operations_[k]) == tool && !is_ready(k)) is_at_once = false;
     }
     if (is_at_once && !first_at_once) first_at_once = i;
   }
   return first_at_once ? *first_at_once : *first;
 }
 
-// An operation is explained if one that was written after it now comes before it. Those that only moved up are not.
+// An operation is explained if one that was written after it must come before it, or if it comes before one that was
+// written before it, and need not. What only moves up because another one must wait is not explained.
 void OrderSearch::give_reasons(std::vector<OrderedOperation>& order) const {
   for (std::size_t at = 0; at < order.size(); ++at) {
     OrderedOperation& one = order[at];
-    std::optional<std::size_t> before;
     for (std::size_t earlier = 0; earlier < at && one.reason.empty(); ++earlier) {
-      if (order[earlier].index < one.index) continue;
-      if (!before) before = order[earlier].index;
-      one.reason = must_precede(order[earlier].index, one.index);
+      if (order[earlier].index > one.index) one.reason = must_precede(order[earlier].index, one.index);
     }
-    if (before && one.reason.empty()) {
-      one.reason = fmt::format("the cuts of tool {} follow each other", operations_[*before].tool);
+    for (std::size_t later = at + 1; later < order.size() && one.reason.empty(); ++later) {
+      const bool is_passed = order[later].index < one.index && must_precede(one.index, order[later].index).empty();
+      if (is_passed) one.reason = "fewer tool changes";
     }
   }
 }
@@ -140,8 +142,13 @@ std::vector<OrderedOperation> order_operations(const PartJob& job) {
 
 std::size_t tool_changes(const PartJob& job, const std::vector<OrderedOperation>& order) {
   std::size_t changes = 0;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (job.operations[order[i].index].tool != job.operations[order[i - 1].index].tool) ++changes;
+  std::int32_t tool = 0;
+  for (const OrderedOperation& ordered : order) {
+    const PartOperation& operation = job.operations[ordered.index];
+    for (const std::int32_t next : {begins_with(operation), operation.tool}) {
+      if (tool != 0 && next != tool) ++changes;
+      tool = next;
+    }
   }
   return changes;
 }

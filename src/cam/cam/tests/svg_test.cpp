@@ -357,10 +357,10 @@ TEST(Svg, old_inkscape_has_90_pixels_in_an_inch) {
 }
 
 TEST(Svg, shapes_are_chosen_by_the_colour_of_their_line_or_area) {
-  const std::string text =
-      page("<style>.s{stroke:#0f0;fill:none}</style><g stroke='red' fill='none'><circle cx='20' cy='10' r='4'/>"
-           "<circle cx='40' cy='10' r='4' style='stroke:rgb(0, 0, 255)'/><circle cx='60' cy='10' r='4' class='s'/></g>"
-           "<circle cx='80' cy='10' r='4' fill='#ff0000'/><circle cx='90' cy='10' r='4'/>");
+  const std::string text = page(
+      "<style>.s{stroke:#0f0;fill:none}</style><g stroke='red' fill='none'><circle cx='20' cy='10' r='4'/>"
+      "<circle cx='40' cy='10' r='4' style='stroke:rgb(0, 0, 255)'/><circle cx='60' cy='10' r='4' class='s'/></g>"
+      "<circle cx='80' cy='10' r='4' fill='#ff0000'/><circle cx='90' cy='10' r='4'/>");
   const auto places = [&](const char* color) {
     std::vector<double> all;
     for (const DrawnHole& hole : svg(text, {.colors = {color}}).drawing.holes) all.push_back(to_mm(hole.at.x).value());

@@ -77,6 +77,21 @@ TEST(OperationOrder, what_was_moved_has_a_reason_and_the_rest_has_none) {
   EXPECT_EQ(order[1].reason, "it frees the part, so it comes last");
 }
 
+TEST(OperationOrder, an_operation_that_is_drawn_forward_for_its_tool_says_so) {
+  const PartJob job =
+      ordered_job(operation("profile", "out", 1) + operation("pocket", "pocket", 1) + operation("drill", "holes", 2));
+  EXPECT_EQ(titles(job), "holes pocket out");
+  const auto order = order_operations(job);
+  EXPECT_EQ(order[0].reason, "fewer tool changes");
+  EXPECT_EQ(order[1].reason, "");
+}
+
+TEST(OperationOrder, the_tool_that_clears_first_counts_as_a_change) {
+  const PartJob job = ordered_job(operation("engrave", "sign", 3, "clear-tool = 2") + operation("pocket", "pocket", 2));
+  EXPECT_EQ(titles(job), "sign pocket");
+  EXPECT_EQ(tool_changes(job, order_operations(job)), 2U);
+}
+
 TEST(OperationOrder, as_written_means_as_written) {
   PartJob job = ordered_job(operation("profile", "out", 1) + operation("pocket", "pocket", 1));
   job.keeps_order = true;

@@ -254,7 +254,7 @@ std::string report_of(const Json& record) {
                         value_of(operation, "moves", std::uint64_t{0}), time_words(value_of(operation, "cut_s", 0.0)),
                         value_of(operation, "cut_mm", 0.0), value_of(operation, "rapid_mm", 0.0));
     const std::string reason = value_of<std::string>(operation, "reason", "");
-    if (!reason.empty()) {
+    if (!reason.empty() && number != value_of(operation, "written", std::size_t{0})) {
       reasons += fmt::format("order: '{}' is number {} instead of {}: {}\n", title, number,
                              value_of(operation, "written", 0), reason);
     }

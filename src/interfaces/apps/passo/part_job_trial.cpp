@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "passo/cutting/stock_job.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
 namespace {
@@ -42,6 +43,8 @@ class ProgramTrial {
   StockWishes wishes() const;
   void record(const MoveCut& cut);
   void judge(const MoveCut& cut, const PartOperation& operation);
+  void judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool);
+  bool clamps_are_small();
   void report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
               std::string expected);
   void draw(const Curve& curve, const Vector3& zero, std::uint32_t line);
@@ -61,8 +64,10 @@ class ProgramTrial {
 StockWishes ProgramTrial::wishes() const {
   StockWishes wishes;
   for (const auto& [number, tool] : job_.tools) wishes.shapes.emplace(number, tool.shape);
+  constexpr double clamp_depth = 900;  // mm
   for (const PartClamp& clamp : job_.clamps) {
-    wishes.clamps.push_back({{clamp.x[0], clamp.y[0], -1000}, {clamp.x[1], clamp.y[1], clamp.height}});
+    wishes.clamps.push_back(
+        {{clamp.x[0], clamp.y[0], clamp.height - clamp_depth}, {clamp.x[1], clamp.y[1], clamp.height}});
   }
   if (job_.stock) {
     const PartStock& stock = *job_.stock;
@@ -124,12 +129,20 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
            fmt::format("the holder goes {:.2f} mm into the stock at {}", cut.holder, place_words(cut.holder_place)),
            "a tool that sticks out further (holder_from_mm), or less depth");
   }
-  const double below = job_.stock ? job_.stock->margin_below : 1e9;
-  if (cut.below > below + least_depth) {
-    report("job.below", cut, operation,
-           fmt::format("the tip goes {:.2f} mm below the stock at {}", cut.below, place_words(cut.place)),
-           fmt::format("at most {:g} mm; stock.below allows more", below));
-  }
+}
+
+// Where the material is gone already, a feed below the stock cuts into the table all the same.
+void ProgramTrial::judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool) {
+  if (!job_.stock) return;
+  const PartStock& stock = *job_.stock;
+  const double below = -low.z - stock.thickness;
+  const bool is_over_stock =
+      high.x > stock.x && low.x < stock.x + stock.width && high.y > stock.y && low.y < stock.y + stock.length;
+  if (below <= stock.margin_below + least_depth || !is_over_stock) return;
+  const MoveCut cut{.move = {.line = line, .tool = tool}};
+  report("job.below", cut, job_.operations[operation_at(line)],
+         fmt::format("the tip goes {:.2f} mm below the stock at {}", below, place_words(low)),
+         fmt::format("at most {:g} mm; stock.below allows more", stock.margin_below));
 }
 
 void ProgramTrial::record(const MoveCut& cut) {
@@ -169,6 +182,19 @@ void ProgramTrial::draw(const Curve& curve, const Vector3& zero, std::uint32_t l
   points_ += static_cast<std::size_t>(pieces);
 }
 
+// The cutter passes over clamps that have too many cells, so there must be none.
+bool ProgramTrial::clamps_are_small() {
+  bool are_small = true;
+  const StockWishes wanted = wishes();
+  for (std::size_t i = 0; i < wanted.clamps.size(); ++i) {
+    if (HeightField::create(wanted.clamps[i], Mm(trial_.field->cell()))) continue;
+    findings_.add(of_file("job.clamp-size", job_.file, fmt::format("'{}' is too large", job_.clamps[i].name),
+                          "the part of it that the tools can reach"));
+    are_small = false;
+  }
+  return are_small;
+}
+
 void ProgramTrial::run() {
   const StockWishes wanted = wishes();
   const StockJob stock_job{ProgramReader::from_text(program_.file, program_.text), {}, nullptr};
@@ -185,10 +211,14 @@ void ProgramTrial::run() {
     if (!field) return;
     trial_.field.emplace(std::move(*field));
   }
+  if (!clamps_are_small()) return;
   CutHooks hooks;
   hooks.cut = [this](const MoveCut& cut) { record(cut); };
   hooks.feed = [this](StockCutter& cutter, const TipMove& move, const StockMove& kind) {
-    draw(move.segment->curve, Vector3::of(move.zero), kind.line);
+    const Vector3 zero = Vector3::of(move.zero);
+    const Box box = move.segment->curve.extents();
+    judge_depth(Vector3::of(box.low) - zero, Vector3::of(box.high) - zero, kind.line, kind.tool);
+    draw(move.segment->curve, zero, kind.line);
     cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
   };
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);

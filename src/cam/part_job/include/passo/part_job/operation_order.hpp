@@ -17,7 +17,7 @@ namespace passo {
 
 struct OrderedOperation {
   std::size_t index = 0;    // in the order of the file
-  std::string reason = {};  // why operations that were written after it come before it; empty: none do
+  std::string reason = {};  // why it is not where it was written; empty: nothing but others moved
 };
 
 std::vector<OrderedOperation> order_operations(const PartJob& job);
