@@ -87,8 +87,10 @@ TEST(OperationOrder, an_operation_that_is_drawn_forward_for_its_tool_says_so) {
 }
 
 TEST(OperationOrder, the_tool_that_clears_first_counts_as_a_change) {
-  const PartJob job = ordered_job(operation("engrave", "sign", 3, "clear-tool = 2") + operation("pocket", "pocket", 2));
-  EXPECT_EQ(titles(job), "sign pocket");
+  PartJob job = ordered_job(operation("engrave", "sign", 3, "clear-tool = 2") + operation("pocket", "pocket", 2));
+  EXPECT_EQ(titles(job), "pocket sign");
+  EXPECT_EQ(tool_changes(job, order_operations(job)), 1U);
+  job.keeps_order = true;
   EXPECT_EQ(tool_changes(job, order_operations(job)), 2U);
 }
 
