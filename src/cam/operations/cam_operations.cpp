@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "cam_rows.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
