@@ -33,6 +33,11 @@ struct JobRun {
   std::vector<TrialProgram> programs = {};
 };
 
+// A program that goes nowhere has no record beside it.
+bool keeps_record(const JobRun& run) {
+  return run.output != "/dev/null";
+}
+
 // "flat end mill 6 mm", without the number.
 std::string tool_words(const PartJob& job, std::int32_t number) {
   const std::string words = describe(job.tools.at(number).tool);
@@ -170,7 +175,9 @@ Status<OutputError> write_all(const JobRun& run, const std::string& record) {
   for (const TrialProgram& program : run.programs) {
     if (auto added = add(program.file, program.text); !added) return added;
   }
-  if (auto added = add(record_file_of(run.output), record); !added) return added;
+  if (keeps_record(run)) {
+    if (auto added = add(record_file_of(run.output), record); !added) return added;
+  }
   for (OutputFile& file : files) {
     if (auto done = file.commit(); !done) return done;
   }
@@ -260,7 +267,7 @@ bool names_are_apart(const JobRun& run) {
     for (const std::string& file : operation.files) files.reads("a drawing", file);
   }
   files.writes("--output", run.output);
-  files.writes("the record", record_file_of(run.output));
+  if (keeps_record(run)) files.writes("the record", record_file_of(run.output));
   files.writes("--picture", run.arguments.picture);
   return files.are_apart();
 }
