@@ -144,8 +144,9 @@ TEST_F(CamJob, a_clamp_in_the_way_is_named_with_operation_and_line_and_nothing_i
 }
 
 TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_mends_it) {
-  const std::string clamp = "[[clamp]]\nfrom = [5, 5]\nto = [7, 7]\nheight = 12\n";
-  const Outcome low = passo("cam job " + small_job("", clamp));
+  // Between two pockets, where the cutter passes at the clearance.
+  const std::string clamp = "[[clamp]]\nfrom = [33, 15]\nto = [35, 35]\nheight = 12\n";
+  const Outcome low = passo("cam job " + small_job("<rect x='38' y='20' width='8' height='10'/>", clamp));
   EXPECT_EQ(low.code, 2) << low.out;
   EXPECT_THAT(low.err, HasSubstr("a rapid goes"));
   EXPECT_THAT(low.err, HasSubstr("a clearance above 12"));

@@ -170,7 +170,8 @@ void ProgramTrial::draw(const Curve& curve, const Vector3& zero, std::uint32_t l
   tried.depth_mm = std::max(tried.depth_mm, -low);
   if (points_ > most_points) return;
   const double length = curve.length().value();
-  const auto pieces = static_cast<int>(std::clamp(length / 0.5, 1.0, 64.0));
+  const bool is_line = curve.shape() == Curve::Shape::line;
+  const auto pieces = is_line ? 1 : static_cast<int>(std::clamp(length / 0.5, 1.0, 64.0));
   const auto point = [&](int i) {
     const Vector3 at = Vector3::of(curve.at(Mm(length * i / pieces)));
     return MillPoint{.at = {to_nanometres(Mm(at.x - zero.x)), to_nanometres(Mm(at.y - zero.y))}};
