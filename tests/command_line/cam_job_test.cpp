@@ -231,6 +231,22 @@ TEST_F(CamJob, each_tool_has_its_program) {
   EXPECT_THAT(second, HasSubstr("M2\n"));
 }
 
+TEST_F(CamJob, a_job_is_written_in_the_words_of_its_controller) {
+  std::string text = read(small_job("<circle cx='40' cy='25' r='1.5'/>",
+                                    "[[operation]]\nkind = \"drill\"\ntool = 1\nlayer = \"pockets\"\ndepth = -2\n"));
+  text.replace(text.find("[job]"), 5, "[job]\nfor = \"grbl\"");
+  const Outcome made = passo("cam job " + write("small.toml", text));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string program = read(path("small.ngc"));
+  EXPECT_THAT(program, Not(HasSubstr("G81")));
+  EXPECT_THAT(program, Not(HasSubstr("M6")));
+  EXPECT_EQ(passo("check " + path("small.ngc") + on_router + " --dialect grbl").code, 0);
+
+  text.replace(text.find("\"grbl\""), 6, "\"gbrl\"");
+  EXPECT_THAT(passo("cam job " + write("small.toml", text)).err,
+              HasSubstr("job.for is the text \"gbrl\" [job.bad-value]"));
+}
+
 TEST_F(CamJob, feeds_come_from_the_material_where_the_file_has_none) {
   std::string text = read(small_job());
   text.replace(text.find("feed_mm_min = 600\nplunge_mm_min = 200\n"), 38, "flutes = 2\n");
