@@ -24,9 +24,15 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
       return nothing;
     }
   }
+  const bool is_svg = looks_like_svg(*bytes) && !looks_like_dxf(*bytes) && !looks_like_design_board(*bytes);
+  if (!is_svg && (!options.svg.colors.empty() || !options.svg.names.empty())) {
+    diagnostics.add(of_file("drawing.no-colours", path, "this drawing cannot be selected by colours or names",
+                            "an SVG drawing, or --layer"));
+    return nothing;
+  }
   if (looks_like_dxf(*bytes)) return read_dxf(path, *bytes, options.dxf, diagnostics);
   if (looks_like_design_board(*bytes)) return read_design_board(path, *bytes, diagnostics).drills;
-  if (looks_like_svg(*bytes)) return read_svg(path, *bytes, options.svg, diagnostics);
+  if (is_svg) return read_svg(path, *bytes, options.svg, diagnostics);
   if (looks_like_hpgl(*bytes)) return read_hpgl(path, *bytes, options.hpgl, diagnostics);
   if (looks_like_excellon(*bytes)) return read_excellon(path, *bytes, options.excellon, diagnostics);
   diagnostics.add(of_file("drawing.unknown-kind", path,

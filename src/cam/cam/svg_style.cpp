@@ -231,6 +231,11 @@ bool is_drawn_property(std::string_view property) {
   return std::ranges::find(all, property) != std::end(all);
 }
 
+// Colours select shapes, but do not change them.
+bool is_paint(std::string_view property) {
+  return property == "stroke" || property == "fill";
+}
+
 bool is_css_word(std::string_view value, std::string_view word) {
   return std::ranges::equal(value, word, {}, [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
 }
@@ -251,7 +256,8 @@ std::vector<CssDeclaration> css_declarations(std::string_view text) {
       value = trimmed(value.substr(0, mark), css_blanks);
     }
     declaration.value = value;
-    if (is_drawn_property(declaration.property) && !value.empty()) all.push_back(std::move(declaration));
+    const bool is_kept = is_drawn_property(declaration.property) || is_paint(declaration.property);
+    if (is_kept && !value.empty()) all.push_back(std::move(declaration));
   }
   return all;
 }
@@ -291,13 +297,14 @@ void SvgStyleSheet::add_rules(std::string_view css, int depth) {
 void SvgStyleSheet::add_rule(std::string_view selectors, std::string_view declarations) {
   std::vector<CssDeclaration> kept = css_declarations(declarations);
   if (kept.empty()) return;
+  const bool is_drawn = std::ranges::any_of(kept, is_drawn_property, &CssDeclaration::property);
   rules_.push_back(std::move(kept));
   while (!selectors.empty()) {
     const std::string_view one = selectors.substr(0, find_css(selectors, ","));
     selectors.remove_prefix(std::min(selectors.size(), one.size() + 1));
     auto compounds = CssSelectorReader(trimmed(one, css_blanks)).read();
     if (!compounds || selectors_.size() >= most_css_selectors) {
-      ++skipped_;
+      skipped_ += is_drawn ? 1 : 0;
       continue;
     }
     Selector selector{.compounds = std::move(*compounds), .rule = rules_.size() - 1};

@@ -46,6 +46,8 @@ struct CssDeclaration {
 std::vector<CssDeclaration> css_declarations(std::string_view text);
 // Whether the property selects or places geometry, so that the reader of drawings uses it.
 bool is_drawn_property(std::string_view property);
+// Whether the property is a colour, which selects shapes.
+bool is_paint(std::string_view property);
 // Whether the value is this keyword, in lower or upper case. `word` is in lower case.
 bool is_css_word(std::string_view value, std::string_view word);
 

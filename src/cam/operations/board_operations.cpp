@@ -20,6 +20,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
        "zeros that drill files omit: leading or trailing (default: as the files declare)",
        {.choices = {"leading", "trailing"}, .matters_to = experts, .is_of_job = true}},
       layer_row(a.layers, "DXF: layer to read; can be repeated (default: all visible layers)"),
+      color_row(a.colors),
+      name_row(a.names),
       zero_row(a.zero, "position of X0 Y0: file (the file's origin), lower-left (of all holes), or X,Y"),
       mirror_row(a.mirror),
       mirror_at_row(a.mirror_at),

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "cam_rows.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -53,6 +54,24 @@ constexpr const char* engrave_examples =
   passo cam engrave star.svg --inlay plug --clear 3 -o plug.ngc
 
 "\n" in the text begins a new line. All options: docs/manual/engraving.md.)";
+
+constexpr const char* job_examples =
+    R"(A job file lists the operations of a part: drawings, stock, clamps, tools with feeds, and a table [[operation]] for
+each pocket, profile, hole, engraving, chamfer or relief, with the options of its command.
+
+Examples:
+  passo cam job plate.toml                       writes the program that the job file names, and a report
+  passo cam job plate.toml -p plate.png          and a picture of all operations
+  passo cam job plate.toml --check               exits with 1 if the program on disk is out of date
+  passo cam job plate.toml -o out/plate.ngc --json
+
+  [[operation]]
+  kind = "pocket"
+  tool = 1
+  layer = "pockets"
+  depth = -4
+
+Nothing is written unless all operations are good and no move enters a clamp. All keys: docs/manual/jobs.md.)";
 
 constexpr const char* drill_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 2mm, 0.2cm, 30mil, 1/32in.
@@ -216,6 +235,11 @@ constexpr std::array operations = {
                  .examples = relief_examples,
                  .options = options_with_defaults<CamReliefArguments>,
                  .picture_ending = ".png"},
+    CamOperation{.name = "job",
+                 .purpose = "make a part by several operations with several tools, as a job file lists them",
+                 .accepts = ".toml",
+                 .examples = job_examples,
+                 .options = options_with_defaults<CamJobArguments>},
     CamOperation{.name = "plot",
                  .purpose = "draw with a pen, or cut foil with a drag knife, along the lines of a drawing",
                  .accepts = ".svg,.dxf,.hpgl,.plt",

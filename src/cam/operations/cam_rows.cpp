@@ -101,6 +101,17 @@ CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor m
   return {"layer", &layers, text, help, {.matters_to = matters_to, .is_of_job = true}};
 }
 
+CamOption color_row(std::vector<std::string>& colors) {
+  return {"color", &colors, CamKind::text,
+          "SVG: colour of the lines (without lines: of the areas) to read, e.g. red or #f00; can be repeated",
+          experts_of_one_job};
+}
+
+CamOption name_row(std::vector<std::string>& names) {
+  return {"name", &names, CamKind::text, "SVG: id or label of a shape or group to read; can be repeated",
+          experts_of_one_job};
+}
+
 CamOption output_row(std::string& output) {
   using enum CamKind;
   return {"output",
@@ -154,6 +165,8 @@ std::vector<CamOption> mill_rows(CamMillArguments& a, CamFor layer) {
       input_row(a.input, "DXF: unit of the numbers in the file (default: as the file declares)"),
       scale_row(a.scale),
       layer_row(a.layers, "DXF, KiCad: layer to read; can be repeated (default: all visible layers)", layer),
+      color_row(a.colors),
+      name_row(a.names),
       zero_row(a.zero, "position of X0 Y0: file (the file's origin), lower-left (of the board), or X,Y"),
       mirror_row(a.mirror),
       mirror_at_row(a.mirror_at),

@@ -50,6 +50,9 @@ CamOption ramp_row(double& angle);
 CamOption clearance_row(std::string& clearance, const char* help);
 CamOption spindle_row(std::uint32_t& spindle);
 CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor matters_to = experts);
+// SVG: shapes by colour and by name.
+CamOption color_row(std::vector<std::string>& colors);
+CamOption name_row(std::vector<std::string>& names);
 CamOption output_row(std::string& output);
 CamOption picture_row(std::string& picture, const char* help);
 

@@ -1,4 +1,4 @@
-// The options of the operations for drawings: profile, pocket and engrave.
+// The options of the operations for drawings: profile, pocket and engrave, and of jobs, which combine them.
 #include "cam_rows.hpp"
 
 namespace passo {
@@ -148,6 +148,30 @@ std::vector<CamOption> cam_options_of(CamEngraveArguments& a) {
       mill_rows(a),
       {sheet_row(a.sheet)},
   });
+}
+
+std::vector<CamOption> cam_options_of(CamJobArguments& a) {
+  using enum CamKind;
+  return {
+      {"FILE", &a.files, drawings, "job file (TOML)", {.is_required = true, .most_files = 1}},
+      {"output",
+       &a.output,
+       file,
+       "file for the program (default: as the job file states, or its name with .ngc)",
+       {.matters_to = cli, .is_of_job = true, .letter = "o"}},
+      picture_row(a.picture, "picture of all operations, each in its colour (FILE.svg or FILE.png)"),
+      {"check",
+       &a.check,
+       flag,
+       "write nothing; exit with 1 if the programs on disk are out of date",
+       {.matters_to = cli, .is_of_job = true}},
+      {"json", &a.json, flag, "print the report as JSON", {.matters_to = cli, .is_of_job = true}},
+      {"only-folder",
+       &a.only_folder,
+       flag,
+       "refuse a job file that names files outside its folder",
+       {.matters_to = cli, .is_of_job = true}},
+  };
 }
 
 }  // namespace passo

@@ -177,6 +177,10 @@ std::vector<CuttingTool> read_tools(const TomlDocument& document, const TomlRepo
 
 }  // namespace
 
+CuttingTool read_cutting_tool(TableReader& reader, const TomlReporter& reporter, bool is_complete) {
+  return read_tool(reader, reporter, is_complete);
+}
+
 std::optional<ToolLibrary> ToolLibrary::parse(std::string_view text, const std::string& file,
                                               Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -119,7 +119,7 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
   }
   for (const DrawnPoint& mark : scene.marks) draw_mark(canvas, view.spot(mark));
 
-  constexpr std::size_t most_named = 5;
+  constexpr std::size_t most_named = 7;
   Legend legend(canvas, {sheet::margin, options.height - 40.0});
   if (scene.sheet) legend.line(sheet_pen, "Sheet");
   if (!scene.face.empty()) legend.patch(face_colour, scene.face_name);

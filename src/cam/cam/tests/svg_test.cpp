@@ -356,6 +356,36 @@ TEST(Svg, old_inkscape_has_90_pixels_in_an_inch) {
               1e-5);
 }
 
+TEST(Svg, shapes_are_chosen_by_the_colour_of_their_line_or_area) {
+  const std::string text = page(
+      "<style>.s{stroke:#0f0;fill:none}</style><g stroke='red' fill='none'><circle cx='20' cy='10' r='4'/>"
+      "<circle cx='40' cy='10' r='4' style='stroke:rgb(0, 0, 255)'/><circle cx='60' cy='10' r='4' class='s'/></g>"
+      "<circle cx='80' cy='10' r='4' fill='#ff0000'/><circle cx='90' cy='10' r='4'/>");
+  const auto places = [&](const char* color) {
+    std::vector<double> all;
+    for (const DrawnHole& hole : svg(text, {.colors = {color}}).drawing.holes) all.push_back(to_mm(hole.at.x).value());
+    return all;
+  };
+  EXPECT_EQ(places("red"), (std::vector<double>{10, 40}));
+  EXPECT_EQ(places("#F00"), (std::vector<double>{10, 40}));
+  EXPECT_EQ(places("blue"), std::vector<double>{20});
+  EXPECT_EQ(places("lime"), std::vector<double>{30});
+  EXPECT_EQ(places("black"), std::vector<double>{45});
+  EXPECT_EQ(svg(text).drawing.holes.size(), 5U);
+  EXPECT_THAT(svg(text, {.colors = {"pink"}}).drawing.notes,
+              testing::Contains("nothing that is read has the colour 'pink'"));
+}
+
+TEST(Svg, shapes_are_chosen_by_their_names_and_those_of_their_groups) {
+  const std::string text = page(
+      "<g id='g1' inkscape:label='motor'><circle cx='20' cy='10' r='4'/><circle id='shaft' cx='40' cy='10' r='4'/></g>"
+      "<circle cx='60' cy='10' r='4'/>");
+  EXPECT_EQ(svg(text, {.names = {"motor"}}).drawing.holes.size(), 2U);
+  EXPECT_EQ(svg(text, {.names = {"g1"}}).drawing.holes.size(), 2U);
+  EXPECT_EQ(svg(text, {.names = {"shaft"}}).drawing.holes.size(), 1U);
+  EXPECT_THAT(svg(text, {.names = {"shift"}}).drawing.notes, testing::Contains("nothing has the id or label 'shift'"));
+}
+
 TEST(Svg, layers_are_chosen_by_their_names) {
   const std::string text = page(
       "<g inkscape:groupmode='layer' inkscape:label='cut'><circle r='1'/></g><g inkscape:groupmode='layer' "

@@ -49,6 +49,8 @@ int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progre
 int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress);
 int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress);
 int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress);
+// Runs the operations of a job file.
+int cam_job_file(const CamJobArguments& arguments, const WorkProgress& progress);
 // Runs the first three commands on all files of a board.
 int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, CamDrillArguments drill,
               CamIsolateArguments isolate, CamOutlineArguments outline);

@@ -35,6 +35,10 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   DrillJob job;
   job.reading.dxf = dxf_options_of(arguments, unit, lengths);
   job.reading.dxf.is_for_drilling = true;
+  job.reading.svg = {.scale = arguments.scale.value_or(1),
+                     .layers = arguments.layers,
+                     .colors = arguments.colors,
+                     .names = arguments.names};
   if (!arguments.input.empty()) job.reading.excellon.inch = arguments.input == "inch";
   if (!arguments.zeros.empty()) {
     job.reading.excellon.zeros = arguments.zeros == "leading" ? LeftOutZeros::leading : LeftOutZeros::trailing;
@@ -191,7 +195,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
     }
     made->summary = words;
   } else if (!arguments.output.empty() && arguments.output != "-") {
-    fmt::print("{}", words);
+    say(words);
   }
   return exit_done;
 }

@@ -91,7 +91,10 @@ MillJob mill_job_of(const CamMillArguments& arguments, const char* command, Leng
                     const char* what) {
   MillJob job;
   job.reading.dxf = dxf_options_of(arguments, *mm_of_unit(arguments.units), lengths);
-  job.reading.svg = {.scale = arguments.scale.value_or(1), .layers = arguments.layers};
+  job.reading.svg = {.scale = arguments.scale.value_or(1),
+                     .layers = arguments.layers,
+                     .colors = arguments.colors,
+                     .names = arguments.names};
   job.reading.hpgl = {.scale = arguments.scale.value_or(1), .layers = arguments.layers};
   job.mirror = mirror_of(arguments, lengths);
   MillProgramOptions& program = job.program;
@@ -185,7 +188,7 @@ int tell(const std::string& output, const MillPlan& plan, const std::string& wor
     for (const MillTool& tool : plan.tools) made->tools.push_back(tool.words);
     made->summary = words;
   } else if (!output.empty() && output != "-") {
-    fmt::print("{}", words);
+    say(words);
   }
   return exit_done;
 }

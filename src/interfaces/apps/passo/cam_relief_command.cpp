@@ -490,7 +490,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   }
   progress.update(1);
   if (!arguments.output.empty() && arguments.output != "-") {
-    fmt::print("{}: {}\n{}\n{}", arguments.file, read->words, grid_words(read->grid), summary_of(report));
+    say(fmt::format("{}: {}\n{}\n{}", arguments.file, read->words, grid_words(read->grid), summary_of(report)));
   }
   return exit_done;
 }

@@ -98,6 +98,8 @@ std::optional<InterpreterOptions> machine_options(const ProgramArguments& argume
 
 namespace {
 
+KeptMessages* kept = nullptr;
+
 // Text on standard error takes the place of a progress line.
 void show(const std::string& text) {
   ProgressDisplay::clear_shown();
@@ -111,6 +113,13 @@ void show(const Diagnostics& diagnostics) {
 }
 
 void show(const Diagnostics& diagnostics, const std::string& file) {
+  if (kept != nullptr) {
+    for (Diagnostic finding : diagnostics.all()) {
+      if (finding.file.empty()) finding.file = file;
+      kept->findings.push_back(std::move(finding));
+    }
+    return;
+  }
   const bool colour = shows_colours(STDERR_FILENO);
   std::string text;
   std::size_t unnamed = 0;  // characters
@@ -135,12 +144,35 @@ void FindingsDisplay::finish() {
 }
 
 int fail(ExitCode code, const std::string& message) {
-  show(fmt::format("passo: error: {}\n", message));
+  if (kept != nullptr) {
+    kept->failures.push_back(message);
+  } else {
+    show(fmt::format("passo: error: {}\n", message));
+  }
   return code;
 }
 
 void note(const std::string& words) {
-  show(fmt::format("passo: note: {}\n", words));
+  if (kept != nullptr) {
+    kept->notes.push_back(words);
+  } else {
+    show(fmt::format("passo: note: {}\n", words));
+  }
+}
+
+void say(const std::string& text) {
+  if (kept != nullptr) {
+    kept->said += text;
+  } else {
+    fmt::print("{}", text);
+  }
+}
+
+KeptMessages::KeptMessages() : outer_(kept) {
+  kept = this;
+}
+KeptMessages::~KeptMessages() {
+  kept = outer_;
 }
 
 int flush_output() {

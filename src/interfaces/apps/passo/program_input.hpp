@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "named_files.hpp"
@@ -59,6 +61,26 @@ class FindingsDisplay {
 int fail(ExitCode code, const std::string& message);
 // Reports information on standard error that requires no action.
 void note(const std::string& words);
+// Prints a command's summary on standard output.
+void say(const std::string& text);
+
+// While it exists, what the functions above would show is kept instead. For a command that runs others.
+class KeptMessages {
+ public:
+  KeptMessages();
+  ~KeptMessages();
+  KeptMessages(const KeptMessages&) = delete;
+  KeptMessages& operator=(const KeptMessages&) = delete;
+
+  std::vector<Diagnostic> findings = {};
+  std::vector<std::string> failures = {};
+  std::vector<std::string> notes = {};
+  std::string said = {};
+
+ private:
+  KeptMessages* outer_;
+};
+
 // Flushes standard output. Returns exit_done, or the exit code that the command should return. If the reader has closed
 // the pipe, as `head` does, this is not an error.
 int flush_output();

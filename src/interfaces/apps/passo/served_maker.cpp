@@ -20,6 +20,7 @@ constexpr const char* made_folder = ".made";
 constexpr const char* board_profile = ".made/profile.toml";
 constexpr const char* board_machine = ".made/machine.toml";
 constexpr std::string_view board_job = "board";
+constexpr std::string_view part_job = "job";  // its file names other files
 
 std::string picture_file(const std::string& job) {
   return std::string(made_folder) + (job == board_job ? "/board" : "/picture") +
@@ -94,6 +95,7 @@ bool ServedMaker::begin(const CamOrder& order) {
     made_ = {program_file(result_.names.front())};
     words.insert(words.end(), {"--output", made_.front(), "--picture", picture_file(order.job)});
     if (!order.machine.empty() && !add_file("--limits", board_machine, order.machine)) return failed();
+    if (order.job == part_job) words.emplace_back("--only-folder");
   }
   words.emplace_back("--");
   words.insert(words.end(), order.files.begin(), order.files.end());

@@ -4,7 +4,7 @@
 // uses. Circles are holes, as in DXF drawings; circular arcs, including those of paths and rounded corners, stay arcs
 // unless a transform distorts them. Bézier curves and ellipses become chords within the tolerance. Y points up: the
 // lower left corner of the page is X0 Y0. Only the geometry counts: fill and stroke width are ignored. Inkscape layers
-// are the layers of the drawing.
+// are the layers of the drawing. The colour of a shape is that of its line, or without a line that of its area.
 //
 // Style sheets are applied where they hide, place or size shapes (svg_style.hpp). Clip paths are applied, and nested
 // views clip their contents: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts,
@@ -31,6 +31,8 @@ namespace passo {
 struct SvgOptions {
   double scale = 1;                      // scale factor of all lengths
   std::vector<std::string> layers = {};  // the layers to read; empty: all
+  std::vector<std::string> colors = {};  // colours of the shapes to read, e.g. "red", "#f00"; empty: all
+  std::vector<std::string> names = {};   // ids or Inkscape labels of the shapes or groups to read; empty: all
   Mm tolerance{0.005};                   // chord tolerance for curves
 };
 

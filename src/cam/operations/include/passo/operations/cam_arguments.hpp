@@ -43,6 +43,8 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments {
                                     // `units`
   std::string zeros;                // suppressed zeros in drill files: leading or trailing; empty: as the files state
   std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
+  std::vector<std::string> colors;  // SVG: colours of the shapes to read; empty: all
+  std::vector<std::string> names;   // SVG: ids or labels of the shapes or groups to read; empty: all
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
@@ -77,6 +79,8 @@ struct CamMillArguments : CamProgramArguments, CamToolArguments {
   std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
                                     // `units`
   std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
+  std::vector<std::string> colors;  // SVG: colours of the shapes to read; empty: all
+  std::vector<std::string> names;   // SVG: ids or labels of the shapes or groups to read; empty: all
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
@@ -178,6 +182,17 @@ struct CamEngraveArguments : CamMillArguments, CamTraceArguments {
   std::string join = "0.1mm";
 };
 std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
+
+// Makes a part by several operations, which a job file describes.
+struct CamJobArguments {
+  std::vector<std::string> files;  // one job file
+  std::string output;              // empty: as the job file says
+  std::string picture;             // .svg or .png; empty: none
+  bool check = false;              // only tells whether the programs on disk are those of the inputs
+  bool json = false;               // prints the report as JSON on standard output
+  bool only_folder = false;        // for a job file of a stranger: reads only files in its folder
+};
+std::vector<CamOption> cam_options_of(CamJobArguments& arguments);
 
 struct CamPlotArguments : CamMillArguments {
   CamPlotArguments() {

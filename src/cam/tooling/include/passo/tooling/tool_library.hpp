@@ -33,6 +33,9 @@
 
 namespace passo {
 
+class TableReader;
+class TomlReporter;
+
 class ToolLibrary {
  public:
   // Empty: the file has errors, which are in `diagnostics`. At most 1 MiB.
@@ -53,6 +56,10 @@ class ToolLibrary {
   std::string file_;
   std::vector<CuttingTool> tools_;
 };
+
+// Reads the keys of a tool from its table, for files whose tools have other keys, too. The caller calls finish(), and
+// checks flaw_of(shape_of()), which is meaningless after errors. `is_complete`: the whole file could be read.
+CuttingTool read_cutting_tool(TableReader& reader, const TomlReporter& reporter, bool is_complete);
 
 // Parses "3" or "T3". Empty: neither.
 std::optional<std::int32_t> parse_tool_number(std::string_view text);

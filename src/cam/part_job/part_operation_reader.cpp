@@ -1,0 +1,256 @@
+// The operations of a job file: the options of their commands, and what their tools say.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "option_value.hpp"
+#include "part_job_reader.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace passo {
+namespace {
+
+PartArguments arguments_of(PartKind kind) {
+  switch (kind) {
+    case PartKind::face:
+    case PartKind::pocket: return CamPocketArguments();
+    case PartKind::profile: return CamProfileArguments();
+    case PartKind::drill:
+    case PartKind::bore: return CamDrillArguments();
+    case PartKind::engrave:
+    case PartKind::chamfer: return CamEngraveArguments();
+    case PartKind::relief: return CamReliefArguments();
+  }
+  return CamProfileArguments();
+}
+
+// Options that a job sets for all operations, or by their tools.
+bool is_set_by_job(const CamOption& option) {
+  constexpr std::array<std::string_view, 21> names = {
+      "output", "picture", "json", "units",  "zero",  "sheet", "mirror", "mirror-at", "align", "align-drill", "tool",
+      "tools",  "drill",   "mill", "cutter", "angle", "tip",   "clear",  "rough",     "rest",  "FILE"};
+  return option.kind == CamKind::drawings || is_of_program(option.name) ||
+         std::ranges::find(names, option.name) != names.end();
+}
+
+// The key of another tool of the operation, and the option that it stands for.
+struct FirstTool {
+  std::string_view key;
+  std::string_view option;
+};
+FirstTool first_tool_of(PartKind kind) {
+  if (kind == PartKind::engrave) return {"clear-tool", "clear"};
+  if (kind == PartKind::relief) return {"rough-tool", "rough"};
+  return {};
+}
+
+// Gives an option a value. Options that the operation does not have are passed over.
+void give(const std::vector<CamOption>& options, std::string_view name, const std::string& value) {
+  const auto found = std::ranges::find(options, name, &CamOption::name);
+  if (found == options.end()) return;
+  if (auto* const* text = std::get_if<std::string*>(&found->value)) **text = value;
+}
+
+std::string mm_words(Mm length) {
+  return fmt::format("{}mm", length.value());
+}
+
+double degrees_of(const Cutter& cutter) {
+  return cutter.half_angle.value * 360 / std::numbers::pi;
+}
+
+// As parse_cutter() reads it.
+std::string cutter_words(const Cutter& cutter) {
+  const std::string diameter = fmt::format("{}", 2 * cutter.radius.value());
+  switch (cutter.kind()) {
+    case Cutter::Kind::flat: return "flat:" + diameter;
+    case Cutter::Kind::ball: return "ball:" + diameter;
+    case Cutter::Kind::bull_nose: return fmt::format("bull:{}:{}", diameter, cutter.corner.value());
+    case Cutter::Kind::v: return fmt::format("vee:{}:{}:{}", degrees_of(cutter), diameter, 2 * cutter.flat.value());
+    case Cutter::Kind::tapered_ball:
+      return fmt::format("taper:{}:{}:{}", 2 * cutter.corner.value(), degrees_of(cutter) / 2, diameter);
+  }
+  return "flat:" + diameter;
+}
+
+// What kind of tool an operation needs. Empty: this one is good.
+std::string tool_expected(PartKind kind, CuttingShape shape) {
+  if (kind == PartKind::drill) return "";
+  if (kind == PartKind::relief) return shape != CuttingShape::drill ? "" : "a milling cutter";
+  if (kind == PartKind::engrave || kind == PartKind::chamfer) {
+    return shape == CuttingShape::vee ? "" : "a tool with shape = \"vee\"";
+  }
+  return shape == CuttingShape::flat || shape == CuttingShape::bull ? "" : "a tool with shape = \"flat\" or \"bull\"";
+}
+
+}  // namespace
+
+std::int32_t PartJobReader::tool_number(TableReader& reader, std::string_view key, Need need) {
+  const auto number = reader.whole_number({key, 1, 99'999, "1"}, need);
+  if (!number) return 0;
+  const auto tool = static_cast<std::int32_t>(*number);
+  if (job_.tools.contains(tool)) return tool;
+  // An error in the tool's own table was reported there.
+  const TomlEntry* const tools = find(document_.root, "tool");
+  const auto* const table = tools == nullptr ? nullptr : std::get_if<TomlTable>(&tools->value.content);
+  if (table != nullptr && find(*table, fmt::format("{}", tool)) != nullptr) return 0;
+  std::vector<std::int32_t> all;
+  for (const auto& [known, shape] : job_.tools) all.push_back(known);
+  reader.error("job.no-such-tool", key, fmt::format("there is no table [tool.{}]", tool),
+               all.empty() ? "a table [tool.1]" : fmt::format("{}", fmt::join(all, ", ")));
+  return 0;
+}
+
+void PartJobReader::read_operation(const TomlTable& table, const std::string& path, const SourceLocation& place) {
+  TableReader reader(table, path, place, reporter_);
+  const auto names_of_kinds = names_of_part_kinds();
+  const auto word = reader.text("kind", "pocket", Need::required);
+  const auto kind = word ? part_kind_of(*word) : std::nullopt;
+  if (!kind) {
+    if (word) {
+      const std::string_view near = suggestion(*word, names_of_kinds);
+      reader.error("job.unknown-kind", "kind", fmt::format("there is no operation \"{}\"", *word),
+                   near.empty() ? fmt::format("{}", fmt::join(names_of_kinds, ", ")) : fmt::format("perhaps {}", near));
+    } else {
+      reporter_.error("job.missing-key", place,
+                      fmt::format("[[operation]] number {} has no kind", path.substr(path.find('.') + 1)),
+                      fmt::format("kind = one of {}", fmt::join(names_of_kinds, ", ")));
+    }
+    return;
+  }
+  PartOperation operation;
+  operation.kind = *kind;
+  operation.place = reader.place_of("kind");
+  operation.arguments = arguments_of(*kind);
+  operation.title = reader.text("title", "windows", Need::optional).value_or("");
+  operation.tool = tool_number(reader, "tool", Need::required);
+  if (const FirstTool first = first_tool_of(*kind); !first.key.empty()) {
+    operation.first_tool = tool_number(reader, first.key, Need::optional);
+  }
+  if (*kind == PartKind::engrave) {
+    if (const auto at = pair(reader, "at", -1e4, Need::optional)) operation.at = {at->low, at->high};
+  }
+  if (operation.tool > 0) {
+    const std::string expected = tool_expected(*kind, job_.tools.at(operation.tool).tool.shape);
+    if (!expected.empty()) {
+      reader.error("job.wrong-tool", "tool",
+                   fmt::format("{} is not for this: {}", name_of(*kind), describe(job_.tools.at(operation.tool).tool)),
+                   expected);
+    }
+  }
+  for (const std::string& name : names(table, reader, *kind == PartKind::relief ? "file" : "drawing")) {
+    operation.files.push_back(in_folder(name));
+  }
+  read_options(table, reader, operation);
+  reader.finish(document_.complete, {});
+  if (operation.tool == 0) return;
+  apply_defaults(operation);
+  apply_tool(operation);
+  const bool draws = *kind == PartKind::face || operation.has("text");
+  if (operation.files.empty() && *kind != PartKind::relief && !draws) operation.files = job_.drawings;
+  if (operation.files.empty() && !draws) {
+    reporter_.error("job.missing-key", operation.place, fmt::format("{} has nothing to cut", path),
+                    *kind == PartKind::relief ? "file = \"face.stl\"" : "drawing = \"plate.svg\", here or in [job]");
+  }
+  if (*kind == PartKind::face && !job_.stock) {
+    reporter_.error("job.missing-key", operation.place, "facing needs the size of the stock", "a table [stock]");
+  }
+  if (*kind == PartKind::relief && job_.units == "cm") {
+    reporter_.error("job.bad-value", operation.place, "a relief cannot be in cm", "units = \"mm\" or \"inch\"");
+  }
+  if (operation.title.empty()) {
+    const auto number = job_.operations.size() + 1;
+    std::vector<std::string> words = operation.layers;
+    words.insert(words.end(), operation.colors.begin(), operation.colors.end());
+    words.insert(words.end(), operation.names.begin(), operation.names.end());
+    if (words.empty()) words.push_back(fmt::format("{}", number));
+    operation.title = fmt::format("{} {}", name_of(*kind), fmt::join(words, " "));
+  }
+  job_.operations.push_back(std::move(operation));
+}
+
+void PartJobReader::read_options(const TomlTable& table, TableReader& reader, PartOperation& operation) {
+  const std::vector<CamOption> options = cam_options_of(operation);
+  for (const CamOption& option : options) {
+    if (is_set_by_job(option)) continue;
+    reader.know(option.name);
+    const TomlEntry* const entry = find(table, option.name);
+    if (entry == nullptr) continue;
+    const std::string expected = set_option(option, entry->value);
+    if (!expected.empty()) {
+      reader.error("job.bad-value", option.name,
+                   fmt::format("{} is {}", reader.full_name(option.name), kind_of(entry->value)), expected);
+      continue;
+    }
+    operation.keys.push_back({entry->key, entry->value.place});
+    auto* const* text = std::get_if<std::string*>(&option.value);
+    if (option.kind == CamKind::file && text != nullptr) {
+      const std::string inside = in_folder(**text);
+      // A font may be the name of an installed one.
+      if (option.traits.names.empty() || std::filesystem::exists(inside)) **text = inside;
+    }
+  }
+  const auto selected = [&](std::string_view name) {
+    const auto found = std::ranges::find(options, name, &CamOption::name);
+    return found == options.end() ? std::vector<std::string>() : *std::get<std::vector<std::string>*>(found->value);
+  };
+  operation.layers = selected("layer");
+  operation.colors = selected("color");
+  operation.names = selected("name");
+}
+
+// What [job] says for all operations that have the option.
+void PartJobReader::apply_defaults(PartOperation& operation) {
+  for (const CamOption& option : cam_options_of(operation)) {
+    const TomlEntry* const entry = find(defaults_, option.name);
+    if (entry == nullptr || operation.has(option.name) || is_set_by_job(option)) continue;
+    const std::string expected = set_option(option, entry->value);
+    if (expected.empty()) {
+      operation.keys.push_back({entry->key, entry->value.place});
+    } else {
+      reporter_.error("job.bad-value", entry->value.place,
+                      fmt::format("job.{} is {}", entry->key, kind_of(entry->value)), expected);
+    }
+  }
+}
+
+void PartJobReader::apply_tool(PartOperation& operation) {
+  const PartTool& tool = job_.tools.at(operation.tool);
+  const Cutter& cutter = tool.shape.cutter;
+  const std::vector<CamOption> options = cam_options_of(operation);
+  const std::string diameter = mm_words(2 * cutter.radius);
+  give(options,
+       operation.kind == PartKind::drill  ? "drill"
+       : operation.kind == PartKind::bore ? "mill"
+                                          : "tool",
+       diameter);
+  give(options, "cutter", cutter_words(cutter));
+  if (auto* engrave = std::get_if<CamEngraveArguments>(&operation.arguments)) {
+    engrave->angle = degrees_of(cutter);
+    engrave->tip = mm_words(2 * cutter.flat);
+    engrave->on_line = engrave->on_line || operation.kind == PartKind::chamfer;
+  }
+  const auto feed = [&](std::string_view name, const std::optional<double>& mm_per_min) {
+    if (mm_per_min && !operation.has(name)) give(options, name, fmt::format("{}mm", *mm_per_min));
+  };
+  const bool goes_down = operation.kind == PartKind::drill || operation.kind == PartKind::bore;
+  feed("feed", goes_down && tool.plunge ? tool.plunge : tool.feed);
+  feed("mill-feed", tool.feed);
+  feed("plunge-feed", tool.plunge);
+  feed("plunge", tool.plunge);
+  if (tool.spindle && !operation.has("spindle")) {
+    const auto found = std::ranges::find(options, "spindle", &CamOption::name);
+    if (found != options.end()) *std::get<std::uint32_t*>(found->value) = *tool.spindle;
+  }
+  if (operation.first_tool > 0) {
+    const Cutter& first = job_.tools.at(operation.first_tool).shape.cutter;
+    give(options, "clear", mm_words(2 * first.radius));
+    give(options, "rough", cutter_words(first));
+  }
+  give(options, "units", job_.units);
+}
+
+}  // namespace passo

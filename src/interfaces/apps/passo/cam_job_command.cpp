@@ -1,0 +1,384 @@
+// passo cam job: the programs of a part, from a job file with a list of operations.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "cam_job.hpp"
+#include "cam_program.hpp"
+#include "named_files.hpp"
+#include "part_job_operation.hpp"
+#include "part_job_record.hpp"
+#include "part_job_trial.hpp"
+#include "picture_names.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "passo/confinement/temporary_folder.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
+#include "passo/part_job/joined_program.hpp"
+#include "passo/tooling/tool_warnings.hpp"
+
+namespace passo {
+namespace {
+
+struct JobRun {
+  const CamJobArguments& arguments;
+  PartJob job;
+  std::string text;  // of the job file
+  std::string output = {};
+  std::string fingerprint = {};
+  std::vector<OrderedOperation> order = {};
+  std::vector<MadeOperation> made = {};  // as in PartJob::operations
+  std::vector<TrialProgram> programs = {};
+};
+
+// A program that goes nowhere has no record beside it.
+bool keeps_record(const JobRun& run) {
+  return run.output != "/dev/null";
+}
+
+// "flat end mill 6 mm", without the number.
+std::string tool_words(const PartJob& job, std::int32_t number) {
+  const std::string words = describe(job.tools.at(number).tool);
+  return words.substr(words.find(' ') + 1);
+}
+
+// The value of an option, in the job's unit without a unit's name.
+std::string option_text(PartOperation operation, std::string_view name) {
+  const std::vector<CamOption> options = cam_options_of(operation);
+  const auto found = std::ranges::find(options, name, &CamOption::name);
+  return found == options.end() ? "" : text_of(*found);
+}
+
+// A length of the job as a word of the program: "5" of "5mm" in a program in mm.
+std::string program_number(const PartJob& job, std::string_view key, const std::string& text) {
+  const double unit = *mm_of_unit(job.units);
+  const Result<Mm, std::string> length = parse_length(std::string(key).c_str(), text, unit);
+  const double value = length ? length->value() / unit : 0;
+  return fmt::format("{:.5g}", std::round(value * 1e5) / 1e5 + 0.0);
+}
+
+// The park position "X0 Y0" as the operation's own program has it.
+std::string park_words(const PartJob& job, const PartOperation& operation) {
+  const std::string park = option_text(operation, "park");
+  const std::size_t comma = park.find(',');
+  if (comma == std::string::npos) return "X0 Y0";
+  return fmt::format("X{} Y{}", program_number(job, "park", park.substr(0, comma)),
+                     program_number(job, "park", park.substr(comma + 1)));
+}
+
+JoinedOperation joined_operation(const JobRun& run, std::size_t index) {
+  const PartOperation& operation = run.job.operations[index];
+  JoinedOperation joined{
+      .title = fmt::format("{}: {}, tool {}", operation.title, name_of(operation.kind), operation.tool),
+      .program = run.made[index].program};
+  for (const std::int32_t tool : {operation.first_tool, operation.tool}) {
+    if (tool > 0) joined.tools.push_back({tool, tool_words(run.job, tool)});
+  }
+  joined.park = park_words(run.job, operation);
+  return joined;
+}
+
+// plate-1-T3.ngc of plate.ngc.
+std::string part_name(const std::string& output, std::size_t number, std::int32_t tool) {
+  const std::filesystem::path path(output);
+  return (path.parent_path() /
+          fmt::format("{}-{}-T{}{}", path.stem().string(), number, tool, path.extension().string()))
+      .string();
+}
+
+void join_programs(JobRun& run) {
+  const PartJob& job = run.job;
+  std::size_t at = 0;
+  while (at < run.order.size()) {
+    TrialProgram program;
+    const std::int32_t tool = job.operations[run.order[at].index].tool;
+    program.file = job.one_program ? run.output : part_name(run.output, run.programs.size() + 1, tool);
+    std::vector<std::string> head = {
+        fmt::format("{}, by passo cam job", std::filesystem::path(program.file).filename().string()),
+        fmt::format("from {}, inputs {}", std::filesystem::path(job.file).filename().string(), run.fingerprint)};
+    JoinedProgram joined(head);
+    for (; at < run.order.size(); ++at) {
+      const std::size_t index = run.order[at].index;
+      if (!job.one_program && job.operations[index].tool != tool) break;
+      joined.add(joined_operation(run, index));
+      program.operations.push_back(index);
+    }
+    program.first_lines = joined.first_lines();
+    program.text = joined.take();
+    run.programs.push_back(std::move(program));
+  }
+}
+
+// All operations are tried, so that all errors are shown at once.
+bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& progress) {
+  const std::optional<PartJobZero> zero = find_zero(run.job, findings);
+  if (!zero) return false;
+  TemporaryFolder folder;
+  if (!folder.make()) {
+    findings.add(of_file("job.operation", run.job.file, "a temporary folder cannot be made", "room in TMPDIR"));
+    return false;
+  }
+  run.made.resize(run.job.operations.size());
+  const double share = 0.8 / static_cast<double>(run.order.size());
+  for (std::size_t i = 0; i < run.order.size(); ++i) {
+    const std::size_t index = run.order[i].index;
+    const PartOperation& operation = run.job.operations[index];
+    const double from = share * static_cast<double>(i);
+    auto made = make_operation(run.job, operation, *zero, folder.name(), findings, progress.part(from, from + share));
+    if (made) run.made[index] = std::move(*made);
+  }
+  return !findings.any_error();
+}
+
+// The programs in the words of the controller of the job file. They were tried in Passo's own words.
+bool rewrite_programs(JobRun& run, Diagnostics& findings) {
+  const PartJob& job = run.job;
+  if (is_plain_program(job.program)) return true;
+  const ControllerWords* const words = find_controller(job.program.controller);
+  const LengthUnit unit = job.units == "inch" ? LengthUnit::inch : LengthUnit::mm;
+  for (TrialProgram& program : run.programs) {
+    PostProcessorOptions options = post_processor_options_of(job.program, job.units, unit);
+    const PartOperation& first = job.operations[program.operations.front()];
+    options.program = std::filesystem::path(program.file).filename().string();
+    options.tools.resize(static_cast<std::size_t>(job.tools.rbegin()->first));
+    for (const auto& [number, tool] : job.tools) {
+      options.tools[static_cast<std::size_t>(number) - 1] = {tool_words(job, number), tool.tool.diameter.value()};
+    }
+    std::visit([&](const auto& arguments) { options.spindle = arguments.spindle; }, first.arguments);
+    options.change_height =
+        std::atof(program_number(job, "change-height", option_text(first, "change-height")).c_str());
+    std::string written;
+    PostProcessor processor(*words, std::move(options), [&](std::string_view piece) { written += piece; });
+    processor.add(program.text);
+    if (const auto why = processor.finish()) {
+      findings.add(of_file("job.controller", program.file,
+                           fmt::format("{} cannot run it: {}", job.program.controller, *why),
+                           "another controller in job.for"));
+      return false;
+    }
+    program.text = std::move(written);
+  }
+  return true;
+}
+
+Status<OutputError> write_all(const JobRun& run, const std::string& record) {
+  std::vector<OutputFile> files;
+  const auto add = [&](const std::string& name, const std::string& text) -> Status<OutputError> {
+    Result<OutputFile, OutputError> file = OutputFile::open(name);
+    if (!file) return Failure{file.error()};
+    file->write(text);
+    files.push_back(std::move(*file));
+    return Unit{};
+  };
+  for (const TrialProgram& program : run.programs) {
+    if (auto added = add(program.file, program.text); !added) return added;
+  }
+  if (keeps_record(run)) {
+    if (auto added = add(record_file_of(run.output), record); !added) return added;
+  }
+  for (OutputFile& file : files) {
+    if (auto done = file.commit(); !done) return done;
+  }
+  return Unit{};
+}
+
+int draw(const JobRun& run, const Trial& trial) {
+  MillPlan plan;
+  for (const OrderedOperation& ordered : run.order) {
+    const PartOperation& operation = run.job.operations[ordered.index];
+    std::vector<MillRun> ways = trial.operations[ordered.index].ways;
+    std::erase_if(ways, [](const MillRun& way) { return way.size() < 2; });
+    if (ways.empty()) continue;
+    const Cutter& cutter = run.job.tools.at(operation.tool).shape.cutter;
+    const bool is_vee = cutter.kind() == Cutter::Kind::v;
+    plan.tools.push_back({.width = to_nanometres(is_vee ? 2 * cutter.flat : 2 * cutter.radius),
+                          .words = operation.title,
+                          .runs = std::move(ways)});
+  }
+  Region face;
+  if (run.job.stock) {
+    const PartStock& stock = *run.job.stock;
+    face = filled({rectangle({{to_nanometres(Mm(stock.x)), to_nanometres(Mm(stock.y))},
+                              {to_nanometres(Mm(stock.x + stock.width)), to_nanometres(Mm(stock.y + stock.length))}})});
+  }
+  const Region nothing;
+  const MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing};
+  return write_picture(run.arguments.picture, run.job.name, [&](const PictureOptions& options, OutputFile& file) {
+    return draw_mill_plan(scene, options, file);
+  });
+}
+
+double number_of(const JobRun& run, const PartOperation& operation, std::string_view option) {
+  const std::string text = option_text(operation, option);
+  const Result<Mm, std::string> length = parse_length("", text, *mm_of_unit(run.job.units));
+  return length ? length->value() : 0;
+}
+
+// How the tool is used, as the trial has seen it.
+ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOperation& tried) {
+  ToolUse use;
+  use.depth = Mm(tried.depth_mm);
+  use.depth_per_pass = Mm(tried.pass_mm);
+  use.plunges = tried.plunges && operation.kind != PartKind::drill;
+  std::visit([&](const auto& arguments) { use.rpm = arguments.spindle; }, operation.arguments);
+  const bool mills =
+      operation.kind == PartKind::face || operation.kind == PartKind::pocket || operation.kind == PartKind::profile;
+  if (!mills) return use;
+  constexpr double seconds_per_minute = 60;
+  use.feed = MmPerSecond(number_of(run, operation, "feed") / seconds_per_minute);
+  if (const auto* pocket = std::get_if<CamPocketArguments>(&operation.arguments)) {
+    const double diameter = run.job.tools.at(operation.tool).tool.diameter.value();
+    if (pocket->engagement <= 0) use.step_over = Mm(diameter * pocket->step_over / 100);
+  }
+  return use;
+}
+
+// Adds to the notes of each operation where its feeds come from, and what is wrong with them.
+void note_tools(JobRun& run, const Trial& trial) {
+  const auto material = run.job.stock ? run.job.stock->known_material : std::nullopt;
+  for (std::size_t i = 0; i < run.job.operations.size(); ++i) {
+    const PartOperation& operation = run.job.operations[i];
+    const PartTool& tool = run.job.tools.at(operation.tool);
+    std::vector<std::string>& notes = run.made[i].notes;
+    if (!tool.feeds_from.empty() && !operation.has("feed")) notes.push_back(tool.feeds_from);
+    for (const ToolWarning& warning : warnings_of(tool.tool, use_of(run, operation, trial.operations[i]), material)) {
+      notes.push_back(fmt::format("warning: {}: {} [{}]", warning.message, warning.advice, warning.code));
+    }
+  }
+}
+
+int check_only(const JobRun& run) {
+  const auto record = read_job_record(run.output);
+  const std::string why = record ? out_of_date(*record, run.fingerprint, run.output)
+                                 : fmt::format("{} is missing", record_file_of(run.output));
+  if (!why.empty()) {
+    return fail(exit_failed, fmt::format("{}: out of date: {} [job.out-of-date]", run.output, why));
+  }
+  if (!run.arguments.json) say(fmt::format("{}: up to date\n", run.output));
+  return exit_done;
+}
+
+bool names_are_apart(const JobRun& run) {
+  NamedFiles files;
+  files.reads("the job file", run.job.file);
+  for (const PartOperation& operation : run.job.operations) {
+    for (const std::string& file : operation.files) files.reads("a drawing", file);
+  }
+  files.writes("--output", run.output);
+  if (keeps_record(run)) files.writes("the record", record_file_of(run.output));
+  files.writes("--picture", run.arguments.picture);
+  return files.are_apart();
+}
+
+bool is_outside(const std::string& file) {
+  const std::filesystem::path path(file);
+  return path.is_absolute() || std::ranges::any_of(path, [](const auto& part) { return part == ".."; });
+}
+
+// A job file of a stranger must not show what other files of this computer hold.
+void check_folder(const JobRun& run, Diagnostics& findings) {
+  const auto refuse = [&](const SourceLocation& place, const std::string& file) {
+    findings.add(run.job.finding("job.outside", place, fmt::format("'{}' is outside of the job's folder", file),
+                                 "the name of a file beside the job file"));
+  };
+  if (is_outside(run.job.library)) refuse({}, run.job.library);
+  if (!run.job.one_program) {
+    findings.add(run.job.finding("job.outside", {}, "there can only be one program here", "programs = \"one\""));
+  }
+  for (const std::string& file :
+       {run.job.program.start_text, run.job.program.tool_change_text, run.job.program.end_text}) {
+    if (is_outside(file)) refuse({}, file);
+  }
+  for (const PartOperation& operation : run.job.operations) {
+    for (const std::string& file : operation.files) {
+      if (is_outside(file)) refuse(operation.place, file);
+    }
+    PartOperation copy = operation;
+    for (const CamOption& option : cam_options_of(copy)) {
+      const auto key = std::ranges::find(operation.keys, option.name, &PartKey::name);
+      if (option.kind != CamKind::file || key == operation.keys.end()) continue;
+      if (const std::string file = text_of(option); is_outside(file)) refuse(key->place, file);
+    }
+  }
+}
+
+// What is told after all is written.
+void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again) {
+  if (run.arguments.json) {
+    record["changes"] = changes;
+    say(record.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return;
+  }
+  std::string text = report_of(record);
+  for (const OrderedOperation& ordered : run.order) {
+    for (const std::string& words : run.made[ordered.index].notes) {
+      text += fmt::format("note: '{}': {}\n", run.job.operations[ordered.index].title, words);
+    }
+  }
+  for (const std::string& change : changes) text += "changed: " + change + "\n";
+  if (is_again && changes.empty()) text += "changed: nothing since the last time\n";
+  for (const TrialProgram& program : run.programs) text += fmt::format("written: {}\n", program.file);
+  say(text);
+}
+
+int make_job(JobRun& run, const WorkProgress& progress) {
+  Diagnostics findings(1000);
+  if (run.arguments.only_folder) check_folder(run, findings);
+  if (findings.any_error()) {
+    show(findings, run.job.file);
+    return exit_bad_program;
+  }
+  run.order = order_operations(run.job);
+  for (const PartOperation& operation : run.job.operations) {
+    if (run.job.one_program || operation.first_tool == 0 || operation.first_tool == operation.tool) continue;
+    findings.add(run.job.finding("job.two-tools", operation.place, fmt::format("'{}' needs two tools", operation.title),
+                                 "programs = \"one\""));
+  }
+  const bool is_made = make_operations(run, findings, progress);
+  if (!is_made || findings.any_error()) {
+    show(findings, run.job.file);
+    return exit_bad_program;
+  }
+  join_programs(run);
+  progress.update(0.85);
+  const Trial trial = try_programs(run.job, run.programs, findings);
+  if (!findings.any_error()) static_cast<void>(rewrite_programs(run, findings));
+  show(findings, run.job.file);
+  if (findings.any_error()) return exit_bad_program;
+  note_tools(run, trial);
+  const nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
+  const auto before = read_job_record(run.output);
+  const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();
+  const std::string text = record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (const auto written = write_all(run, text); !written) return fail(exit_failed, written.error().message);
+  if (!run.arguments.picture.empty()) {
+    if (const int code = draw(run, trial); code != exit_done) return code;
+  }
+  progress.update(1);
+  report(run, record, changes, before.has_value());
+  return exit_done;
+}
+
+}  // namespace
+
+int cam_job_file(const CamJobArguments& arguments, const WorkProgress& progress) {
+  if (const std::string why = refuse_picture(arguments.picture); !why.empty()) return fail(exit_bad_program, why);
+  if (arguments.files.size() != 1) return fail(exit_bad_program, "expected one job file");
+  Diagnostics findings;
+  const auto text = read_bytes(arguments.files.front(), {.area = "job", .expected = "a job file in TOML"}, findings);
+  auto job = text ? parse_part_job(*text, arguments.files.front(), findings) : std::nullopt;
+  show(findings);
+  if (!job) return exit_bad_program;
+  JobRun run{.arguments = arguments, .job = std::move(*job), .text = *text};
+  run.output = arguments.output.empty() ? run.job.output : arguments.output;
+  if (run.output == "-")
+    return fail(exit_bad_program, "--output: expected a file: the job's record is written beside it");
+  if (!names_are_apart(run)) return exit_bad_program;
+  if (!program_words_are_good(run.job.program, run.job.units)) return exit_bad_program;
+  run.fingerprint = fingerprint_of_inputs(run.job, run.text);
+  return arguments.check ? check_only(run) : make_job(run, progress);
+}
+
+}  // namespace passo

@@ -1,0 +1,47 @@
+// The record of a job: what was made, as JSON, beside its programs. It tells whether the programs are out of date, and
+// what has changed when they are made again.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "part_job_operation.hpp"
+#include "part_job_trial.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/part_job/operation_order.hpp"
+
+namespace passo {
+
+// The record's name: plate.job.json of plate.ngc.
+std::string record_file_of(const std::string& output);
+
+// Of the job file, its drawings and the other files that it names. Empty: one of them cannot be read.
+std::string fingerprint_of_inputs(const PartJob& job, const std::string& job_text);
+std::string fingerprint_of_text(std::string_view text);
+
+struct MadeJob {
+  const PartJob& job;
+  const std::vector<OrderedOperation>& order;
+  const std::vector<MadeOperation>& made;  // as in PartJob::operations
+  const Trial& trial;
+  const std::vector<TrialProgram>& programs;
+  std::string fingerprint;
+};
+
+nlohmann::ordered_json record_of(const MadeJob& made);
+// Empty: there is none, or it cannot be read.
+std::optional<nlohmann::ordered_json> read_job_record(const std::string& output);
+
+// Why the programs on disk are not those of the inputs. Empty: they are.
+std::string out_of_date(const nlohmann::ordered_json& record, const std::string& fingerprint,
+                        const std::string& output);
+
+// What differs, one line for each operation. Empty: nothing.
+std::vector<std::string> changes_of(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
+
+// The table of operations, the total and the changes of order.
+std::string report_of(const nlohmann::ordered_json& record);
+
+}  // namespace passo

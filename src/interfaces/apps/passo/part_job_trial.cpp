@@ -1,0 +1,238 @@
+#include "part_job_trial.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "passo/cutting/stock_job.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double least_depth = 0.005;         // mm; less is rounding
+constexpr std::size_t most_points = 200'000;  // of a picture
+
+Diagnostic trouble(const char* code, const TrialProgram& program, std::uint32_t line, std::string message,
+                   std::string expected) {
+  return {.severity = Severity::error,
+          .code = code,
+          .file = program.file,
+          .place = {.line = line, .column = 0, .length = 1},
+          .message = std::move(message),
+          .expected = std::move(expected),
+          .text = {}};
+}
+
+std::string place_words(const Vector3& place) {
+  return fmt::format("X{:.2f} Y{:.2f} Z{:.2f}", place.x, place.y, place.z);
+}
+
+class ProgramTrial {
+ public:
+  ProgramTrial(const PartJob& job, const TrialProgram& program, Trial& trial, Diagnostics& findings)
+      : job_(job), program_(program), trial_(trial), findings_(findings) {}
+
+  void run();
+
+ private:
+  StockWishes wishes() const;
+  void record(const MoveCut& cut);
+  void judge(const MoveCut& cut, const PartOperation& operation);
+  void judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool);
+  bool clamps_are_small();
+  void report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
+              std::string expected);
+  void draw(const Curve& curve, const Vector3& zero, std::uint32_t line);
+  std::size_t operation_at(std::uint32_t line) const;
+  const PartClamp* clamp_at(const Vector3& place) const;
+
+  const PartJob& job_;
+  const TrialProgram& program_;
+  Trial& trial_;
+  Diagnostics& findings_;
+  std::vector<ToolShape> tools_;
+  std::vector<std::int32_t> numbers_;
+  std::map<std::string, std::size_t> reported_;  // what was reported of an operation
+  std::size_t points_ = 0;
+};
+
+StockWishes ProgramTrial::wishes() const {
+  StockWishes wishes;
+  for (const auto& [number, tool] : job_.tools) wishes.shapes.emplace(number, tool.shape);
+  constexpr double clamp_depth = 900;  // mm
+  for (const PartClamp& clamp : job_.clamps) {
+    wishes.clamps.push_back(
+        {{clamp.x[0], clamp.y[0], clamp.height - clamp_depth}, {clamp.x[1], clamp.y[1], clamp.height}});
+  }
+  if (job_.stock) {
+    const PartStock& stock = *job_.stock;
+    wishes.block.x = {stock.x, stock.x + stock.width};
+    wishes.block.y = {stock.y, stock.y + stock.length};
+    wishes.block.z = {-stock.thickness, 0.0};
+  }
+  return wishes;
+}
+
+std::size_t ProgramTrial::operation_at(std::uint32_t line) const {
+  const auto after = std::ranges::upper_bound(program_.first_lines, line);
+  const auto at = after == program_.first_lines.begin() ? 0 : after - program_.first_lines.begin() - 1;
+  return program_.operations[static_cast<std::size_t>(at)];
+}
+
+const PartClamp* ProgramTrial::clamp_at(const Vector3& place) const {
+  const PartClamp* nearest = nullptr;
+  double least = 1e300;
+  for (const PartClamp& clamp : job_.clamps) {
+    const double x = std::max({clamp.x[0] - place.x, 0.0, place.x - clamp.x[1]});
+    const double y = std::max({clamp.y[0] - place.y, 0.0, place.y - clamp.y[1]});
+    if (std::hypot(x, y) >= least) continue;
+    least = std::hypot(x, y);
+    nearest = &clamp;
+  }
+  return nearest;
+}
+
+// The first place of each trouble of an operation, with the number of further moves.
+void ProgramTrial::report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
+                          std::string expected) {
+  const std::string key = fmt::format("{} {} {}", code, operation.title, expected);
+  if (reported_[key]++ > 0) return;
+  findings_.add(trouble(code, program_, cut.move.line,
+                        fmt::format("'{}', tool {}: {}", operation.title, numbers_[cut.move.tool], what),
+                        std::move(expected)));
+}
+
+void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
+  const char* const move = cut.move.rapid ? "a rapid" : "a feed move";
+  if (cut.clamp > least_depth) {
+    const PartClamp* const clamp = clamp_at(cut.clamp_place);
+    report("job.clamp", cut, operation,
+           fmt::format("{} goes {:.2f} mm into '{}' at {}", move, cut.clamp, clamp != nullptr ? clamp->name : "a clamp",
+                       place_words(cut.clamp_place)),
+           clamp == nullptr ? "no clamp in the way"
+           : cut.move.rapid ? fmt::format("a clearance above {:g}, the top of '{}', or a clamp elsewhere",
+                                          clamp->height, clamp->name)
+                            : fmt::format("'{}' further away from what is cut", clamp->name));
+  }
+  if (cut.move.rapid && cut.depth > least_depth) {
+    report("job.rapid-in-stock", cut, operation,
+           fmt::format("a rapid goes {:.2f} mm into the stock at {}", cut.depth, place_words(cut.place)),
+           "rapids above the stock");
+  }
+  if (cut.holder > least_depth) {
+    report("job.holder", cut, operation,
+           fmt::format("the holder goes {:.2f} mm into the stock at {}", cut.holder, place_words(cut.holder_place)),
+           "a tool that sticks out further (holder_from_mm), or less depth");
+  }
+}
+
+// Where the material is gone already, a feed below the stock cuts into the table all the same.
+void ProgramTrial::judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool) {
+  if (!job_.stock) return;
+  const PartStock& stock = *job_.stock;
+  const double below = -low.z - stock.thickness;
+  const bool is_over_stock =
+      high.x > stock.x && low.x < stock.x + stock.width && high.y > stock.y && low.y < stock.y + stock.length;
+  if (below <= stock.margin_below + least_depth || !is_over_stock) return;
+  const MoveCut cut{.move = {.line = line, .tool = tool}};
+  report("job.below", cut, job_.operations[operation_at(line)],
+         fmt::format("the tip goes {:.2f} mm below the stock at {}", below, place_words(low)),
+         fmt::format("at most {:g} mm; stock.below allows more", stock.margin_below));
+}
+
+void ProgramTrial::record(const MoveCut& cut) {
+  const std::size_t index = operation_at(cut.move.line);
+  TriedOperation& tried = trial_.operations[index];
+  ++tried.moves;
+  if (cut.move.rapid) {
+    tried.rapid_mm += cut.way;
+  } else {
+    tried.cut_mm += cut.way;
+    tried.cut_s += cut.move.time.value();
+    tried.removed_mm3 += cut.volume;
+    if (cut.volume > 0) {
+      tried.pass_mm = std::max(tried.pass_mm, cut.depth);
+      tried.plunges = tried.plunges || (cut.way_level <= 1e-6 && cut.depth > least_depth);
+    }
+  }
+  judge(cut, job_.operations[index]);
+}
+
+// Adds a feed to the picture.
+void ProgramTrial::draw(const Curve& curve, const Vector3& zero, std::uint32_t line) {
+  TriedOperation& tried = trial_.operations[operation_at(line)];
+  const double low = Vector3::of(curve.extents().low).z - zero.z;
+  tried.depth_mm = std::max(tried.depth_mm, -low);
+  if (points_ > most_points) return;
+  const double length = curve.length().value();
+  const bool is_line = curve.shape() == Curve::Shape::line;
+  const auto pieces = is_line ? 1 : static_cast<int>(std::clamp(length / 0.5, 1.0, 64.0));
+  const auto point = [&](int i) {
+    const Vector3 at = Vector3::of(curve.at(Mm(length * i / pieces)));
+    return MillPoint{.at = {to_nanometres(Mm(at.x - zero.x)), to_nanometres(Mm(at.y - zero.y))}};
+  };
+  const MillPoint first = point(0);
+  const bool goes_on = !tried.ways.empty() && tried.ways.back().back().at == first.at;
+  if (!goes_on) tried.ways.push_back({first});
+  for (int i = 1; i <= pieces; ++i) tried.ways.back().push_back(point(i));
+  points_ += static_cast<std::size_t>(pieces);
+}
+
+// The cutter passes over clamps that have too many cells, so there must be none.
+bool ProgramTrial::clamps_are_small() {
+  bool are_small = true;
+  const StockWishes wanted = wishes();
+  for (std::size_t i = 0; i < wanted.clamps.size(); ++i) {
+    if (HeightField::create(wanted.clamps[i], Mm(trial_.field->cell()))) continue;
+    findings_.add(of_file("job.clamp-size", job_.file, fmt::format("'{}' is too large", job_.clamps[i].name),
+                          "the part of it that the tools can reach"));
+    are_small = false;
+  }
+  return are_small;
+}
+
+void ProgramTrial::run() {
+  const StockWishes wanted = wishes();
+  const StockJob stock_job{ProgramReader::from_text(program_.file, program_.text), {}, nullptr};
+  Diagnostics found;
+  const FeedLook look = survey_feeds(stock_job, wanted, found);
+  for (const Diagnostic& finding : found.all()) findings_.add(finding);
+  if (found.any_error()) return;
+  auto shapes = shapes_of(stock_job, wanted, look);
+  if (!shapes) return;  // a job's tools all have shapes
+  tools_ = std::move(*shapes);
+  numbers_ = look.numbers();
+  if (!trial_.field) {
+    auto field = stock_field(wanted, look);
+    if (!field) return;
+    trial_.field.emplace(std::move(*field));
+  }
+  if (!clamps_are_small()) return;
+  CutHooks hooks;
+  hooks.cut = [this](const MoveCut& cut) { record(cut); };
+  hooks.feed = [this](StockCutter& cutter, const TipMove& move, const StockMove& kind) {
+    const Vector3 zero = Vector3::of(move.zero);
+    const Box box = move.segment->curve.extents();
+    judge_depth(Vector3::of(box.low) - zero, Vector3::of(box.high) - zero, kind.line, kind.tool);
+    draw(move.segment->curve, zero, kind.line);
+    cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
+  };
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
+  cut_stock(stock_job, wanted, look, tools_, threads, *trial_.field, hooks);
+}
+
+}  // namespace
+
+Trial try_programs(const PartJob& job, const std::vector<TrialProgram>& programs, Diagnostics& findings) {
+  Trial trial;
+  trial.operations.resize(job.operations.size());
+  for (const TrialProgram& program : programs) ProgramTrial(job, program, trial, findings).run();
+  return trial;
+}
+
+}  // namespace passo

@@ -1,0 +1,278 @@
+// passo cam job, as a user starts it: from a job file to a program that cuts the part, and nothing else.
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::checkout;
+using passo::test::on_router;
+using passo::test::Outcome;
+using passo::test::read;
+using testing::HasSubstr;
+using testing::Not;
+
+struct JobExample {
+  const char* name;
+  const char* stock;  // for passo simulate: half a millimetre below it is the waste board
+  const char* tools;
+  int programs;
+};
+
+class CamJob : public passo::test::CommandLine {
+ protected:
+  static std::string example(const std::string& name) { return checkout + "/examples/jobs/" + name + ".toml"; }
+
+  // A plate of 40 x 30 mm with a pocket of 10 x 10 mm. `more`: other elements, and other lines of the job file.
+  std::string small_job(const std::string& more_svg = "", const std::string& more_toml = "", const char* depth = "-2") {
+    write(
+        "small.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' "
+        "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='60mm' height='50mm' viewBox='0 0 60 50'>\n"
+        "<g inkscape:groupmode='layer' inkscape:label='cut'><rect x='10' y='10' width='40' height='30'/></g>\n"
+        "<g inkscape:groupmode='layer' inkscape:label='pockets'><rect x='20' y='20' width='10' height='10'/>" +
+            more_svg + "</g>\n</svg>\n");
+    return write("small.toml",
+                 "[job]\ndrawing = \"small.svg\"\nclearance = 5\n"
+                 "[stock]\nsize = [60, 50]\nthickness = 4\n"
+                 "[tool.1]\nshape = \"flat\"\ndiameter_mm = 3\nfeed_mm_min = 600\nplunge_mm_min = 200\n"
+                 "[[operation]]\nkind = \"profile\"\ntool = 1\nlayer = \"cut\"\ndepth = -4.2\nstep = 2\n"
+                 "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"pockets\"\ndepth = " +
+                     std::string(depth) + "\n" + more_toml);
+  }
+  nlohmann::json record(const std::string& name) const {
+    return nlohmann::json::parse(read(path(name + ".job.json")), nullptr, false);
+  }
+};
+
+TEST_F(CamJob, every_example_cuts_its_stock_and_nothing_else) {
+  const std::vector<JobExample> examples = {
+      {"plate", "X0:120,Y0:80,Z-8.5:0", "--tool 1=flat:6 --tool 2=flat:5", 1},
+      {"sign", "X0:180,Y0:60,Z-12.5:0", "--tool 1=vee:60:12 --tool 2=flat:4", 1},
+      {"finger-box", "X0:300,Y0:170,Z-6.5:0", "--tool 1=flat:3", 1},
+      {"bracket", "X-5:95,Y-5:85,Z-10.5:0", "--tool 1=flat:8 --tool 2=flat:4 --tool 3=vee:90:8", 1},
+      {"clock", "X-90:90,Y-90:90,Z-8.5:0", "--tool 1=vee:60:6:0.2 --tool 2=flat:3", 1},
+      {"guitar", "X-12:218,Y-12:138,Z-20.5:0", "--tool 1=flat:8 --tool 2=flat:5", 1},
+      {"coaster", "X-50:50,Y-50:50,Z-8.5:0", "--tool 1=flat:4 --tool 2=ball:4", 1},
+      {"gear", "X-45:45,Y-45:45,Z-6.5:0", "--tool 1=flat:4 --tool 2=flat:2", 2}};
+  for (const JobExample& one : examples) {
+    SCOPED_TRACE(one.name);
+    const Outcome made = passo("cam job " + example(one.name) + " -o " + path("p.ngc"));
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(made.err, "");
+    const nlohmann::json job = record("p");
+    ASSERT_EQ(job["programs"].size(), static_cast<std::size_t>(one.programs));
+    for (const auto& operation : job["operations"]) {
+      EXPECT_GT(operation["cut_mm"], 1.0) << operation["title"];
+      // Dog-bones are cut into the part on purpose.
+      const bool has_bones = operation["title"] == "profile sides";
+      const double lost = operation.contains("figures") ? operation["figures"].value("lost_mm2", 0.0) : 0;
+      EXPECT_TRUE(has_bones ? lost < 60 : lost == 0) << operation["title"];
+    }
+    for (const auto& program : job["programs"]) {
+      const std::string file = path(program["file"]);
+      const Outcome checked = passo("check " + file + on_router);
+      EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+      const Outcome cut = passo("simulate " + file + " --cell 0.5 --stock " + one.stock + " " + one.tools);
+      EXPECT_EQ(cut.code, 0) << cut.out << cut.err;
+    }
+  }
+}
+
+// Where the cutter's centre may be while its tip is in the plate of examples/jobs/plate.svg, with 3 mm of radius.
+bool may_cut_the_plate(double x, double y) {
+  constexpr double slack = 0.01;
+  const bool outside = x < 7 + slack || x > 113 - slack || y < 7 + slack || y > 73 - slack ||
+                       std::hypot(std::max({18 - x, x - 102, 0.0}), std::max({18 - y, y - 62, 0.0})) > 11 - slack;
+  const bool pocket = x > 33 - slack && x < 55 + slack && y > 25 - slack && y < 55 + slack;
+  const bool circle = std::hypot(x - 82, y - 40) < 11 + slack;
+  return outside || pocket || circle;
+}
+
+TEST_F(CamJob, the_plate_keeps_its_shape) {
+  ASSERT_EQ(passo("cam job " + example("plate") + " -o " + path("p.ngc")).code, 0);
+  const Outcome canon = passo("canon " + path("p.ngc"));
+  ASSERT_EQ(canon.code, 0) << canon.err;
+  std::istringstream lines(canon.out);
+  std::string line;
+  bool is_mill = false;
+  std::size_t seen = 0;
+  while (std::getline(lines, line)) {
+    if (const std::size_t change = line.find("CHANGE_TOOL("); change != std::string::npos) {
+      is_mill = line.compare(change, 14, "CHANGE_TOOL(1)") == 0;
+    }
+    const std::size_t feed = line.find("STRAIGHT_FEED(");
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    if (!is_mill || feed == std::string::npos) continue;
+    ASSERT_EQ(std::sscanf(line.c_str() + feed, "STRAIGHT_FEED(%lf, %lf, %lf", &x, &y, &z), 3) << line;
+    if (z >= 0) continue;
+    ++seen;
+    EXPECT_TRUE(may_cut_the_plate(x, y)) << line;
+  }
+  EXPECT_GT(seen, 50U);
+}
+
+TEST_F(CamJob, the_report_explains_the_order_and_counts_the_changes) {
+  const Outcome made = passo("cam job " + example("plate") + " -o " + path("p.ngc") + " -p " + path("p.png"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("order: 'cut out' is number 4 instead of 1: it frees the part, so it comes last\n"));
+  EXPECT_THAT(made.out, HasSubstr("; 1 tool change\n"));
+  EXPECT_THAT(made.out, HasSubstr("written: " + path("p.ngc")));
+  EXPECT_GT(std::filesystem::file_size(path("p.png")), 10'000U);
+  const std::string program = read(path("p.ngc"));
+  EXPECT_LT(program.find("T2 M6"), program.find("T1 M6"));
+  EXPECT_EQ(program.find("M2\n"), program.size() - 3) << "the program ends once";
+}
+
+TEST_F(CamJob, a_clamp_in_the_way_is_named_with_operation_and_line_and_nothing_is_written) {
+  const std::string job =
+      small_job("", "[[clamp]]\nname = \"toe clamp\"\nfrom = [50, 20]\nto = [60, 30]\nheight = 3\n");
+  const Outcome made = passo("cam job " + job);
+  EXPECT_EQ(made.code, 2) << made.out;
+  EXPECT_THAT(made.err, HasSubstr("'profile cut', tool 1: a feed move goes"));
+  EXPECT_THAT(made.err, HasSubstr("into 'toe clamp' at X"));
+  EXPECT_THAT(made.err, HasSubstr("[job.clamp]"));
+  EXPECT_THAT(made.err, testing::ContainsRegex("small.ngc:[0-9]+: error"));
+  EXPECT_FALSE(std::filesystem::exists(path("small.ngc")));
+  EXPECT_FALSE(std::filesystem::exists(path("small.job.json")));
+}
+
+TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_mends_it) {
+  // Between two pockets, where the cutter passes at the clearance.
+  const std::string clamp = "[[clamp]]\nfrom = [33, 15]\nto = [35, 35]\nheight = 12\n";
+  const Outcome low = passo("cam job " + small_job("<rect x='38' y='20' width='8' height='10'/>", clamp));
+  EXPECT_EQ(low.code, 2) << low.out;
+  EXPECT_THAT(low.err, HasSubstr("a rapid goes"));
+  EXPECT_THAT(low.err, HasSubstr("a clearance above 12"));
+  std::string text = read(path("small.toml"));
+  text.replace(text.find("clearance = 5"), 13, "clearance = 13");
+  write("small.toml", text);
+  EXPECT_EQ(passo("cam job " + path("small.toml")).code, 0);
+}
+
+TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_tells_what_differs) {
+  const std::string job = small_job();
+  EXPECT_EQ(passo("cam job " + job + " --check").code, 1) << "there is no program yet";
+  ASSERT_EQ(passo("cam job " + job).code, 0);
+  EXPECT_EQ(passo("cam job " + job + " --check").code, 0);
+  EXPECT_THAT(passo("cam job " + job).out, HasSubstr("changed: nothing since the last time\n"));
+
+  small_job("<rect x='35' y='20' width='8' height='6'/>");
+  const Outcome stale = passo("cam job " + job + " --check");
+  EXPECT_EQ(stale.code, 1);
+  EXPECT_THAT(stale.err, HasSubstr("[job.out-of-date]"));
+  const Outcome again = passo("cam job " + job);
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("changed: 'pocket pockets': moves "));
+  EXPECT_THAT(again.out, HasSubstr("1 contour added: 8 x 6 mm at X35 Y24\n"));
+  EXPECT_THAT(again.out, Not(HasSubstr("changed: 'profile cut'")));
+  EXPECT_EQ(passo("cam job " + job + " --check").code, 0);
+
+  write("small.ngc", read(path("small.ngc")) + "(edited)\n");
+  EXPECT_THAT(passo("cam job " + job + " --check").err, HasSubstr("was edited"));
+}
+
+TEST_F(CamJob, the_same_inputs_give_the_same_program) {
+  const std::string job = small_job();
+  ASSERT_EQ(passo("cam job " + job).code, 0);
+  const std::string first = read(path("small.ngc"));
+  ASSERT_EQ(passo("cam job " + job).code, 0);
+  EXPECT_EQ(read(path("small.ngc")), first);
+}
+
+TEST_F(CamJob, a_wrong_value_points_at_its_key) {
+  const Outcome made = passo("cam job " + small_job("", "", "2"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("small.toml:22:9: error: 'pocket pockets' cannot have this depth [job.bad-value]"));
+  EXPECT_THAT(made.err, HasSubstr("expected a length below 0, e.g. -3, found '2'"));
+  EXPECT_FALSE(std::filesystem::exists(path("small.ngc")));
+}
+
+TEST_F(CamJob, all_wrong_operations_are_shown_at_once_and_an_old_program_stays) {
+  ASSERT_EQ(passo("cam job " + small_job()).code, 0);
+  const std::string before = read(path("small.ngc"));
+  const Outcome made = passo("cam job " + small_job("",
+                                                    "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"pocketz\"\n"
+                                                    "[[operation]]\nkind = \"drill\"\ntool = 1\nlayer = \"holes\"\n"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("has no layer 'pocketz' [job.no-such-layer]"));
+  EXPECT_THAT(made.err, HasSubstr("perhaps pockets"));
+  EXPECT_THAT(made.err, HasSubstr("has no layer 'holes'"));
+  EXPECT_EQ(read(path("small.ngc")), before);
+}
+
+TEST_F(CamJob, a_clamp_that_cannot_be_checked_is_refused) {
+  const Outcome made = passo(
+      "cam job " + small_job("", "[[clamp]]\nname = \"wall\"\nfrom = [100, -5000]\nto = [5000, 5000]\nheight = 1\n"));
+  EXPECT_EQ(made.code, 2) << made.out;
+  EXPECT_THAT(made.err, HasSubstr("'wall' is too large [job.clamp-size]"));
+}
+
+TEST_F(CamJob, a_cut_far_below_the_stock_is_refused) {
+  const Outcome made = passo("cam job " + small_job("", "", "-9"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("below the stock at X"));
+  EXPECT_THAT(made.err, HasSubstr("[job.below]"));
+}
+
+TEST_F(CamJob, each_tool_has_its_program) {
+  ASSERT_EQ(passo("cam job " + example("gear") + " -o " + path("g.ngc")).code, 0);
+  const std::string first = read(path("g-1-T1.ngc"));
+  const std::string second = read(path("g-2-T2.ngc"));
+  EXPECT_THAT(first, HasSubstr("T1 M6"));
+  EXPECT_THAT(first, Not(HasSubstr("T2 M6")));
+  EXPECT_THAT(second, HasSubstr("T2 M6"));
+  EXPECT_THAT(second, HasSubstr("M2\n"));
+}
+
+TEST_F(CamJob, a_job_is_written_in_the_words_of_its_controller) {
+  std::string text = read(small_job("<circle cx='40' cy='25' r='1.5'/>",
+                                    "[[operation]]\nkind = \"drill\"\ntool = 1\nlayer = \"pockets\"\ndepth = -2\n"));
+  text.replace(text.find("[job]"), 5, "[job]\nfor = \"grbl\"");
+  const Outcome made = passo("cam job " + write("small.toml", text));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string program = read(path("small.ngc"));
+  EXPECT_THAT(program, Not(HasSubstr("G81")));
+  EXPECT_THAT(program, Not(HasSubstr("M6")));
+  EXPECT_EQ(passo("check " + path("small.ngc") + on_router + " --dialect grbl").code, 0);
+
+  text.replace(text.find("\"grbl\""), 6, "\"gbrl\"");
+  EXPECT_THAT(passo("cam job " + write("small.toml", text)).err,
+              HasSubstr("job.for is the text \"gbrl\" [job.bad-value]"));
+}
+
+TEST_F(CamJob, feeds_come_from_the_material_where_the_file_has_none) {
+  std::string text = read(small_job());
+  text.replace(text.find("feed_mm_min = 600\nplunge_mm_min = 200\n"), 38, "flutes = 2\n");
+  text.replace(text.find("thickness = 4"), 13, "thickness = 4\nmaterial = \"plywood\"");
+  const Outcome made = passo("cam job " + write("small.toml", text));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("mm per tooth in plywood"));
+  EXPECT_THAT(made.out, Not(HasSubstr("tool.chip-small")));
+}
+
+TEST_F(CamJob, the_json_is_the_record_with_the_changes) {
+  const Outcome made = passo("cam job " + small_job() + " --json");
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto json = nlohmann::json::parse(made.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << made.out;
+  EXPECT_EQ(json["operations"].size(), 2U);
+  EXPECT_EQ(json["operations"][0]["title"], "pocket pockets");
+  EXPECT_EQ(json["operations"][0]["contours"][0], "10 x 10 mm at X20 Y20");
+  EXPECT_TRUE(json["changes"].is_array());
+}
+
+TEST_F(CamJob, a_job_of_a_stranger_reads_only_its_folder) {
+  const std::string job = small_job("", "[[operation]]\nkind = \"pocket\"\ntool = 1\ndrawing = \"../other.svg\"\n");
+  const Outcome made = passo("cam job small.toml --only-folder -o made.ngc", "cd " + path("") + " &&");
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("'../other.svg' is outside of the job's folder [job.outside]"));
+}
+
+}  // namespace
