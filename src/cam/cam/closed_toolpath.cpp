@@ -60,6 +60,27 @@ std::pair<double, double> ClosedToolpath::nearest(DrawnPoint point) const {
   return best;
 }
 
+bool ClosedToolpath::is_within(DrawnPoint centre, double radius) const {
+  constexpr int tried = 4;  // places of a piece
+  constexpr double close = 1'000;
+  return std::ranges::all_of(pieces_, [&](const Piece& piece) {
+    for (int k = 0; k < tried; ++k) {
+      const DrawnPoint place = point_along(piece.from, piece.to, piece.bulge, static_cast<double>(k) / tried);
+      if (distance_nm(place, centre) > radius + close) return false;
+    }
+    return true;
+  });
+}
+
+ClosedToolpath ClosedToolpath::from(double along) const {
+  MillRun run;
+  append(run, along, along + length_, {}, {});
+  std::vector<PathPoint> points;
+  for (const MillPoint& point : run) points.push_back({point.at, point.bulge});
+  if (!points.empty()) points.pop_back();
+  return ClosedToolpath(points);
+}
+
 std::vector<std::pair<double, double>> ClosedToolpath::straights() const {
   std::vector<std::pair<double, double>> straights;
   for (const Piece& piece : pieces_) {

@@ -19,6 +19,10 @@ class ClosedToolpath {
   double direction(double along) const;
   // Returns the length along the track at the point nearest to `point`, and the distance to that point.
   std::pair<double, double> nearest(DrawnPoint point) const;
+  // Returns whether all of the track lies in the disc, within a micrometre.
+  bool is_within(DrawnPoint centre, double radius) const;
+  // Returns the same track, beginning at this length.
+  ClosedToolpath from(double along) const;
   // Returns the start and end of each straight piece.
   std::vector<std::pair<double, double>> straights() const;
 

@@ -11,8 +11,10 @@
 #include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
 #include "engagement.hpp"
+#include "helix_entry.hpp"
 #include "nested_loops.hpp"
 #include "peel.hpp"
+#include "tight_ways.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/route.hpp"
@@ -50,6 +52,7 @@ class PocketPlanner {
     MillTool tool{options_.cutter, options_.words, {}};
     const bool is_done = options_.most_engagement > 0 ? peel_all(tool.runs) : go_around_all(tool.runs);
     if (!is_done) return {};
+    add_tight_ways(tool.runs);
     measure();
     progress_.update(1);
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
@@ -79,10 +82,25 @@ class PocketPlanner {
   void tell(std::string code, Severity severity, std::string message, std::string expected);
   void tell_narrow_parts();
   void find_offsets();
-  void take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings);
+  // A ring that the cutter follows. Of an innermost one: the part of the ground that it lies around.
+  struct PocketRing {
+    DrawnRing ring;
+    const Region* core = nullptr;
+    std::size_t layer = 0;
+  };
+  // A loop, and whether the cutter goes down along it; otherwise it comes from the end of the loop before.
+  struct PocketLoop {
+    ClosedToolpath track;
+    bool goes_down;
+  };
+  void take_rings(std::size_t layer, std::size_t index, std::vector<PocketRing>& rings);
   ClosedToolpath track_of(DrawnRing ring, DrawnPoint near) const;
-  bool may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const;
-  void add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs);
+  bool may_go_on(DrawnPoint from, DrawnPoint to, bool is_free) const;
+  double ramp_along(const ClosedToolpath& track) const;
+  std::optional<Helix> helix_in(const PocketRing& ring) const;
+  std::vector<PocketLoop> loops_of(std::vector<PocketRing> rings);
+  void add_runs(const std::vector<PocketLoop>& loops, std::vector<MillRun>& runs);
+  void add_tight_ways(std::vector<MillRun>& runs);
   void measure();
 
   const Region& area_;
@@ -117,6 +135,7 @@ void PocketPlanner::tell(std::string code, Severity severity, std::string messag
 void PocketPlanner::tell_narrow_parts() {
   for (const Region& part : parts_of(area_)) {
     if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
+    if (!grown(part, {tight_tolerance.count / 2 - radius().count}, pocket_chords).empty() && narrowest_.count == 0) continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,
          fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}, and is not cleared",
@@ -140,9 +159,9 @@ bool PocketPlanner::go_around_all(std::vector<MillRun>& runs) {
   const std::vector<Region>& pockets = offsets_.front().parts;
   plan_.pockets = pockets.size();
   for (const std::uint32_t index : order_of(pockets)) {
-    std::vector<DrawnRing> rings;
+    std::vector<PocketRing> rings;
     take_rings(0, index, rings);
-    add_runs(std::move(rings), runs);
+    add_runs(loops_of(std::move(rings)), runs);
   }
   return true;
 }
@@ -248,6 +267,19 @@ void PocketPlanner::sweep(const PeelWay& way) {
   if (!parts.empty()) cut_ = united(cut_, parts.front());
 }
 
+// The run at this depth, with its links lifted.
+void add_level(const MillRun& piece, Nanometres z, MillRun& run) {
+  for (const MillPoint& point : piece) {
+    if (!run.empty() && run.back().pace == MillPace::link) {
+      link_to(run, point.at);
+      run.back().bulge = point.bulge;
+      run.back().pace = point.pace;
+    } else {
+      run.push_back({point.at, point.bulge, z, point.pace});
+    }
+  }
+}
+
 // A helix down to each layer, or straight down, and then all runs there.
 void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
   const ClosedToolpath lap = [&] {
@@ -261,6 +293,7 @@ void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
     const Nanometres next{options_.depth.count * level / levels()};
     MillRun run;
     double along = 0;
+    enter_above(run, lap.at(0), z);
     if (options_.ramp_degrees > 0) {
       along = static_cast<double>(z.count - next.count) / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
       lap.append(run, 0, along, z, next);
@@ -270,9 +303,14 @@ void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
     lap.append(run, along, laps * lap.length(), next, next);
     bool is_first = true;
     for (const MillRun& piece : way.runs) {
-      if (!is_first) run.clear();
-      if (is_first) run.pop_back();
-      for (const MillPoint& point : piece) run.push_back({point.at, point.bulge, next});
+      if (is_first) {
+        run.pop_back();
+      } else {
+        run.clear();
+        // It begins with a link where this layer is cut already.
+        enter_above(run, piece.front().at, piece.front().pace == MillPace::link ? next : z);
+      }
+      add_level(piece, next, run);
       is_first = false;
       runs.push_back(run);
     }
@@ -303,17 +341,23 @@ void PocketPlanner::find_offsets() {
 
 // The rings around a part of the ground: first what lies within them. Where corners are sharp, two loops leave ground
 // between them. It is less than a cutter wide, so its own edge is a way that clears it.
-void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) {
+void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<PocketRing>& rings) {
   const Region& part = offsets_[layer].parts[index];
+  const std::vector<std::size_t>& within = offsets_[layer].inner[index];
+  const std::size_t first = rings.size();
   Region between = grown(part, {-radius().count}, pocket_chords);
-  for (const std::size_t inner : offsets_[layer].inner[index]) {
+  for (const std::size_t inner : within) {
     take_rings(layer + 1, inner, rings);
     between = subtracted(between, grown(offsets_[layer + 1].parts[inner], radius(), pocket_chords));
   }
-  for (const DrawnRing& ring : notable_part(between, least_left).rings) rings.push_back(ring);
+  for (const DrawnRing& ring : notable_part(between, least_left).rings) rings.push_back({ring});
   progress_.part(0.05, 0.25).stage(taken_++, parts_).update(1);
   // Islands before the outer wall, which comes last.
-  for (std::size_t i = part.rings.size(); i-- > 0;) rings.push_back(part.rings[i]);
+  for (std::size_t i = part.rings.size(); i-- > 0;) rings.push_back({part.rings[i]});
+  if (within.empty()) {
+    rings[first].core = &part;
+    rings[first].layer = layer;
+  }
 }
 
 // Begins at the ring's place nearest to `near`. Short edges may be chords of an arc, and stay whole.
@@ -344,61 +388,98 @@ ClosedToolpath PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
   return ClosedToolpath(points);
 }
 
-// Whether the cutter may go straight from the end of the run to a loop: near walls never, through ground that nobody
-// has cut no farther than its width.
-bool PocketPlanner::may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const {
-  if (run.empty()) return false;
-  const DrawnPoint from = run.back().at;
+// Whether the cutter may go straight from a loop to another: near walls never, through ground that nobody has cut no
+// farther than its width.
+bool PocketPlanner::may_go_on(DrawnPoint from, DrawnPoint to, bool is_free) const {
   if (!is_free && distance_nm(from, to) > static_cast<double>(options_.cutter.count)) return false;
   return !walls_.is_crossed(from, to);
 }
 
-// Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
-void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs) {
-  plan_.loops += rings.size();
-  std::vector<ClosedToolpath> tracks;
-  DrawnPoint at = rings.front().front();
-  for (DrawnRing& ring : rings) {
-    ClosedToolpath track = track_of(std::move(ring), at);
-    if (track.length() <= 0) continue;
-    at = track.at(0);
-    // A ramp may go around often: one lap is enough to know what is cut.
+// The length of the descent by one layer. A loop that is tiny beside the cutter is no ramp.
+double PocketPlanner::ramp_along(const ClosedToolpath& track) const {
+  const bool is_tiny = track.length() < static_cast<double>(options_.cutter.count) / 4;
+  if (options_.ramp_degrees <= 0 || is_tiny) return 0;
+  const auto down = static_cast<double>(-options_.depth.count) / static_cast<double>(levels());
+  return down / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
+}
+
+std::optional<Helix> PocketPlanner::helix_in(const PocketRing& ring) const {
+  if (ring.core == nullptr || options_.ramp_degrees <= 0) return std::nullopt;
+  const auto margin = static_cast<double>(ring.layer) * static_cast<double>(step_over().count);
+  return find_helix(*ring.core, margin, options_.cutter);
+}
+
+// Where the cutter cannot come from the loop before, it goes down along a helix, or along the loop.
+std::vector<PocketPlanner::PocketLoop> PocketPlanner::loops_of(std::vector<PocketRing> rings) {
+  std::vector<PocketLoop> loops;
+  DrawnPoint at = rings.front().ring.front();
+  const auto add = [&](ClosedToolpath track, bool goes_down) {
+    at = track.at(goes_down ? ramp_along(track) : 0);
     MillRun lap;
     track.append(lap, 0, track.length(), {}, {});
     ways_.push_back(chords_of(lap, pocket_chords));
-    tracks.push_back(std::move(track));
+    loops.push_back({std::move(track), goes_down});
+  };
+  for (PocketRing& ring : rings) {
+    ClosedToolpath track = track_of(std::move(ring.ring), at);
+    if (track.length() <= 0) continue;
+    bool goes_down = loops.empty() || !may_go_on(at, track.at(0), false);
+    const std::optional<Helix> helix = goes_down ? helix_in(ring) : std::nullopt;
+    if (helix) {
+      add(passo::track_of(*helix, track.at(0), options_.climb), true);
+      if (track.is_within(helix->centre, helix->radius)) continue;
+      track = track.from(track.nearest(at).first);
+      goes_down = !may_go_on(at, track.at(0), false);
+    }
+    add(std::move(track), goes_down);
   }
+  plan_.loops += loops.size();
+  return loops;
+}
+
+// Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
+void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<MillRun>& runs) {
   MillRun run;
   Nanometres z{};
+  double begin = 0;  // where the first loop begins
   for (std::int64_t level = 1; level <= levels(); ++level) {
     const Nanometres next{options_.depth.count * level / levels()};
-    bool is_first = true;
-    for (const ClosedToolpath& track : tracks) {
-      const DrawnPoint start = track.at(0);
-      const bool goes_on = may_go_on(run, start, is_first);
-      if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));
-      double along = 0;
-      if (is_first || !goes_on) {
-        if (goes_on) {
-          run.push_back({run.back().at, 0, z});  // the layer before is free
-          run.push_back({start, 0, z});
-        }
-        if (options_.ramp_degrees > 0) {
-          const auto down = static_cast<double>(z.count - next.count);
-          along = down / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
-          track.append(run, 0, along, z, next);
-        }
-      } else {
+    for (const PocketLoop& loop : loops) {
+      const bool is_first = &loop == &loops.front();
+      double along = is_first ? begin : 0;
+      const DrawnPoint start = loop.track.at(along);
+      if (!loop.goes_down) {
         run.push_back({start, 0, next});
+      } else {
+        // The layer before is free.
+        const bool goes_on = is_first && !run.empty() && may_go_on(run.back().at, start, true);
+        if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));
+        goes_on ? link_to(run, start) : enter_above(run, start, z);
+        const double ramp = ramp_along(loop.track);
+        if (ramp > 0) loop.track.append(run, along, along + ramp, z, next);
+        along += ramp;
       }
-      // All of it at this depth, and on to where it began: the next loop begins near there.
-      const double laps = std::ceil((along + track.length()) / track.length() - 1e-9);
-      track.append(run, along, laps * track.length(), next, next);
-      is_first = false;
+      // All of it at this depth, once: it ends where the ramp did.
+      loop.track.append(run, along, along + loop.track.length(), next, next);
+      if (loops.size() == 1) begin = along + loop.track.length();
     }
     z = next;
   }
   if (run.size() > 1) runs.push_back(std::move(run));
+}
+
+// What is exactly as wide as the cutter. Adaptive clearing leaves it: it is a slot.
+void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
+  if (options_.most_engagement > 0) return;
+  const std::vector<TightWay> ways = find_tight_ways(area_, reach_, options_.cutter);
+  for (const TightWay& way : ways) {
+    ways_.push_back(way.points);
+    if (way.is_closed) ways_.back().push_back(way.points.front());
+  }
+  plan_.tight = ways.size();
+  const DrawnPoint from = runs.empty() ? options_.park : runs.back().back().at;
+  const TightCut cut{options_.depth, options_.step, options_.ramp_degrees};
+  for (MillRun& run : tight_runs(ways, cut, from, options_.park)) runs.push_back(std::move(run));
 }
 
 void PocketPlanner::measure() {

@@ -39,6 +39,7 @@ struct PocketPlan {
   MillPlan mill = {};
   std::size_t pockets = 0;
   std::size_t loops = 0;  // number per layer; with constant engagement: number of discs
+  std::size_t tight = 0;  // number of cuts exactly as wide as the cutter
   double engagement = 0;  // maximum engagement in a layer, degrees, if a limit was set; computed from the toolpaths
                           // alone
   Region unreached = {};
