@@ -50,6 +50,16 @@ double ClosedToolpath::direction(double along) const {
 std::pair<double, double> ClosedToolpath::nearest(DrawnPoint point) const {
   std::pair<double, double> best(0, std::numeric_limits<double>::max());
   for (const Piece& piece : pieces_) {
+    if (piece.bulge == 0) {
+      const auto dx = static_cast<double>(piece.to.x.count - piece.from.x.count);
+      const auto dy = static_cast<double>(piece.to.y.count - piece.from.y.count);
+      const double dot = dx * static_cast<double>(point.x.count - piece.from.x.count) +
+                         dy * static_cast<double>(point.y.count - piece.from.y.count);
+      const double share = std::clamp(dot / (dx * dx + dy * dy), 0.0, 1.0);
+      const double distance = distance_nm(point, point_along(piece.from, piece.to, 0, share));
+      if (distance < best.second) best = {piece.start + share * piece.length, distance};
+      continue;
+    }
     constexpr int tried = 64;  // places of a piece: tabs need no better place
     for (int k = 0; k < tried; ++k) {
       const double share = static_cast<double>(k) / tried;
@@ -98,6 +108,13 @@ bool ClosedToolpath::is_kept(double along) const {
   return std::ranges::any_of(kept_, [&](const auto& stretch) {
     const double off = turned(along - stretch.first);
     return off < stretch.second - stretch.first;
+  });
+}
+
+bool ClosedToolpath::keeps(double from, double to) const {
+  return std::ranges::any_of(kept_, [&](const auto& stretch) {
+    return turned(from - stretch.first) < stretch.second - stretch.first ||
+           turned(stretch.first - from) < to - from;
   });
 }
 

@@ -30,6 +30,9 @@ class ClosedToolpath {
   // continues at the start.
   void keep_above(Nanometres top, std::vector<std::pair<double, double>> stretches);
 
+  // Returns whether the cutter is kept up anywhere between the two lengths.
+  bool keeps(double from, double to) const;
+
   // Appends the toolpath between the two lengths, which may go around several times; the height changes linearly. The
   // run must end at `from` or be empty.
   void append(MillRun& run, double from, double to, Nanometres from_z, Nanometres to_z) const;

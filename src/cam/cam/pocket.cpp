@@ -11,12 +11,14 @@
 #include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
 #include "engagement.hpp"
+#include "finish_pass.hpp"
 #include "helix_entry.hpp"
 #include "nested_loops.hpp"
 #include "peel.hpp"
 #include "tight_ways.hpp"
 #include <fmt/format.h>
 
+#include "passo/cam/bulge.hpp"
 #include "passo/cam/route.hpp"
 
 namespace passo {
@@ -36,7 +38,7 @@ class PocketPlanner {
         diagnostics_(diagnostics),
         progress_(progress),
         narrowest_(options.most_engagement > 0 ? least_peeled(options.cutter) : Nanometres{}),
-        reach_(reachable(area)),
+        roughed_(area),
         walls_(bounds(area).value_or(DrawnBox{}), {1'000'000}) {
     for (const DrawnRing& ring : grown(area, {-radius().count}, pocket_chords).rings) walls_.add(ring, 0);
     walls_.finish();
@@ -49,10 +51,13 @@ class PocketPlanner {
       return {};
     }
     tell_narrow_parts();
+    leave_allowance();
+    reach_ = reachable(roughed_);
     MillTool tool{options_.cutter, options_.words, {}};
     const bool is_done = options_.most_engagement > 0 ? peel_all(tool.runs) : go_around_all(tool.runs);
     if (!is_done) return {};
     add_tight_ways(tool.runs);
+    if (options_.finishes) finish_walls(tool.runs);
     measure();
     progress_.update(1);
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
@@ -76,8 +81,16 @@ class PocketPlanner {
   void sweep(const PeelWay& way);
   void add_layers(const PeelWay& way, std::vector<MillRun>& runs);
   std::vector<std::uint32_t> order_of(const std::vector<Region>& pockets) const;
+  Nanometres rough_depth() const { return options_.depth + options_.floor_allowance; }
   std::int64_t levels() const {
-    return std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
+    return std::max<std::int64_t>(1, (-rough_depth().count + options_.step.count - 1) / options_.step.count);
+  }
+  // Of all layers; a last one finishes the floor.
+  std::vector<Nanometres> floors() const {
+    std::vector<Nanometres> all;
+    for (std::int64_t level = 1; level <= levels(); ++level) all.push_back({rough_depth().count * level / levels()});
+    if (options_.finishes && options_.floor_allowance.count > 0) all.push_back(options_.depth);
+    return all;
   }
   void tell(std::string code, Severity severity, std::string message, std::string expected);
   void tell_narrow_parts();
@@ -101,6 +114,9 @@ class PocketPlanner {
   std::vector<PocketLoop> loops_of(std::vector<PocketRing> rings);
   void add_runs(const std::vector<PocketLoop>& loops, std::vector<MillRun>& runs);
   void add_tight_ways(std::vector<MillRun>& runs);
+  bool may_be_finished(const Region& part, const Region& rough) const;
+  void leave_allowance();
+  void finish_walls(std::vector<MillRun>& runs);
   void measure();
 
   const Region& area_;
@@ -108,6 +124,8 @@ class PocketPlanner {
   Diagnostics& diagnostics_;
   const WorkProgress& progress_;
   Nanometres narrowest_;  // half of the ground's least width, beyond the cutter's
+  Region roughed_;        // the area without allowances
+  Region finished_;       // the parts of the area whose walls are finished
   Region reach_;          // where the middle of the cutter may be
   EdgeGrid walls_;        // what it never crosses
   struct Offset {
@@ -135,7 +153,7 @@ void PocketPlanner::tell(std::string code, Severity severity, std::string messag
 void PocketPlanner::tell_narrow_parts() {
   for (const Region& part : parts_of(area_)) {
     if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
-    if (!grown(part, {tight_tolerance.count / 2 - radius().count}, pocket_chords).empty() && narrowest_.count == 0) continue;
+    if (!grown(part, {tight_cut_tolerance.count / 2 - radius().count}, pocket_chords).empty() && narrowest_.count == 0) continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,
          fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}, and is not cleared",
@@ -289,8 +307,7 @@ void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
     return ClosedToolpath(points);
   }();
   Nanometres z{};
-  for (std::int64_t level = 1; level <= levels(); ++level) {
-    const Nanometres next{options_.depth.count * level / levels()};
+  for (const Nanometres next : floors()) {
     MillRun run;
     double along = 0;
     enter_above(run, lap.at(0), z);
@@ -311,6 +328,7 @@ void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
         enter_above(run, piece.front().at, piece.front().pace == MillPace::link ? next : z);
       }
       add_level(piece, next, run);
+      if (next < rough_depth()) mark_finish(run, 0);
       is_first = false;
       runs.push_back(run);
     }
@@ -399,7 +417,7 @@ bool PocketPlanner::may_go_on(DrawnPoint from, DrawnPoint to, bool is_free) cons
 double PocketPlanner::ramp_along(const ClosedToolpath& track) const {
   const bool is_tiny = track.length() < static_cast<double>(options_.cutter.count) / 4;
   if (options_.ramp_degrees <= 0 || is_tiny) return 0;
-  const auto down = static_cast<double>(-options_.depth.count) / static_cast<double>(levels());
+  const auto down = static_cast<double>(-rough_depth().count) / static_cast<double>(levels());
   return down / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
 }
 
@@ -442,8 +460,7 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
   MillRun run;
   Nanometres z{};
   double begin = 0;  // where the first loop begins
-  for (std::int64_t level = 1; level <= levels(); ++level) {
-    const Nanometres next{options_.depth.count * level / levels()};
+  for (const Nanometres next : floors()) {
     for (const PocketLoop& loop : loops) {
       const bool is_first = &loop == &loops.front();
       double along = is_first ? begin : 0;
@@ -460,7 +477,9 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
         along += ramp;
       }
       // All of it at this depth, once: it ends where the ramp did.
+      const std::size_t level = run.empty() ? 0 : run.size() - 1;
       loop.track.append(run, along, along + loop.track.length(), next, next);
+      if (next < rough_depth()) mark_finish(run, level);
       if (loops.size() == 1) begin = along + loop.track.length();
     }
     z = next;
@@ -471,7 +490,8 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
 // What is exactly as wide as the cutter. Adaptive clearing leaves it: it is a slot.
 void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   if (options_.most_engagement > 0) return;
-  const std::vector<TightWay> ways = find_tight_ways(area_, reach_, options_.cutter);
+  const Region reach = finished_.empty() ? reach_ : united(reach_, reachable(finished_));
+  const std::vector<TightWay> ways = find_tight_ways(area_, reach, options_.cutter);
   for (const TightWay& way : ways) {
     ways_.push_back(way.points);
     if (way.is_closed) ways_.back().push_back(way.points.front());
@@ -482,9 +502,62 @@ void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   for (MillRun& run : tight_runs(ways, cut, from, options_.park)) runs.push_back(std::move(run));
 }
 
+// The cutter that finishes the walls meets little stock: nowhere more than a quarter of its width.
+bool PocketPlanner::may_be_finished(const Region& part, const Region& rough) const {
+  const Region whole = reachable(part);
+  if (whole.empty()) return false;
+  const Region cut = grown(reachable(rough), radius(), pocket_chords);
+  const Region left = subtracted(grown(whole, radius(), pocket_chords), cut);
+  return grown(left, {-std::max(radius().count / 4, options_.allowance.count)}, pocket_chords).empty();
+}
+
+// Each pocket keeps stock on its walls, unless it is so narrow that the finishing pass would cut a slot.
+void PocketPlanner::leave_allowance() {
+  if (options_.allowance.count <= 0) return;
+  roughed_ = {};
+  for (const Region& part : parts_of(area_)) {
+    const Region rough = grown(part, {-options_.allowance.count}, pocket_chords);
+    const bool keeps = may_be_finished(part, rough);
+    if (!keeps) ++plan_.unfinished;
+    roughed_ = united(roughed_, keeps ? rough : part);
+    if (keeps && options_.finishes) finished_ = united(finished_, part);
+  }
+}
+
+// Islands before the wall around them.
+void PocketPlanner::finish_walls(std::vector<MillRun>& runs) {
+  const auto is_clear = [this](DrawnPoint from, DrawnPoint to, double bulge) {
+    constexpr int pieces = 8;
+    for (int k = 0; k < pieces; ++k) {
+      const DrawnPoint a = point_along(from, to, bulge, static_cast<double>(k) / pieces);
+      const DrawnPoint b = point_along(from, to, bulge, static_cast<double>(k + 1) / pieces);
+      if (walls_.is_crossed(a, b)) return false;
+    }
+    return true;
+  };
+  const FinishPass pass{.depth = options_.depth,
+                        .floor = options_.depth,
+                        .lead_nm = static_cast<double>(options_.lead.count),
+                        .climb = options_.climb,
+                        .spring_passes = options_.spring_passes,
+                        .is_cut = [this](DrawnPoint point) { return contains(reach_, point); },
+                        .is_clear = is_clear};
+  for (const Region& part : parts_of(reachable(finished_))) {
+    for (std::size_t i = part.rings.size(); i-- > 0;) {
+      const DrawnPoint near = runs.empty() ? options_.park : runs.back().back().at;
+      const ClosedToolpath track = track_of(part.rings[i], near);
+      if (track.length() <= 0) continue;
+      MillRun run = finish_run(track, pass);
+      ways_.push_back(chords_of(run, pocket_chords));
+      runs.push_back(std::move(run));
+      ++plan_.finished;
+    }
+  }
+}
+
 void PocketPlanner::measure() {
   const Region cut = united(cut_, swept(ways_, radius(), pocket_chords));
-  plan_.unreached = notable_part(subtracted(area_, cut), least_left);
+  plan_.unreached = notable_part(subtracted(options_.finishes ? area_ : roughed_, cut), least_left);
   plan_.unreached_mm2 = area_mm2(plan_.unreached);
   plan_.lost_mm2 = area_mm2(notable_part(subtracted(cut, area_), {50}));
 }

@@ -2,7 +2,7 @@
 //
 // Such a gap leaves the cutter no room beside its centre line, so no loop at half the cutter's width from the walls
 // exists. It is cut by a plunge or by one pass along its middle line. A gap counts as exactly as wide if the cutter
-// cuts into each wall by at most half of `tight_tolerance`.
+// cuts into each wall by at most half of `tight_cut_tolerance`.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,6 @@
 #include "passo/cam/region.hpp"
 
 namespace passo {
-
-inline constexpr Nanometres tight_tolerance{20'000};  // by which the gap may be narrower than the cutter
 
 struct TightWay {
   DrawnRing points = {};  // a single point is a plunge
