@@ -108,18 +108,10 @@ EdgeGrid OutlinePlanner::grid_of(const Region& region) {
   return grid;
 }
 
-// Openings and gaps exactly as wide as the cutter. Where the cutter could go around what is left of them, tabs would be
-// needed: such a gap stays.
+// A closed gap around a part stays: it would need tabs.
 void OutlinePlanner::find_tight_gaps() {
-  const std::optional<DrawnBox> box = bounds(board_);
-  if (!box) return;
-  const Nanometres far{2 * options_.cutter.count + 1'000'000};
-  const Region whole = filled({rectangle(
-      {{box->least.x - far, box->least.y - far}, {box->most.x + far, box->most.y + far}})});
-  const Region reach = subtracted(whole, ways_);
-  for (TightWay& way : find_tight_ways(subtracted(whole, board_), reach, options_.cutter)) {
-    if (!way.is_closed) tight_.push_back(std::move(way));
-  }
+  tight_ = find_tight_ways_beside(board_, ways_, options_.cutter);
+  std::erase_if(tight_, [](const TightWay& way) { return way.is_closed; });
   plan_.tight = tight_.size();
 }
 

@@ -15,6 +15,7 @@
 #include "helix_entry.hpp"
 #include "nested_loops.hpp"
 #include "peel.hpp"
+#include "peel_runs.hpp"
 #include "tight_ways.hpp"
 #include <fmt/format.h>
 
@@ -78,8 +79,6 @@ class PocketPlanner {
   bool go_around_all(std::vector<MillRun>& runs);
   bool peel_all(std::vector<MillRun>& runs);
   std::optional<PeelWay> peel_within(const Region& ground, const WorkProgress& progress);
-  void sweep(const PeelWay& way);
-  void add_layers(const PeelWay& way, std::vector<MillRun>& runs);
   std::vector<std::uint32_t> order_of(const std::vector<Region>& pockets) const;
   Nanometres rough_depth() const { return options_.depth + options_.floor_allowance; }
   std::int64_t levels() const {
@@ -197,8 +196,8 @@ bool PocketPlanner::peel_all(std::vector<MillRun>& runs) {
     const std::optional<PeelWay> way = peel_within(grounds[index], progress.part(0, 0.85));
     if (!way) return false;
     plan_.loops += way->discs;
-    sweep(*way);
-    add_layers(*way, runs);
+    cut_ = united(cut_, swept_rims(*way, radius(), ways_));
+    for (MillRun& run : peel_runs(*way, {floors(), rough_depth(), options_.ramp_degrees})) runs.push_back(std::move(run));
     progress.update(1);
   }
   return true;
@@ -236,104 +235,6 @@ std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground, const Wo
                    to_mm(found.at.x).value(), to_mm(found.at.y).value()),
        "a greater --engagement, or a smaller cutter");
   return std::nullopt;
-}
-
-// Rims lie on one another often. So they are swept a few at a time, with longer chords; the walls are not.
-void PocketPlanner::sweep(const PeelWay& way) {
-  constexpr Nanometres rim_chords{20'000};
-  constexpr std::size_t at_once = 256;  // chords
-  std::vector<Region> parts;
-  std::vector<DrawnRing> some;
-  std::size_t count = 0;
-  const auto sweep_some = [&] {
-    if (!some.empty()) parts.push_back(swept(some, radius(), rim_chords));
-    some.clear();
-    count = 0;
-  };
-  const auto part_of = [](const MillRun& run, std::size_t first, std::size_t last) {
-    return MillRun(run.begin() + static_cast<std::ptrdiff_t>(first),
-                   run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-  };
-  for (std::size_t i = 0; i < way.runs.size(); ++i) {
-    const MillRun& run = way.runs[i];
-    std::size_t begin = 0;
-    const auto add_rims = [&](std::size_t end) {
-      if (end <= begin) return;
-      const DrawnRing chords = chords_of(part_of(run, begin, end), rim_chords);
-      for (std::size_t from = 0; from + 1 < chords.size(); from += at_once) {
-        const std::size_t to = std::min(chords.size() - 1, from + at_once);
-        some.emplace_back(chords.begin() + static_cast<std::ptrdiff_t>(from),
-                          chords.begin() + static_cast<std::ptrdiff_t>(to) + 1);
-        count += to - from;
-        if (count >= at_once) sweep_some();
-      }
-    };
-    for (const PeelLap& lap : way.laps) {
-      if (lap.run != i) continue;
-      add_rims(lap.first);
-      ways_.push_back(chords_of(part_of(run, lap.first, lap.last), pocket_chords));
-      begin = lap.last;
-    }
-    add_rims(run.size() - 1);
-  }
-  sweep_some();
-  while (parts.size() > 1) {
-    for (std::size_t i = 0; i < parts.size() / 2; ++i) parts[i] = united(parts[2 * i], parts[2 * i + 1]);
-    if (parts.size() % 2 == 1) parts[parts.size() / 2] = std::move(parts.back());
-    parts.resize((parts.size() + 1) / 2);
-  }
-  if (!parts.empty()) cut_ = united(cut_, parts.front());
-}
-
-// The run at this depth, with its links lifted.
-void add_level(const MillRun& piece, Nanometres z, MillRun& run) {
-  for (const MillPoint& point : piece) {
-    if (!run.empty() && run.back().pace == MillPace::link) {
-      link_to(run, point.at);
-      run.back().bulge = point.bulge;
-      run.back().pace = point.pace;
-    } else {
-      run.push_back({point.at, point.bulge, z, point.pace});
-    }
-  }
-}
-
-// A helix down to each layer, or straight down, and then all runs there.
-void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
-  const ClosedToolpath lap = [&] {
-    std::vector<PathPoint> points;
-    for (const MillPoint& point : way.entry) points.push_back({point.at, point.bulge});
-    points.pop_back();
-    return ClosedToolpath(points);
-  }();
-  Nanometres z{};
-  for (const Nanometres next : floors()) {
-    MillRun run;
-    double along = 0;
-    enter_above(run, lap.at(0), z);
-    if (options_.ramp_degrees > 0) {
-      along = static_cast<double>(z.count - next.count) / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
-      lap.append(run, 0, along, z, next);
-    }
-    // A whole lap at this depth, and on to where the spiral begins.
-    const double laps = std::ceil(along / lap.length() + 1 - 1e-9);
-    lap.append(run, along, laps * lap.length(), next, next);
-    bool is_first = true;
-    for (const MillRun& piece : way.runs) {
-      if (is_first) {
-        run.pop_back();
-      } else {
-        run.clear();
-        // It begins with a link where this layer is cut already.
-        enter_above(run, piece.front().at, piece.front().pace == MillPace::link ? next : z);
-      }
-      add_level(piece, next, run);
-      if (next < rough_depth()) mark_finish(run, 0);
-      is_first = false;
-      runs.push_back(run);
-    }
-    z = next;
-  }
 }
 
 // The ground layer by layer inwards. Each is an offset of the first: offsets of offsets would round rounded corners

@@ -166,6 +166,15 @@ std::vector<TightWay> find_tight_ways(const Region& free, const Region& reach, N
   return ways;
 }
 
+std::vector<TightWay> find_tight_ways_beside(const Region& part, const Region& around, Nanometres cutter) {
+  const std::optional<DrawnBox> box = bounds(part);
+  if (!box) return {};
+  const Nanometres far{2 * cutter.count + 1'000'000};
+  const Region whole =
+      filled({rectangle({{box->least.x - far, box->least.y - far}, {box->most.x + far, box->most.y + far}})});
+  return find_tight_ways(subtracted(whole, part), subtracted(whole, around), cutter);
+}
+
 MillRun tight_run(const TightWay& way, const TightCut& cut) {
   if (way.points.size() == 1) return pecked(way.points.front(), cut);
   const ClosedToolpath track = track_of(way);

@@ -20,6 +20,9 @@ struct TightWay {
 // `free`: what may be cut. `reach`: where the cutter centre goes anyway.
 std::vector<TightWay> find_tight_ways(const Region& free, const Region& reach, Nanometres cutter);
 
+// Returns the ways beside a part. `around`: the part grown by half of the cutter's width, and a little more.
+std::vector<TightWay> find_tight_ways_beside(const Region& part, const Region& around, Nanometres cutter);
+
 struct TightCut {
   Nanometres depth = {};
   Nanometres step = {};
