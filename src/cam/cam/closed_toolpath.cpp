@@ -113,8 +113,7 @@ bool ClosedToolpath::is_kept(double along) const {
 
 bool ClosedToolpath::keeps(double from, double to) const {
   return std::ranges::any_of(kept_, [&](const auto& stretch) {
-    return turned(from - stretch.first) < stretch.second - stretch.first ||
-           turned(stretch.first - from) < to - from;
+    return turned(from - stretch.first) < stretch.second - stretch.first || turned(stretch.first - from) < to - from;
   });
 }
 

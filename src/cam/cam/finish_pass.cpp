@@ -30,8 +30,8 @@ std::optional<LeadPlace> arcs_at(const ClosedToolpath& track, double along, doub
   const DrawnPoint from = shifted(start, {aside.x - ahead.x, aside.y - ahead.y});
   const DrawnPoint to = shifted(start, {aside.x + ahead.x, aside.y + ahead.y});
   const double quarter = quarter_of(pass.climb);
-  const bool fits = pass.is_cut(from) && pass.is_cut(to) && pass.is_clear(from, start, quarter) &&
-                    pass.is_clear(start, to, quarter);
+  const bool fits =
+      pass.is_cut(from) && pass.is_cut(to) && pass.is_clear(from, start, quarter) && pass.is_clear(start, to, quarter);
   if (!fits) return std::nullopt;
   return LeadPlace{along, from, to, true};
 }

@@ -14,7 +14,7 @@ struct FinishPass {
   double lead_nm = 0;     // radius of the arcs in and out, made smaller where there is no room
   bool climb = true;
   std::uint32_t spring_passes = 0;
-  std::function<bool(DrawnPoint)> is_cut = {};  // whether the cutter may come straight down there
+  std::function<bool(DrawnPoint)> is_cut = {};                        // whether the cutter may come straight down there
   std::function<bool(DrawnPoint, DrawnPoint, double)> is_clear = {};  // whether it may go on this line or arc
 };
 

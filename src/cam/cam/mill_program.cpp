@@ -125,7 +125,7 @@ void MillProgram::go(const MillPoint& from, const MillPoint& to) {
 
 Nanometres usual_link_feed(Nanometres feed) {
   constexpr std::int64_t least = 1'500'000'000;  // nm/min
-  return {std::max(3 * feed.count, least)};
+  return {std::max(4 * feed.count, least)};
 }
 
 std::string write_mill_program(const MillPlan& plan, const MillProgramOptions& options) {

@@ -127,9 +127,8 @@ void OutlinePlanner::refuse_narrow_openings() {
     if (area_mm2(ring) > 0) continue;
     const Region opening = filled({ring});
     if (!grown(opening, {-radius().count - board_room.count}, fine_chords).empty()) continue;
-    const bool is_cut = std::ranges::any_of(tight_, [&](const TightWay& way) {
-      return contains(opening, way.points[way.points.size() / 2]);
-    });
+    const bool is_cut = std::ranges::any_of(
+        tight_, [&](const TightWay& way) { return contains(opening, way.points[way.points.size() / 2]); });
     if (is_cut) continue;
     const DrawnBox box = *bounds(Region{{ring}});
     const DrawnPoint middle{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
@@ -318,8 +317,7 @@ std::optional<ClosedToolpath> OutlinePlanner::rough_track(const OutlineCut& cut,
   }
   DrawnRing closed = ring;
   closed.push_back(ring.front());
-  const Region left =
-      subtracted(swept({final_way}, radius(), fine_chords), swept({closed}, radius(), fine_chords));
+  const Region left = subtracted(swept({final_way}, radius(), fine_chords), swept({closed}, radius(), fine_chords));
   if (!grown(left, {-std::max(radius().count / 4, options_.allowance.count)}, fine_chords).empty()) {
     return std::nullopt;
   }

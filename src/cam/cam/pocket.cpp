@@ -152,7 +152,8 @@ void PocketPlanner::tell(std::string code, Severity severity, std::string messag
 void PocketPlanner::tell_narrow_parts() {
   for (const Region& part : parts_of(area_)) {
     if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
-    if (!grown(part, {tight_cut_tolerance.count / 2 - radius().count}, pocket_chords).empty() && narrowest_.count == 0) continue;
+    if (!grown(part, {tight_cut_tolerance.count / 2 - radius().count}, pocket_chords).empty() && narrowest_.count == 0)
+      continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,
          fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}, and is not cleared",
@@ -197,7 +198,8 @@ bool PocketPlanner::peel_all(std::vector<MillRun>& runs) {
     if (!way) return false;
     plan_.loops += way->discs;
     cut_ = united(cut_, swept_rims(*way, radius(), ways_));
-    for (MillRun& run : peel_runs(*way, {floors(), rough_depth(), options_.ramp_degrees})) runs.push_back(std::move(run));
+    for (MillRun& run : peel_runs(*way, {floors(), rough_depth(), options_.ramp_degrees}))
+      runs.push_back(std::move(run));
     progress.update(1);
   }
   return true;

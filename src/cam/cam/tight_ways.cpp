@@ -108,7 +108,8 @@ class MiddleLines {
 
 std::vector<TightWay> middle_of(const Region& gap) {
   std::vector<TightWay> ways;
-  if (const std::optional<MedialAxis> axis = medial_axis(gap, {.tolerance_nm = 1'000})) ways = MiddleLines(*axis).find();
+  if (const std::optional<MedialAxis> axis = medial_axis(gap, {.tolerance_nm = 1'000}))
+    ways = MiddleLines(*axis).find();
   if (!ways.empty()) return ways;
   const DrawnBox box = *bounds(gap);
   return {{{{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}}}, false}};

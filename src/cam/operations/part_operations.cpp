@@ -85,7 +85,7 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
         "radius of the arcs into and out of a finishing pass (default: a quarter of the cutter's diameter)",
         experts_only},
        {"link-feed", &a.link_feed, feed,
-        "feed rate across cleared ground, per minute (default: three times --feed, at least 1500 mm)", experts_only}},
+        "feed rate across cleared ground, per minute (default: four times --feed, at least 1500 mm)", experts_only}},
       mill_rows(a, CamFor::everyone),
       {sheet_row(a.sheet)},
   });

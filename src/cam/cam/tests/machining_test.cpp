@@ -49,8 +49,7 @@ class CutCells {
   // Calls `visit(x, y, height)` for the middle of each cell.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (std::size_t i = 0; i < heights_.size(); ++i)
-      visit(middle(i % columns_), middle(i / columns_), heights_[i]);
+    for (std::size_t i = 0; i < heights_.size(); ++i) visit(middle(i % columns_), middle(i / columns_), heights_[i]);
   }
 
  private:
@@ -284,7 +283,8 @@ TEST(Machining, gaps_exactly_as_wide_as_the_cutter_are_cut) {
   OutlineOptions cut{.cutter = in_nm(3), .depth = in_nm(-3), .step = in_nm(1)};
   cut.skips_narrow = true;
   Diagnostics findings;
-  const ProfilePlan plan = plan_profile({box(-40, -30, 80, 60), circle(-10, -10, 1.5), slot}, {}, {.cut = cut}, findings);
+  const ProfilePlan plan =
+      plan_profile({box(-40, -30, 80, 60), circle(-10, -10, 1.5), slot}, {}, {.cut = cut}, findings);
   EXPECT_TRUE(findings.all().empty()) << render(findings, false);
   EXPECT_EQ(plan.outline.tight, 2U);
   EXPECT_LT(plan.outline.lost_mm2, 0.05);

@@ -23,16 +23,16 @@ struct MillProgramOptions {
   std::vector<std::string> files = {};    // names of the drawing files
   std::vector<std::string> remarks = {};  // comments at the head of the program
   ProgramUnits units = ProgramUnits::mm;
-  Nanometres clearance{2'000'000};            // clearance height above the board
-  Nanometres feed{200'000'000};               // cutting feed, nm/min
+  Nanometres clearance{2'000'000};             // clearance height above the board
+  Nanometres feed{200'000'000};                // cutting feed, nm/min
   std::optional<Nanometres> finish_feed = {};  // feed of finishing passes; empty: `feed`
   std::optional<Nanometres> link_feed = {};    // feed of links through cleared ground; empty: usual_link_feed()
-  Nanometres plunge_feed{60'000'000};         // plunge feed, nm/min; descents along the way are no faster
-  std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
-  DrawnPoint park = {};                       // tool position at the start, at tool changes and at the end
+  Nanometres plunge_feed{60'000'000};          // plunge feed, nm/min; descents along the way are no faster
+  std::optional<std::uint32_t> spindle = {};   // rpm; empty: no spindle commands
+  DrawnPoint park = {};                        // tool position at the start, at tool changes and at the end
 };
 
-// Three times the feed, and at least 1500 mm/min.
+// Four times the feed, and at least 1500 mm/min.
 Nanometres usual_link_feed(Nanometres feed);
 
 // Returns the program text.

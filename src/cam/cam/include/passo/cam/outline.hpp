@@ -55,9 +55,9 @@ struct OutlinePlan {
   std::size_t outsides = 0;
   std::size_t openings = 0;
   std::size_t slots = 0;
-  std::size_t tight = 0;       // number of cuts exactly as wide as the cutter
-  std::size_t finished = 0;    // number of contours with a finishing pass
-  std::size_t unfinished = 0;  // number of contours without room for an allowance: cut without one
+  std::size_t tight = 0;              // number of cuts exactly as wide as the cutter
+  std::size_t finished = 0;           // number of contours with a finishing pass
+  std::size_t unfinished = 0;         // number of contours without room for an allowance: cut without one
   std::vector<DrawnPoint> tabs = {};  // tab centres on the path of the cutter centre
   std::vector<DrawnRing> ways = {};   // paths of the cutter centre as chords, each once
   double lost_mm2 = 0;                // board area lost according to a sweep of the cutter; dog-bones cause a small
