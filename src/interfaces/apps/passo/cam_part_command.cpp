@@ -144,6 +144,11 @@ std::string unreached_words(double mm2) {
   return fmt::format("not reached: {} mm² in corners and gaps narrower than the cutter\n", sensible_number(mm2, 4));
 }
 
+// To a square micrometre.
+double told_loss(double mm2) {
+  return std::round(mm2 * 1e6) / 1e6;
+}
+
 std::string joined_words(const EdgeLoops& loops) {
   if (loops.joined == 0) return "";
   return fmt::format("joined: {} with gaps of at most {:.4g} mm\n", counted(loops.joined, "end"),
@@ -235,8 +240,8 @@ void take_chamfer(const CamProfileArguments& arguments, OutlineOptions& cut, Len
 }
 
 std::string chamfer_words(const CamProfileArguments& arguments, const OutlineOptions& cut) {
-  return fmt::format("chamfer: {} wide; the tip is at Z{:.4g} mm, its centre {:.4g} mm beside the edge\n",
-                     arguments.chamfer, to_mm(cut.depth).value(), to_mm(cut.cutter).value() / 2);
+  return fmt::format("chamfer {}: the tip is at Z{:.4g} mm, its centre {:.4g} mm beside the edge\n", arguments.chamfer,
+                     to_mm(cut.depth).value(), to_mm(cut.cutter).value() / 2);
 }
 
 std::string milling_words(bool climb) {
@@ -294,7 +299,7 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
     json["tabs"] = cut.tabs.size();
   } else {
     words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
-                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), cut.lost_mm2);
+                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), told_loss(cut.lost_mm2));
     words += is_chamfer ? chamfer_words(arguments, options.cut) : unreached_words(plan.unreached_mm2);
     words += tight_words(cut.tight) + finish_words(arguments, options.cut.allowance, cut.finished);
     words += unfinished_words(cut.unfinished, "contour") + milling_words(options.cut.climb);
@@ -364,7 +369,7 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
       size_words(*part) +
       fmt::format("{} of {} mm², {} per layer; {:g} mm² of the part lost\n", counted(plan.pockets, "pocket"),
                   sensible_number(area_mm2(area), 4), counted(plan.loops, is_constant ? "disc" : "loop"),
-                  plan.lost_mm2) +
+                  told_loss(plan.lost_mm2)) +
       (is_constant ? fmt::format("engagement: at most {:.1f} degrees, except on the way down\n", plan.engagement)
                    : std::string()) +
       unreached_words(plan.unreached_mm2) + tight_words(plan.tight) +
