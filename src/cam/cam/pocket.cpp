@@ -152,7 +152,8 @@ void PocketPlanner::tell(std::string code, Severity severity, std::string messag
 void PocketPlanner::tell_narrow_parts() {
   for (const Region& part : parts_of(area_)) {
     if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
-    if (!grown(part, {tight_cut_tolerance.count / 2 - radius().count}, pocket_chords).empty() && narrowest_.count == 0)
+    if (!grown(part, {tight_cut_tolerance(options_.cutter).count / 2 - radius().count}, pocket_chords).empty() &&
+        narrowest_.count == 0)
       continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,

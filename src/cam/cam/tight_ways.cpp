@@ -17,7 +17,7 @@ namespace passo {
 namespace {
 
 constexpr Nanometres tight_chords{500};
-constexpr double longest_twig = 3.0 * static_cast<double>(tight_cut_tolerance.count);
+constexpr double longest_twig = 60'000;  // nm: three times the widest tolerance
 
 DrawnPoint drawn(const MedialPoint& point) {
   return {{std::llround(point.x)}, {std::llround(point.y)}};
@@ -150,7 +150,7 @@ ClosedToolpath track_of(const TightWay& way) {
 
 std::vector<TightWay> find_tight_ways(const Region& free, const Region& reach, Nanometres cutter) {
   const Nanometres radius{(cutter.count + 1) / 2};
-  const Region room = grown(free, {tight_cut_tolerance.count / 2 - radius.count}, tight_chords);
+  const Region room = grown(free, {tight_cut_tolerance(cutter).count / 2 - radius.count}, tight_chords);
   // Sharp corners of what is cut anyway leave slivers that are no gaps.
   constexpr Nanometres beside{50'000};
   const Region gaps = reach.empty() ? room : subtracted(room, grown(reach, beside, tight_chords));

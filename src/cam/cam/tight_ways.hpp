@@ -2,7 +2,7 @@
 //
 // Such a gap leaves the cutter no room beside its centre line, so no loop at half the cutter's width from the walls
 // exists. It is cut by a plunge or by one pass along its middle line. A gap counts as exactly as wide if the cutter
-// cuts into each wall by at most half of `tight_cut_tolerance`.
+// cuts into each wall by at most half of `tight_cut_tolerance()`.
 #pragma once
 
 #include <vector>

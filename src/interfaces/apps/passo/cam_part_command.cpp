@@ -253,10 +253,10 @@ std::string unfinished_words(std::size_t count, const char* what) {
   return fmt::format("{} without an allowance, for lack of room\n", counted(count, what));
 }
 
-std::string tight_words(std::size_t count) {
+std::string tight_words(std::size_t count, Nanometres cutter) {
   if (count == 0) return "";
   return fmt::format("{} as wide as the cutter, within {:g} mm, along the middle line\n", counted(count, "cut"),
-                     to_mm(tight_cut_tolerance).value());
+                     to_mm(tight_cut_tolerance(cutter)).value());
 }
 
 }  // namespace
@@ -301,7 +301,7 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
     words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
                          counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), told_loss(cut.lost_mm2));
     words += is_chamfer ? chamfer_words(arguments, options.cut) : unreached_words(plan.unreached_mm2);
-    words += tight_words(cut.tight) + finish_words(arguments, options.cut.allowance, cut.finished);
+    words += tight_words(cut.tight, options.cut.cutter) + finish_words(arguments, options.cut.allowance, cut.finished);
     words += unfinished_words(cut.unfinished, "contour") + milling_words(options.cut.climb);
     json["outsides"] = cut.outsides;
     json["insides"] = cut.openings;
@@ -372,7 +372,7 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
                   told_loss(plan.lost_mm2)) +
       (is_constant ? fmt::format("engagement: at most {:.1f} degrees, except on the way down\n", plan.engagement)
                    : std::string()) +
-      unreached_words(plan.unreached_mm2) + tight_words(plan.tight) +
+      unreached_words(plan.unreached_mm2) + tight_words(plan.tight, options.cutter) +
       finish_words(arguments, options.allowance, plan.finished) + unfinished_words(plan.unfinished, "pocket") +
       milling_words(options.climb) + joined_words(part->loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);

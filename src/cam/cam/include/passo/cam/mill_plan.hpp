@@ -30,8 +30,11 @@ void enter_above(MillRun& run, DrawnPoint at, Nanometres floor);
 // Goes on to a point at the Z of the run's end, through cleared ground: slightly lifted where the way is long enough.
 void link_to(MillRun& run, DrawnPoint to);
 
-// A gap is cut along its middle line, as exactly as wide as the cutter, if it is narrower by at most this.
-inline constexpr Nanometres tight_cut_tolerance{20'000};
+// A gap is cut along its middle line, as exactly as wide as the cutter, if it is narrower by at most this: 0.02 mm, and
+// 1 % of the cutter's diameter.
+constexpr Nanometres tight_cut_tolerance(Nanometres cutter) {
+  return {cutter.count < 2'000'000 ? cutter.count / 100 : 20'000};
+}
 
 struct MillTool {
   Nanometres width = {};           // milled width at the surface of the board; for varying depth, the tip width
