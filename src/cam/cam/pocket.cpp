@@ -402,7 +402,8 @@ void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   }
   plan_.tight = ways.size();
   const DrawnPoint from = runs.empty() ? options_.park : runs.back().back().at;
-  const TightCut cut{options_.depth, options_.step, options_.ramp_degrees};
+  const Nanometres floor = options_.finishes ? options_.depth : rough_depth();
+  const TightCut cut{floor, options_.step, options_.ramp_degrees};
   for (MillRun& run : tight_runs(ways, cut, from, options_.park)) runs.push_back(std::move(run));
 }
 
