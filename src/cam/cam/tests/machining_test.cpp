@@ -140,7 +140,7 @@ Region random_area(std::mt19937_64& random) {
 TEST(Machining, random_pockets_with_islands_are_cut_exactly) {
   std::mt19937_64 random(48);
   std::uniform_real_distribution<double> share(0, 1);
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < 6; ++trial) {
     const Region area = random_area(random);
     PocketOptions options{.cutter = in_nm(2 + 3 * share(random)),
                           .depth = in_nm(-2),
