@@ -202,7 +202,7 @@ void take_finish_feed(const CamFinishArguments& arguments, MillProgramOptions& p
 
 // One line on allowances, or none.
 std::string finish_words(const CamFinishArguments& arguments, Nanometres allowance, std::size_t finished) {
-  if (allowance.count <= 0) return "";
+  if (allowance.count <= 0 || (arguments.finish_pass && finished == 0)) return "";
   const double mm = to_mm(allowance).value();
   if (!arguments.finish_pass) return fmt::format("allowance: {:.4g} mm stay on the walls\n", mm);
   const std::string springs =
