@@ -19,7 +19,7 @@ namespace {
 constexpr Nanometres tight_chords{500};
 constexpr double longest_twig = 60'000;  // nm: three times the widest tolerance
 
-DrawnPoint drawn(const MedialPoint& point) {
+DrawnPoint drawn_of(const MedialPoint& point) {
   return {{std::llround(point.x)}, {std::llround(point.y)}};
 }
 
@@ -35,7 +35,7 @@ class MiddleLines {
   explicit MiddleLines(const MedialAxis& axis) : at_node_(axis.nodes) {
     for (const MedialPiece& piece : axis.pieces) {
       Line line{piece.from, piece.to, {}};
-      for (const MedialPoint& point : piece.points) line.points.push_back(drawn(point));
+      for (const MedialPoint& point : piece.points) line.points.push_back(drawn_of(point));
       for (const std::uint32_t node : {piece.from, piece.to}) at_node_[node].push_back(lines_.size());
       lines_.push_back(std::move(line));
     }
@@ -106,7 +106,7 @@ class MiddleLines {
   std::vector<std::vector<std::size_t>> at_node_;
 };
 
-std::vector<TightWay> middle_of(const Region& gap) {
+std::vector<TightWay> middle_lines_of(const Region& gap) {
   std::vector<TightWay> ways;
   if (const std::optional<MedialAxis> axis = medial_axis(gap, {.tolerance_nm = 1'000}))
     ways = MiddleLines(*axis).find();
@@ -159,7 +159,7 @@ std::vector<TightWay> find_tight_ways(const Region& free, const Region& reach, N
   for (const Region& gap : parts_of(gaps)) {
     const Region around = common(reach, grown(gap, {2 * beside.count}, tight_chords));
     const bool is_apart = around.empty();
-    for (TightWay& way : middle_of(gap)) {
+    for (TightWay& way : middle_lines_of(gap)) {
       const double least = is_apart ? 0 : static_cast<double>(radius.count) / 2;
       if (length_of(way.points) >= least) ways.push_back(std::move(way));
     }
