@@ -53,6 +53,51 @@ TEST_F(CamPart, its_pocket_is_cleared_around_an_island) {
   expect_cuts_well(path("p.ngc"), "X5:115,Y0:80,Z-6:0");
 }
 
+TEST_F(CamPart, walls_are_finished_and_told) {
+  const std::string pocket =
+      "cam pocket " + bracket + " --layer pocket --tool 3 --depth -6 --step 2 -o " + path("f.ngc");
+  const Outcome made = passo(pocket + " --finish-pass --spring-passes 1 --finish-feed 150 --floor-allowance 0.2");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out,
+              HasSubstr("finishing: 2 laps of 0.15 mm at full depth, and 1 spring lap each\nclimb milling\n"));
+  EXPECT_THAT(read(path("f.ngc")), HasSubstr("(climb milling)\n"));
+  EXPECT_THAT(read(path("f.ngc")), HasSubstr(" F150\n"));
+  expect_cuts_well(path("f.ngc"), "X5:115,Y0:80,Z-6:0");
+  const Outcome left = passo(pocket + " --allowance 0.3 --conventional");
+  EXPECT_THAT(left.out, HasSubstr("allowance: 0.3 mm stay on the walls\nconventional milling\n"));
+  EXPECT_THAT(passo(pocket + " --allowance 1").err, HasSubstr("--allowance: expected 0 to a quarter"));
+  EXPECT_THAT(passo(pocket + " --finish-pass --allowance 0").err, HasSubstr("needs an --allowance above 0"));
+  EXPECT_THAT(passo(pocket + " --floor-allowance 3").err, HasSubstr("--floor-allowance: expected 0 to --step"));
+  const Outcome cut_out =
+      passo("cam profile " + bracket + " --layer cut --tool 3 --depth -6 --step 2 --finish-pass -o " + path("c.ngc"));
+  EXPECT_THAT(cut_out.out, HasSubstr(" laps of 0.15 mm at full depth\n"));
+  expect_cuts_well(path("c.ngc"), "X5:115,Y0:80,Z-6:0");
+}
+
+TEST_F(CamPart, a_chamfer_is_milled_along_the_contours) {
+  const std::string chamfer = "cam profile " + bracket + " --layer cut --chamfer 0.5 -o " + path("v.ngc");
+  const Outcome made = passo(chamfer + " --tip 0.2");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("chamfer 0.5: the tip is at Z-0.6 mm, its centre 0.2 mm beside the edge\n"));
+  EXPECT_THAT(made.out, HasSubstr("0 mm² of the part lost"));
+  // On Y75 the upper edge ends.
+  EXPECT_THAT(read(path("v.ngc")), HasSubstr("Y75.202"));
+  EXPECT_THAT(passo("check " + path("v.ngc") + on_router).out, HasSubstr("no errors"));
+  EXPECT_THAT(passo(chamfer + " --angle 60").out, HasSubstr("the tip is at Z-1.039 mm, its centre 0.1 mm beside"));
+  EXPECT_THAT(passo(chamfer + " --finish-pass").err, HasSubstr("--chamfer cannot be combined with"));
+}
+
+TEST_F(CamPart, a_hole_as_wide_as_the_cutter_is_cut) {
+  const std::string svg = write("h.svg",
+                                "<svg width='40mm' height='30mm' viewBox='0 0 40 30'><rect x='5' y='5' width='30' "
+                                "height='20'/><circle cx='12' cy='15' r='1.5'/></svg>");
+  const Outcome made = passo("cam profile " + svg + " --tool 3 --depth -2 --step 1 -o " + path("h.ngc"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  EXPECT_THAT(made.out, HasSubstr("1 cut as wide as the cutter, within 0.02 mm, along the middle line\n"));
+  EXPECT_THAT(read(path("h.ngc")), HasSubstr("G0 X12 Y15\nG0 Z0.5\nF60\nG1 Z0\nG1 Z-1\nG0 Z0\nG0 Z-0.8\nG1 Z-2\n"));
+}
+
 TEST_F(CamPart, on_the_line_open_lines_are_cut_too) {
   const std::string svg =
       write("a.svg", "<svg width='20mm' height='20mm' viewBox='0 0 20 20'><path d='M2 2H18V18'/></svg>");

@@ -50,6 +50,16 @@ double ClosedToolpath::direction(double along) const {
 std::pair<double, double> ClosedToolpath::nearest(DrawnPoint point) const {
   std::pair<double, double> best(0, std::numeric_limits<double>::max());
   for (const Piece& piece : pieces_) {
+    if (piece.bulge == 0) {
+      const auto dx = static_cast<double>(piece.to.x.count - piece.from.x.count);
+      const auto dy = static_cast<double>(piece.to.y.count - piece.from.y.count);
+      const double dot = dx * static_cast<double>(point.x.count - piece.from.x.count) +
+                         dy * static_cast<double>(point.y.count - piece.from.y.count);
+      const double share = std::clamp(dot / (dx * dx + dy * dy), 0.0, 1.0);
+      const double distance = distance_nm(point, point_along(piece.from, piece.to, 0, share));
+      if (distance < best.second) best = {piece.start + share * piece.length, distance};
+      continue;
+    }
     constexpr int tried = 64;  // places of a piece: tabs need no better place
     for (int k = 0; k < tried; ++k) {
       const double share = static_cast<double>(k) / tried;
@@ -58,6 +68,27 @@ std::pair<double, double> ClosedToolpath::nearest(DrawnPoint point) const {
     }
   }
   return best;
+}
+
+bool ClosedToolpath::is_within(DrawnPoint centre, double radius) const {
+  constexpr int tried = 4;  // places of a piece
+  constexpr double close = 1'000;
+  return std::ranges::all_of(pieces_, [&](const Piece& piece) {
+    for (int k = 0; k < tried; ++k) {
+      const DrawnPoint place = point_along(piece.from, piece.to, piece.bulge, static_cast<double>(k) / tried);
+      if (distance_nm(place, centre) > radius + close) return false;
+    }
+    return true;
+  });
+}
+
+ClosedToolpath ClosedToolpath::from(double along) const {
+  MillRun run;
+  append(run, along, along + length_, {}, {});
+  std::vector<PathPoint> points;
+  for (const MillPoint& point : run) points.push_back({point.at, point.bulge});
+  if (!points.empty()) points.pop_back();
+  return ClosedToolpath(points);
 }
 
 std::vector<std::pair<double, double>> ClosedToolpath::straights() const {
@@ -77,6 +108,12 @@ bool ClosedToolpath::is_kept(double along) const {
   return std::ranges::any_of(kept_, [&](const auto& stretch) {
     const double off = turned(along - stretch.first);
     return off < stretch.second - stretch.first;
+  });
+}
+
+bool ClosedToolpath::keeps(double from, double to) const {
+  return std::ranges::any_of(kept_, [&](const auto& stretch) {
+    return turned(from - stretch.first) < stretch.second - stretch.first || turned(stretch.first - from) < to - from;
   });
 }
 

@@ -19,12 +19,19 @@ class ClosedToolpath {
   double direction(double along) const;
   // Returns the length along the track at the point nearest to `point`, and the distance to that point.
   std::pair<double, double> nearest(DrawnPoint point) const;
+  // Returns whether all of the track lies in the disc, within a micrometre.
+  bool is_within(DrawnPoint centre, double radius) const;
+  // Returns the same track, beginning at this length.
+  ClosedToolpath from(double along) const;
   // Returns the start and end of each straight piece.
   std::vector<std::pair<double, double>> straights() const;
 
   // Keeps the cutter at or above `top` in these stretches. A stretch may extend beyond the end of the track; it then
   // continues at the start.
   void keep_above(Nanometres top, std::vector<std::pair<double, double>> stretches);
+
+  // Returns whether the cutter is kept up anywhere between the two lengths.
+  bool keeps(double from, double to) const;
 
   // Appends the toolpath between the two lengths, which may go around several times; the height changes linearly. The
   // run must end at `from` or be empty.

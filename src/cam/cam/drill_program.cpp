@@ -35,7 +35,8 @@ class DrillProgram {
   static bool may_stay_low(const DrillTarget& target, const DrillTarget& next);
   void drill(const DrillTarget& target, bool is_first, bool stays_low);
   void drill_by_moves(const DrillTarget& target, bool stays_low);
-  void mill(const DrillTarget& target);
+  void mill(const DrillTarget& target, Nanometres cutter);
+  void mill_circle(DrawnPoint centre, Nanometres radius);
   void go_along(const std::vector<PathPoint>& points, bool is_closed, bool backwards);
   void arc(DrawnPoint from, DrawnPoint to, double bulge);
   std::vector<Nanometres> depths() const;
@@ -91,7 +92,7 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
       in_cycle = false;
     }
     if (!is_hole) {
-      mill(target);
+      mill(target, tool.diameter);
     } else if (options_.canned) {
       drill(target, !in_cycle, stays_low);
       in_cycle = true;
@@ -157,26 +158,44 @@ std::vector<Nanometres> DrillProgram::depths() const {
   return all;
 }
 
-void DrillProgram::mill(const DrillTarget& target) {
-  const bool is_circle = target.kind == DrillTarget::Kind::circle;
-  const DrawnPoint begin = start_of(target);
+// A helix down, and a last turn at full depth.
+void DrillProgram::mill_circle(DrawnPoint centre, Nanometres radius) {
+  const DrawnPoint begin{centre.x + radius, centre.y};
+  const std::string turn = "I" + number({-radius.count}) + " J0";
   line("G0 {}", place(begin));
   line("G0 Z{}", number(feed_height()));
   line("G1 Z0 F{}", number(options_.feed));
   line("F{}", number(options_.mill_feed));
-  if (is_circle) {
-    const std::string turn = "I" + number({-target.radius.count}) + " J0";
-    for (const Nanometres depth : depths()) line("G3 {} Z{} {}", place(begin), number(depth), turn);
-    line("G3 {} {}", place(begin), turn);
-  } else {
-    const bool is_closed = target.radius.count != 0;
-    bool backwards = false;
-    for (const Nanometres depth : depths()) {
-      line("G1 Z{} F{}", number(depth), number(options_.feed));
-      line("F{}", number(options_.mill_feed));
-      go_along(target.points, is_closed, backwards);
-      if (!is_closed) backwards = !backwards;
+  for (const Nanometres depth : depths()) line("G3 {} Z{} {}", place(begin), number(depth), turn);
+  line("G3 {} {}", place(begin), turn);
+  line("G0 Z{}", number(options_.clearance));
+}
+
+void DrillProgram::mill(const DrillTarget& target, Nanometres cutter) {
+  const DrawnPoint centre = target.points.front().at;
+  if (target.kind == DrillTarget::Kind::circle) {
+    // A bore wider than two cutters is cut from the middle outwards, so that no core comes loose.
+    const std::int64_t first = 9 * cutter.count / 20;
+    const std::int64_t farthest = std::max<std::int64_t>(1, 4 * cutter.count / 5);  // of two circles
+    const bool has_core = 2 * target.radius.count > cutter.count;
+    const std::int64_t inner = has_core ? (target.radius.count - first + farthest - 1) / farthest : 0;
+    for (std::int64_t i = 0; i < inner; ++i) {
+      mill_circle(centre, {first + (target.radius.count - first) * i / inner});
     }
+    mill_circle(centre, target.radius);
+    return;
+  }
+  line("G0 {}", place(centre));
+  line("G0 Z{}", number(feed_height()));
+  line("G1 Z0 F{}", number(options_.feed));
+  line("F{}", number(options_.mill_feed));
+  const bool is_closed = target.radius.count != 0;
+  bool backwards = false;
+  for (const Nanometres depth : depths()) {
+    line("G1 Z{} F{}", number(depth), number(options_.feed));
+    line("F{}", number(options_.mill_feed));
+    go_along(target.points, is_closed, backwards);
+    if (!is_closed) backwards = !backwards;
   }
   line("G0 Z{}", number(options_.clearance));
 }

@@ -6,6 +6,35 @@
 #include "passo/cam/bulge.hpp"
 
 namespace passo {
+namespace {
+
+constexpr Nanometres above_floor{200'000};  // where the feed into a floor begins
+constexpr Nanometres link_lift{200'000};
+constexpr double link_slope = 1e6;  // nm: the way on which a link rises, and falls
+
+}  // namespace
+
+void enter_above(MillRun& run, DrawnPoint at, Nanometres floor) {
+  const Nanometres low = floor + above_floor;
+  if (low.count >= 0) return;
+  run.push_back({at, 0, {}, MillPace::rapid});
+  run.push_back({at, 0, low});
+}
+
+void link_to(MillRun& run, DrawnPoint to) {
+  const MillPoint from = run.back();
+  const double length = distance_nm(from.at, to);
+  if (length <= 0) return;
+  run.back().bulge = 0;
+  run.back().pace = MillPace::link;
+  if (length > link_slope) {
+    const double slope = std::min(link_slope, length / 4);
+    const Nanometres high = from.z + link_lift;
+    for (const double along : {slope, length - slope})
+      run.push_back({point_along(from.at, to, 0, along / length), 0, high, MillPace::link});
+  }
+  run.push_back({to, 0, from.z});
+}
 
 MillLengths lengths_of(const MillTool& tool, DrawnPoint park) {
   MillLengths lengths;
@@ -14,8 +43,10 @@ MillLengths lengths_of(const MillTool& tool, DrawnPoint park) {
     ++lengths.runs;
     lengths.rapids_nm += distance_nm(at, run.front().at);
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+      if (run[i].pace == MillPace::rapid) continue;
       const auto down = static_cast<double>(run[i + 1].z.count - run[i].z.count);
-      lengths.milled_nm += std::hypot(way_nm(run[i].at, run[i + 1].at, run[i].bulge), down);
+      const double way = std::hypot(way_nm(run[i].at, run[i + 1].at, run[i].bulge), down);
+      (run[i].pace == MillPace::link ? lengths.links_nm : lengths.milled_nm) += way;
     }
     at = run.back().at;
   }

@@ -33,6 +33,7 @@ class MillProgram {
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
   void mill(const MillRun& run);
   void go(const MillPoint& from, const MillPoint& to);
+  Nanometres feed_of(MillPace pace) const;
   Nanometres feed_along(const MillPoint& from, const MillPoint& to) const;
   void feed(Nanometres feed) {
     if (feed != feed_) text_.line("F{}", text_.number(feed));
@@ -40,7 +41,7 @@ class MillProgram {
   }
   // The F word of a steep descent is in the block of the move; the feed of other moves is in a block before them.
   std::string feed_word(Nanometres next) {
-    if (next >= options_.feed) feed(options_.feed);
+    if (next == options_.feed) feed(next);
     if (next == feed_) return "";
     feed_ = next;
     return " F" + text_.number(next);
@@ -74,20 +75,28 @@ void MillProgram::change_tool(std::size_t number) {
 void MillProgram::mill(const MillRun& run) {
   constexpr std::int64_t above = 500'000;  // where the feed into the board begins
   text_.line("G0 {}", text_.place(run.front().at));
-  text_.line("G0 Z{}", text_.number({std::min(options_.clearance.count, above)}));
-  feed(options_.plunge_feed);
-  text_.line("G1 Z{}", text_.number(run.front().z));
+  if (run.front().pace != MillPace::rapid) {
+    text_.line("G0 Z{}", text_.number({std::min(options_.clearance.count, above)}));
+    feed(options_.plunge_feed);
+    text_.line("G1 Z{}", text_.number(run.front().z));
+  }
   for (std::size_t i = 0; i + 1 < run.size(); ++i) go(run[i], run[i + 1]);
   text_.line("G0 Z{}", text_.number(options_.clearance));
 }
 
-// The feed of a descent is reduced so that the cutter descends at the plunge feed at most.
+Nanometres MillProgram::feed_of(MillPace pace) const {
+  if (pace == MillPace::link) return options_.link_feed.value_or(usual_link_feed(options_.feed));
+  return pace == MillPace::finish ? options_.finish_feed.value_or(options_.feed) : options_.feed;
+}
+
+// The feed of a descent into stock is reduced so that the cutter descends at the plunge feed at most.
 Nanometres MillProgram::feed_along(const MillPoint& from, const MillPoint& to) const {
+  const Nanometres along = feed_of(from.pace);
   const auto down = static_cast<double>(from.z.count - to.z.count);
-  if (down <= 0) return options_.feed;
+  if (down <= 0 || from.pace == MillPace::link) return along;
   const double length = std::hypot(way_nm(from.at, to.at, from.bulge), down);
   const double most = static_cast<double>(options_.plunge_feed.count) * (length / down);
-  if (most >= static_cast<double>(options_.feed.count)) return options_.feed;
+  if (most >= static_cast<double>(along.count)) return along;
   constexpr std::int64_t digits = 1'000'000;  // nm/min, so that the program has few feeds
   const auto whole = static_cast<std::int64_t>(most);
   return {whole > digits ? whole / digits * digits : whole};
@@ -98,6 +107,7 @@ void MillProgram::go(const MillPoint& from, const MillPoint& to) {
   const std::string z = from.z == to.z ? "" : " Z" + text_.number(to.z);
   if (place == text_.place(from.at)) {
     if (z.empty()) return;
+    if (from.pace == MillPace::rapid) return text_.line("G0{}", z);
     feed(options_.plunge_feed);
     text_.line("G1{}", z);
     return;
@@ -113,6 +123,11 @@ void MillProgram::go(const MillPoint& from, const MillPoint& to) {
 }
 
 }  // namespace
+
+Nanometres usual_link_feed(Nanometres feed) {
+  constexpr std::int64_t least = 1'500'000'000;  // nm/min
+  return {std::max(4 * feed.count, least)};
+}
 
 std::string write_mill_program(const MillPlan& plan, const MillProgramOptions& options) {
   return MillProgram(plan, options).write();

@@ -10,9 +10,11 @@
 #include "arc_fit.hpp"
 #include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
+#include "finish_pass.hpp"
 #include "flat_vector.hpp"
 #include "outline_tabs.hpp"
 #include "piece_order.hpp"
+#include "tight_ways.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
@@ -43,6 +45,7 @@ class OutlinePlanner {
         kept_free_(grid_of(grown(board, radius(), fine_chords))) {}
 
   OutlinePlan plan() {
+    find_tight_gaps();
     refuse_narrow_openings();
     find_cuts();
     if (options_.tabs > 0) find_slugs();
@@ -50,9 +53,14 @@ class OutlinePlanner {
     std::vector<ClosedToolpath> tracks;
     for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring), !cut.is_of_slug));
     order(tool.runs.empty() ? options_.park : tool.runs.back().back().at, tracks);
+    find_rough_tracks(tracks);
     put_tabs(tracks);
     plan_.slots = options_.slots.size();
-    for (const ClosedToolpath& track : tracks) tool.runs.push_back(run_of(track));
+    add_tight_runs(tool.runs);
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      tool.runs.push_back(run_of(rough_[i].value_or(tracks[i])));
+      if (options_.finishes && rough_[i]) tool.runs.push_back(finish_of(tracks[i], *rough_[i]));
+    }
     measure_loss();
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
     return std::move(plan_);
@@ -61,6 +69,8 @@ class OutlinePlanner {
  private:
   Nanometres radius() const { return {(options_.cutter.count + 1) / 2}; }
   static EdgeGrid grid_of(const Region& region);
+  void find_tight_gaps();
+  void add_tight_runs(std::vector<MillRun>& runs);
   void refuse_narrow_openings();
   void find_cuts();
   void find_slugs();
@@ -68,8 +78,11 @@ class OutlinePlanner {
   void order(DrawnPoint from, std::vector<ClosedToolpath>& tracks);
   ClosedToolpath track_of(DrawnRing ring, bool may_have_dog_bones) const;
   void add_dog_bones(DrawnRing& ring) const;
+  void find_rough_tracks(const std::vector<ClosedToolpath>& tracks);
+  std::optional<ClosedToolpath> rough_track(const OutlineCut& cut, const ClosedToolpath& track) const;
   void put_tabs(std::vector<ClosedToolpath>& tracks);
   MillRun run_of(const ClosedToolpath& track);
+  MillRun finish_of(const ClosedToolpath& track, const ClosedToolpath& rough);
   MillRun slot_of(const DrawnRing& line) const;
   std::vector<MillRun> slot_runs() const;
   bool is_clear(DrawnPoint from, DrawnPoint to, double bulge) const;
@@ -83,6 +96,8 @@ class OutlinePlanner {
   Region ways_;
   EdgeGrid kept_free_;  // the middle of the cutter never crosses these edges
   std::vector<OutlineCut> cuts_;
+  std::vector<TightWay> tight_;
+  std::vector<std::optional<ClosedToolpath>> rough_;  // of each cut that keeps an allowance
   OutlinePlan plan_;
 };
 
@@ -93,10 +108,28 @@ EdgeGrid OutlinePlanner::grid_of(const Region& region) {
   return grid;
 }
 
+// A closed gap around a part stays: it would need tabs.
+void OutlinePlanner::find_tight_gaps() {
+  tight_ = find_tight_ways_beside(board_, ways_, options_.cutter);
+  std::erase_if(tight_, [](const TightWay& way) { return way.is_closed; });
+  plan_.tight = tight_.size();
+}
+
+void OutlinePlanner::add_tight_runs(std::vector<MillRun>& runs) {
+  const TightCut cut{options_.depth, options_.step, options_.ramp_degrees};
+  const DrawnPoint from = runs.empty() ? options_.park : runs.back().back().at;
+  for (MillRun& run : tight_runs(tight_, cut, from, options_.park)) runs.push_back(std::move(run));
+  for (const TightWay& way : tight_) plan_.ways.push_back(way.points);
+}
+
 void OutlinePlanner::refuse_narrow_openings() {
   for (const DrawnRing& ring : board_.rings) {
     if (area_mm2(ring) > 0) continue;
-    if (!grown(filled({ring}), {-radius().count - board_room.count}, fine_chords).empty()) continue;
+    const Region opening = filled({ring});
+    if (!grown(opening, {-radius().count - board_room.count}, fine_chords).empty()) continue;
+    const bool is_cut = std::ranges::any_of(
+        tight_, [&](const TightWay& way) { return contains(opening, way.points[way.points.size() / 2]); });
+    if (is_cut) continue;
     const DrawnBox box = *bounds(Region{{ring}});
     const DrawnPoint middle{{(box.least.x.count + box.most.x.count) / 2}, {(box.least.y.count + box.most.y.count) / 2}};
     diagnostics_.add(
@@ -132,7 +165,7 @@ void OutlinePlanner::find_cuts() {
     }
     cuts_.push_back(std::move(cut));
   }
-  if (cuts_.empty() && !options_.openings_only) {
+  if (cuts_.empty() && tight_.empty() && !options_.openings_only) {
     diagnostics_.add({.code = "outline.no-edge",
                       .file = "",
                       .place = {},
@@ -258,6 +291,59 @@ ClosedToolpath OutlinePlanner::track_of(DrawnRing ring, bool may_have_dog_bones)
   return ClosedToolpath(points);
 }
 
+void OutlinePlanner::find_rough_tracks(const std::vector<ClosedToolpath>& tracks) {
+  rough_.resize(tracks.size());
+  if (options_.allowance.count <= 0) return;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (cuts_[i].is_of_slug) continue;
+    rough_[i] = rough_track(cuts_[i], tracks[i]);
+    if (!rough_[i]) ++plan_.unfinished;
+  }
+}
+
+// The track at the allowance from the contour; nothing where the part or its neighbours leave no room, or where the
+// finishing pass would meet more than that.
+std::optional<ClosedToolpath> OutlinePlanner::rough_track(const OutlineCut& cut, const ClosedToolpath& track) const {
+  MillRun lap;
+  track.append(lap, 0, track.length(), {}, {});
+  const DrawnRing final_way = chords_of(lap, fine_chords);
+  const Nanometres away{cut.is_outside ? options_.allowance.count : -options_.allowance.count};
+  const Region beside = grown(filled({final_way}), away, fine_chords);
+  if (parts_of(beside).size() != 1) return std::nullopt;
+  DrawnRing ring = beside.rings.front();
+  if (!cut.is_outside) std::ranges::reverse(ring);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (kept_free_.is_crossed(ring[i], ring[(i + 1) % ring.size()])) return std::nullopt;
+  }
+  DrawnRing closed = ring;
+  closed.push_back(ring.front());
+  const Region left = subtracted(swept({final_way}, radius(), fine_chords), swept({closed}, radius(), fine_chords));
+  if (!grown(left, {-std::max(radius().count / 4, options_.allowance.count)}, fine_chords).empty()) {
+    return std::nullopt;
+  }
+  return track_of(std::move(ring), false);
+}
+
+// The lap begins and ends in the slot of roughing.
+MillRun OutlinePlanner::finish_of(const ClosedToolpath& track, const ClosedToolpath& rough) {
+  constexpr Nanometres close{5'000};
+  MillRun lap;
+  rough.append(lap, 0, rough.length(), {}, {});
+  const Region slot = swept({chords_of(lap, fine_chords)}, close, fine_chords);
+  const FinishPass pass{
+      .depth = options_.depth,
+      .floor = options_.depth,
+      .lead_nm = static_cast<double>(options_.allowance.count),
+      .climb = options_.climb,
+      .spring_passes = options_.spring_passes,
+      .is_cut = [&](DrawnPoint point) { return contains(slot, point); },
+      .is_clear = [this](DrawnPoint from, DrawnPoint to, double bulge) { return is_clear(from, to, bulge); }};
+  MillRun run = finish_run(track, pass);
+  plan_.ways.push_back(chords_of(run, {200}));
+  ++plan_.finished;
+  return run;
+}
+
 void OutlinePlanner::put_tabs(std::vector<ClosedToolpath>& tracks) {
   const TabSize size{options_.tab_width, options_.tab_height, options_.cutter};
   std::vector<SpreadTabs> tabs(tracks.size());
@@ -277,6 +363,11 @@ void OutlinePlanner::put_tabs(std::vector<ClosedToolpath>& tracks) {
     tabs[best].middles.push_back(tracks[best].nearest(place).first);
   }
   for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (rough_[i]) {
+      SpreadTabs beside = tabs[i];
+      for (double& middle : beside.middles) middle = rough_[i]->nearest(tracks[i].at(middle)).first;
+      put_tabs_on(*rough_[i], beside, size, options_.depth);
+    }
     for (const DrawnPoint& place : put_tabs_on(tracks[i], tabs[i], size, options_.depth)) plan_.tabs.push_back(place);
   }
   if (std::string words = thin_tabs_words(size, options_.depth); !plan_.tabs.empty() && !words.empty())

@@ -327,6 +327,8 @@ void Peeler::go_to(double x, double y, const PeelDisc& through) {
     lift();
     add(through.x, through.y);
   }
+  // Nothing is in the way: the disc is cleared.
+  if (through.radius > 0) run_.back().pace = MillPace::link;
   add(x, y);
 }
 
@@ -359,6 +361,7 @@ void Peeler::go_along_wall(const DrawnRing& ring) {
   for (const PathPoint& point : with_arcs(wall, {})) {
     if (point.at != run_.back().at) run_.push_back({point.at, 0, {}});
     run_.back().bulge = point.bulge;
+    run_.back().pace = MillPace::cut;
   }
   lap.last = run_.size() - 1;
   way_.laps.push_back(lap);

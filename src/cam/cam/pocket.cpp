@@ -11,10 +11,15 @@
 #include "closed_toolpath.hpp"
 #include "edge_grid.hpp"
 #include "engagement.hpp"
+#include "finish_pass.hpp"
+#include "helix_entry.hpp"
 #include "nested_loops.hpp"
 #include "peel.hpp"
+#include "peel_runs.hpp"
+#include "tight_ways.hpp"
 #include <fmt/format.h>
 
+#include "passo/cam/bulge.hpp"
 #include "passo/cam/route.hpp"
 
 namespace passo {
@@ -34,7 +39,7 @@ class PocketPlanner {
         diagnostics_(diagnostics),
         progress_(progress),
         narrowest_(options.most_engagement > 0 ? least_peeled(options.cutter) : Nanometres{}),
-        reach_(reachable(area)),
+        roughed_(area),
         walls_(bounds(area).value_or(DrawnBox{}), {1'000'000}) {
     for (const DrawnRing& ring : grown(area, {-radius().count}, pocket_chords).rings) walls_.add(ring, 0);
     walls_.finish();
@@ -47,9 +52,13 @@ class PocketPlanner {
       return {};
     }
     tell_narrow_parts();
+    leave_allowance();
+    reach_ = reachable(roughed_);
     MillTool tool{options_.cutter, options_.words, {}};
     const bool is_done = options_.most_engagement > 0 ? peel_all(tool.runs) : go_around_all(tool.runs);
     if (!is_done) return {};
+    add_tight_ways(tool.runs);
+    if (options_.finishes) finish_walls(tool.runs);
     measure();
     progress_.update(1);
     if (!tool.runs.empty()) plan_.mill.tools.push_back(std::move(tool));
@@ -70,19 +79,43 @@ class PocketPlanner {
   bool go_around_all(std::vector<MillRun>& runs);
   bool peel_all(std::vector<MillRun>& runs);
   std::optional<PeelWay> peel_within(const Region& ground, const WorkProgress& progress);
-  void sweep(const PeelWay& way);
-  void add_layers(const PeelWay& way, std::vector<MillRun>& runs);
   std::vector<std::uint32_t> order_of(const std::vector<Region>& pockets) const;
+  Nanometres rough_depth() const { return options_.depth + options_.floor_allowance; }
   std::int64_t levels() const {
-    return std::max<std::int64_t>(1, (-options_.depth.count + options_.step.count - 1) / options_.step.count);
+    return std::max<std::int64_t>(1, (-rough_depth().count + options_.step.count - 1) / options_.step.count);
+  }
+  // Of all layers; a last one finishes the floor.
+  std::vector<Nanometres> floors() const {
+    std::vector<Nanometres> all;
+    for (std::int64_t level = 1; level <= levels(); ++level) all.push_back({rough_depth().count * level / levels()});
+    if (options_.finishes && options_.floor_allowance.count > 0) all.push_back(options_.depth);
+    return all;
   }
   void tell(std::string code, Severity severity, std::string message, std::string expected);
   void tell_narrow_parts();
   void find_offsets();
-  void take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings);
+  // A ring that the cutter follows. Of an innermost one: the part of the ground that it lies around.
+  struct PocketRing {
+    DrawnRing ring;
+    const Region* core = nullptr;
+    std::size_t layer = 0;
+  };
+  // A loop, and whether the cutter goes down along it; otherwise it comes from the end of the loop before.
+  struct PocketLoop {
+    ClosedToolpath track;
+    bool goes_down;
+  };
+  void take_rings(std::size_t layer, std::size_t index, std::vector<PocketRing>& rings);
   ClosedToolpath track_of(DrawnRing ring, DrawnPoint near) const;
-  bool may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const;
-  void add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs);
+  bool may_go_on(DrawnPoint from, DrawnPoint to, bool is_free) const;
+  double ramp_along(const ClosedToolpath& track) const;
+  std::optional<Helix> helix_in(const PocketRing& ring) const;
+  std::vector<PocketLoop> loops_of(std::vector<PocketRing> rings);
+  void add_runs(const std::vector<PocketLoop>& loops, std::vector<MillRun>& runs);
+  void add_tight_ways(std::vector<MillRun>& runs);
+  bool may_be_finished(const Region& part, const Region& rough) const;
+  void leave_allowance();
+  void finish_walls(std::vector<MillRun>& runs);
   void measure();
 
   const Region& area_;
@@ -90,6 +123,8 @@ class PocketPlanner {
   Diagnostics& diagnostics_;
   const WorkProgress& progress_;
   Nanometres narrowest_;  // half of the ground's least width, beyond the cutter's
+  Region roughed_;        // the area without allowances
+  Region finished_;       // the parts of the area whose walls are finished
   Region reach_;          // where the middle of the cutter may be
   EdgeGrid walls_;        // what it never crosses
   struct Offset {
@@ -117,6 +152,9 @@ void PocketPlanner::tell(std::string code, Severity severity, std::string messag
 void PocketPlanner::tell_narrow_parts() {
   for (const Region& part : parts_of(area_)) {
     if (!grown(part, {-radius().count - wall_room.count - narrowest_.count}, pocket_chords).empty()) continue;
+    if (!grown(part, {tight_cut_tolerance(options_.cutter).count / 2 - radius().count}, pocket_chords).empty() &&
+        narrowest_.count == 0)
+      continue;
     const DrawnBox box = *bounds(part);
     tell("pocket.narrow", Severity::warning,
          fmt::format("the area at X{:.4g} Y{:.4g} mm is narrower than the cutter{}, and is not cleared",
@@ -140,9 +178,9 @@ bool PocketPlanner::go_around_all(std::vector<MillRun>& runs) {
   const std::vector<Region>& pockets = offsets_.front().parts;
   plan_.pockets = pockets.size();
   for (const std::uint32_t index : order_of(pockets)) {
-    std::vector<DrawnRing> rings;
+    std::vector<PocketRing> rings;
     take_rings(0, index, rings);
-    add_runs(std::move(rings), runs);
+    add_runs(loops_of(std::move(rings)), runs);
   }
   return true;
 }
@@ -160,8 +198,9 @@ bool PocketPlanner::peel_all(std::vector<MillRun>& runs) {
     const std::optional<PeelWay> way = peel_within(grounds[index], progress.part(0, 0.85));
     if (!way) return false;
     plan_.loops += way->discs;
-    sweep(*way);
-    add_layers(*way, runs);
+    cut_ = united(cut_, swept_rims(*way, radius(), ways_));
+    for (MillRun& run : peel_runs(*way, {floors(), rough_depth(), options_.ramp_degrees}))
+      runs.push_back(std::move(run));
     progress.update(1);
   }
   return true;
@@ -201,85 +240,6 @@ std::optional<PeelWay> PocketPlanner::peel_within(const Region& ground, const Wo
   return std::nullopt;
 }
 
-// Rims lie on one another often. So they are swept a few at a time, with longer chords; the walls are not.
-void PocketPlanner::sweep(const PeelWay& way) {
-  constexpr Nanometres rim_chords{20'000};
-  constexpr std::size_t at_once = 256;  // chords
-  std::vector<Region> parts;
-  std::vector<DrawnRing> some;
-  std::size_t count = 0;
-  const auto sweep_some = [&] {
-    if (!some.empty()) parts.push_back(swept(some, radius(), rim_chords));
-    some.clear();
-    count = 0;
-  };
-  const auto part_of = [](const MillRun& run, std::size_t first, std::size_t last) {
-    return MillRun(run.begin() + static_cast<std::ptrdiff_t>(first),
-                   run.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-  };
-  for (std::size_t i = 0; i < way.runs.size(); ++i) {
-    const MillRun& run = way.runs[i];
-    std::size_t begin = 0;
-    const auto add_rims = [&](std::size_t end) {
-      if (end <= begin) return;
-      const DrawnRing chords = chords_of(part_of(run, begin, end), rim_chords);
-      for (std::size_t from = 0; from + 1 < chords.size(); from += at_once) {
-        const std::size_t to = std::min(chords.size() - 1, from + at_once);
-        some.emplace_back(chords.begin() + static_cast<std::ptrdiff_t>(from),
-                          chords.begin() + static_cast<std::ptrdiff_t>(to) + 1);
-        count += to - from;
-        if (count >= at_once) sweep_some();
-      }
-    };
-    for (const PeelLap& lap : way.laps) {
-      if (lap.run != i) continue;
-      add_rims(lap.first);
-      ways_.push_back(chords_of(part_of(run, lap.first, lap.last), pocket_chords));
-      begin = lap.last;
-    }
-    add_rims(run.size() - 1);
-  }
-  sweep_some();
-  while (parts.size() > 1) {
-    for (std::size_t i = 0; i < parts.size() / 2; ++i) parts[i] = united(parts[2 * i], parts[2 * i + 1]);
-    if (parts.size() % 2 == 1) parts[parts.size() / 2] = std::move(parts.back());
-    parts.resize((parts.size() + 1) / 2);
-  }
-  if (!parts.empty()) cut_ = united(cut_, parts.front());
-}
-
-// A helix down to each layer, or straight down, and then all runs there.
-void PocketPlanner::add_layers(const PeelWay& way, std::vector<MillRun>& runs) {
-  const ClosedToolpath lap = [&] {
-    std::vector<PathPoint> points;
-    for (const MillPoint& point : way.entry) points.push_back({point.at, point.bulge});
-    points.pop_back();
-    return ClosedToolpath(points);
-  }();
-  Nanometres z{};
-  for (std::int64_t level = 1; level <= levels(); ++level) {
-    const Nanometres next{options_.depth.count * level / levels()};
-    MillRun run;
-    double along = 0;
-    if (options_.ramp_degrees > 0) {
-      along = static_cast<double>(z.count - next.count) / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
-      lap.append(run, 0, along, z, next);
-    }
-    // A whole lap at this depth, and on to where the spiral begins.
-    const double laps = std::ceil(along / lap.length() + 1 - 1e-9);
-    lap.append(run, along, laps * lap.length(), next, next);
-    bool is_first = true;
-    for (const MillRun& piece : way.runs) {
-      if (!is_first) run.clear();
-      if (is_first) run.pop_back();
-      for (const MillPoint& point : piece) run.push_back({point.at, point.bulge, next});
-      is_first = false;
-      runs.push_back(run);
-    }
-    z = next;
-  }
-}
-
 // The ground layer by layer inwards. Each is an offset of the first: offsets of offsets would round rounded corners
 // again, with ever more points.
 void PocketPlanner::find_offsets() {
@@ -303,17 +263,23 @@ void PocketPlanner::find_offsets() {
 
 // The rings around a part of the ground: first what lies within them. Where corners are sharp, two loops leave ground
 // between them. It is less than a cutter wide, so its own edge is a way that clears it.
-void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<DrawnRing>& rings) {
+void PocketPlanner::take_rings(std::size_t layer, std::size_t index, std::vector<PocketRing>& rings) {
   const Region& part = offsets_[layer].parts[index];
+  const std::vector<std::size_t>& within = offsets_[layer].inner[index];
+  const std::size_t first = rings.size();
   Region between = grown(part, {-radius().count}, pocket_chords);
-  for (const std::size_t inner : offsets_[layer].inner[index]) {
+  for (const std::size_t inner : within) {
     take_rings(layer + 1, inner, rings);
     between = subtracted(between, grown(offsets_[layer + 1].parts[inner], radius(), pocket_chords));
   }
-  for (const DrawnRing& ring : notable_part(between, least_left).rings) rings.push_back(ring);
+  for (const DrawnRing& ring : notable_part(between, least_left).rings) rings.push_back({ring});
   progress_.part(0.05, 0.25).stage(taken_++, parts_).update(1);
   // Islands before the outer wall, which comes last.
-  for (std::size_t i = part.rings.size(); i-- > 0;) rings.push_back(part.rings[i]);
+  for (std::size_t i = part.rings.size(); i-- > 0;) rings.push_back({part.rings[i]});
+  if (within.empty()) {
+    rings[first].core = &part;
+    rings[first].layer = layer;
+  }
 }
 
 // Begins at the ring's place nearest to `near`. Short edges may be chords of an arc, and stay whole.
@@ -344,66 +310,159 @@ ClosedToolpath PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
   return ClosedToolpath(points);
 }
 
-// Whether the cutter may go straight from the end of the run to a loop: near walls never, through ground that nobody
-// has cut no farther than its width.
-bool PocketPlanner::may_go_on(const MillRun& run, DrawnPoint to, bool is_free) const {
-  if (run.empty()) return false;
-  const DrawnPoint from = run.back().at;
+// Whether the cutter may go straight from a loop to another: near walls never, through ground that nobody has cut no
+// farther than its width.
+bool PocketPlanner::may_go_on(DrawnPoint from, DrawnPoint to, bool is_free) const {
   if (!is_free && distance_nm(from, to) > static_cast<double>(options_.cutter.count)) return false;
   return !walls_.is_crossed(from, to);
 }
 
-// Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
-void PocketPlanner::add_runs(std::vector<DrawnRing> rings, std::vector<MillRun>& runs) {
-  plan_.loops += rings.size();
-  std::vector<ClosedToolpath> tracks;
-  DrawnPoint at = rings.front().front();
-  for (DrawnRing& ring : rings) {
-    ClosedToolpath track = track_of(std::move(ring), at);
-    if (track.length() <= 0) continue;
-    at = track.at(0);
-    // A ramp may go around often: one lap is enough to know what is cut.
+// The length of the descent by one layer. A loop that is tiny beside the cutter is no ramp.
+double PocketPlanner::ramp_along(const ClosedToolpath& track) const {
+  const bool is_tiny = track.length() < static_cast<double>(options_.cutter.count) / 4;
+  if (options_.ramp_degrees <= 0 || is_tiny) return 0;
+  const auto down = static_cast<double>(-rough_depth().count) / static_cast<double>(levels());
+  return down / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
+}
+
+std::optional<Helix> PocketPlanner::helix_in(const PocketRing& ring) const {
+  if (ring.core == nullptr || options_.ramp_degrees <= 0) return std::nullopt;
+  const auto margin = static_cast<double>(ring.layer) * static_cast<double>(step_over().count);
+  return find_helix(*ring.core, margin, options_.cutter);
+}
+
+// Where the cutter cannot come from the loop before, it goes down along a helix, or along the loop.
+std::vector<PocketPlanner::PocketLoop> PocketPlanner::loops_of(std::vector<PocketRing> rings) {
+  std::vector<PocketLoop> loops;
+  DrawnPoint at = rings.front().ring.front();
+  const auto add = [&](ClosedToolpath track, bool goes_down) {
+    at = track.at(goes_down ? ramp_along(track) : 0);
     MillRun lap;
     track.append(lap, 0, track.length(), {}, {});
     ways_.push_back(chords_of(lap, pocket_chords));
-    tracks.push_back(std::move(track));
+    loops.push_back({std::move(track), goes_down});
+  };
+  for (PocketRing& ring : rings) {
+    ClosedToolpath track = track_of(std::move(ring.ring), at);
+    if (track.length() <= 0) continue;
+    bool goes_down = loops.empty() || !may_go_on(at, track.at(0), false);
+    const std::optional<Helix> helix = goes_down ? helix_in(ring) : std::nullopt;
+    if (helix) {
+      add(passo::track_of(*helix, track.at(0), options_.climb), true);
+      if (track.is_within(helix->centre, helix->radius)) continue;
+      track = track.from(track.nearest(at).first);
+      goes_down = !may_go_on(at, track.at(0), false);
+    }
+    add(std::move(track), goes_down);
   }
+  plan_.loops += loops.size();
+  return loops;
+}
+
+// Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
+void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<MillRun>& runs) {
   MillRun run;
   Nanometres z{};
-  for (std::int64_t level = 1; level <= levels(); ++level) {
-    const Nanometres next{options_.depth.count * level / levels()};
-    bool is_first = true;
-    for (const ClosedToolpath& track : tracks) {
-      const DrawnPoint start = track.at(0);
-      const bool goes_on = may_go_on(run, start, is_first);
-      if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));
-      double along = 0;
-      if (is_first || !goes_on) {
-        if (goes_on) {
-          run.push_back({run.back().at, 0, z});  // the layer before is free
-          run.push_back({start, 0, z});
-        }
-        if (options_.ramp_degrees > 0) {
-          const auto down = static_cast<double>(z.count - next.count);
-          along = down / std::tan(options_.ramp_degrees / 180 * std::numbers::pi);
-          track.append(run, 0, along, z, next);
-        }
-      } else {
+  double begin = 0;  // where the first loop begins
+  for (const Nanometres next : floors()) {
+    for (const PocketLoop& loop : loops) {
+      const bool is_first = &loop == &loops.front();
+      double along = is_first ? begin : 0;
+      const DrawnPoint start = loop.track.at(along);
+      if (!loop.goes_down) {
         run.push_back({start, 0, next});
+      } else {
+        // The layer before is free.
+        const bool goes_on = is_first && !run.empty() && may_go_on(run.back().at, start, true);
+        if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));
+        goes_on ? link_to(run, start) : enter_above(run, start, z);
+        const double ramp = ramp_along(loop.track);
+        if (ramp > 0) loop.track.append(run, along, along + ramp, z, next);
+        along += ramp;
       }
-      // All of it at this depth, and on to where it began: the next loop begins near there.
-      const double laps = std::ceil((along + track.length()) / track.length() - 1e-9);
-      track.append(run, along, laps * track.length(), next, next);
-      is_first = false;
+      // All of it at this depth, once: it ends where the ramp did.
+      const std::size_t level = run.empty() ? 0 : run.size() - 1;
+      loop.track.append(run, along, along + loop.track.length(), next, next);
+      if (next < rough_depth()) mark_finish(run, level);
+      if (loops.size() == 1) begin = along + loop.track.length();
     }
     z = next;
   }
   if (run.size() > 1) runs.push_back(std::move(run));
 }
 
+// What is exactly as wide as the cutter. Adaptive clearing leaves it: it is a slot.
+void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
+  if (options_.most_engagement > 0) return;
+  const Region reach = finished_.empty() ? reach_ : united(reach_, reachable(finished_));
+  const std::vector<TightWay> ways = find_tight_ways(area_, reach, options_.cutter);
+  for (const TightWay& way : ways) {
+    ways_.push_back(way.points);
+    if (way.is_closed) ways_.back().push_back(way.points.front());
+  }
+  plan_.tight = ways.size();
+  const DrawnPoint from = runs.empty() ? options_.park : runs.back().back().at;
+  const Nanometres floor = options_.finishes ? options_.depth : rough_depth();
+  const TightCut cut{floor, options_.step, options_.ramp_degrees};
+  for (MillRun& run : tight_runs(ways, cut, from, options_.park)) runs.push_back(std::move(run));
+}
+
+// The cutter that finishes the walls meets little stock: nowhere more than a quarter of its width.
+bool PocketPlanner::may_be_finished(const Region& part, const Region& rough) const {
+  const Region whole = reachable(part);
+  if (whole.empty()) return false;
+  const Region cut = grown(reachable(rough), radius(), pocket_chords);
+  const Region left = subtracted(grown(whole, radius(), pocket_chords), cut);
+  return grown(left, {-std::max(radius().count / 4, options_.allowance.count)}, pocket_chords).empty();
+}
+
+// Each pocket keeps stock on its walls, unless it is so narrow that the finishing pass would cut a slot.
+void PocketPlanner::leave_allowance() {
+  if (options_.allowance.count <= 0) return;
+  roughed_ = {};
+  for (const Region& part : parts_of(area_)) {
+    const Region rough = grown(part, {-options_.allowance.count}, pocket_chords);
+    const bool keeps = may_be_finished(part, rough);
+    if (!keeps) ++plan_.unfinished;
+    roughed_ = united(roughed_, keeps ? rough : part);
+    if (keeps && options_.finishes) finished_ = united(finished_, part);
+  }
+}
+
+// Islands before the wall around them.
+void PocketPlanner::finish_walls(std::vector<MillRun>& runs) {
+  const auto is_clear = [this](DrawnPoint from, DrawnPoint to, double bulge) {
+    constexpr int pieces = 8;
+    for (int k = 0; k < pieces; ++k) {
+      const DrawnPoint a = point_along(from, to, bulge, static_cast<double>(k) / pieces);
+      const DrawnPoint b = point_along(from, to, bulge, static_cast<double>(k + 1) / pieces);
+      if (walls_.is_crossed(a, b)) return false;
+    }
+    return true;
+  };
+  const FinishPass pass{.depth = options_.depth,
+                        .floor = options_.depth,
+                        .lead_nm = static_cast<double>(options_.lead.count),
+                        .climb = options_.climb,
+                        .spring_passes = options_.spring_passes,
+                        .is_cut = [this](DrawnPoint point) { return contains(reach_, point); },
+                        .is_clear = is_clear};
+  for (const Region& part : parts_of(reachable(finished_))) {
+    for (std::size_t i = part.rings.size(); i-- > 0;) {
+      const DrawnPoint near = runs.empty() ? options_.park : runs.back().back().at;
+      const ClosedToolpath track = track_of(part.rings[i], near);
+      if (track.length() <= 0) continue;
+      MillRun run = finish_run(track, pass);
+      ways_.push_back(chords_of(run, pocket_chords));
+      runs.push_back(std::move(run));
+      ++plan_.finished;
+    }
+  }
+}
+
 void PocketPlanner::measure() {
   const Region cut = united(cut_, swept(ways_, radius(), pocket_chords));
-  plan_.unreached = notable_part(subtracted(area_, cut), least_left);
+  plan_.unreached = notable_part(subtracted(options_.finishes ? area_ : roughed_, cut), least_left);
   plan_.unreached_mm2 = area_mm2(plan_.unreached);
   plan_.lost_mm2 = area_mm2(notable_part(subtracted(cut, area_), {50}));
 }

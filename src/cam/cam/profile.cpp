@@ -92,6 +92,9 @@ void ProfilePlanner::cut_beside(const Region& stays, bool openings_only) {
   OutlinePlan& all = plan_.outline;
   all.outsides += one.outsides;
   all.openings += one.openings;
+  all.tight += one.tight;
+  all.finished += one.finished;
+  all.unfinished += one.unfinished;
   all.lost_mm2 += one.lost_mm2;
   std::ranges::move(one.tabs, std::back_inserter(all.tabs));
   std::ranges::move(one.ways, std::back_inserter(all.ways));
@@ -112,7 +115,10 @@ void ProfilePlanner::find_unreached() {
   const Region cut = swept(plan_.outline.ways, {(options_.cut.cutter.count + 1) / 2}, profile_chords);
   std::vector<Region> left;
   for (const Side& side : sides_) {
-    Region beside = subtracted(grown(side.stays, options_.cut.cutter, profile_chords), side.stays);
+    // An allowance that stays is meant to.
+    const bool keeps_stock = options_.cut.allowance.count > 0 && !options_.cut.finishes;
+    const Region stays = keeps_stock ? grown(side.stays, options_.cut.allowance, profile_chords) : side.stays;
+    Region beside = subtracted(grown(side.stays, options_.cut.cutter, profile_chords), stays);
     if (!side.ground.empty()) beside = common(beside, side.ground);
     left.push_back(subtracted(beside, cut));
   }

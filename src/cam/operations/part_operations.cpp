@@ -13,6 +13,37 @@ CamOption sheet_row(std::string& sheet) {
           experts_only};
 }
 
+// `a`: the arguments of an operation that can finish what it has roughed.
+std::vector<CamOption> finish_rows(CamFinishArguments& a) {
+  using enum CamKind;
+  return {
+      {"allowance", &a.allowance, length,
+       "stock that roughing leaves on walls (default: 0; with --finish-pass 5 % of the cutter's diameter)",
+       experts_only},
+      {"finish-pass", &a.finish_pass, flag, "finish the walls in one lap at full depth; arcs lead in and out"},
+      {"finish-feed", &a.finish_feed, feed, "feed rate of finishing, per minute (default: --feed)", experts_only},
+      {"spring-passes",
+       &a.spring_passes,
+       number,
+       "further laps of the finishing pass, without stock",
+       {.range = CamRange{0, 10}, .matters_to = experts}},
+  };
+}
+
+std::vector<CamOption> chamfer_rows(CamProfileArguments& a) {
+  using enum CamKind;
+  return {
+      {"chamfer", &a.chamfer, length,
+       "width of a chamfer that a V-shaped cutter mills along the contours, instead of cutting them out"},
+      {"angle",
+       &a.angle,
+       degrees,
+       "chamfer: included angle of the V-shaped cutter, degrees",
+       {.range = CamRange{5, 170}}},
+      {"tip", &a.tip, length, "chamfer: tip width of the V-shaped cutter"},
+  };
+}
+
 }  // namespace
 
 std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
@@ -26,6 +57,8 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
         {.choices = {"part", "outside", "inside", "on"}}}},
       tool_rows(a),
       edge_rows(a),
+      finish_rows(a),
+      chamfer_rows(a),
       mill_rows(a, CamFor::everyone),
       {sheet_row(a.sheet)},
   });
@@ -47,6 +80,14 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
         {.range = CamRange{0, 150}, .matters_to = experts}},
        join_row(a.join),
        ramp_row(a.ramp)},
+      finish_rows(a),
+      {{"floor-allowance", &a.floor_allowance, length,
+        "stock that roughing leaves on the floor; a finishing pass removes it", experts_only},
+       {"lead", &a.lead, length,
+        "radius of the arcs into and out of a finishing pass (default: a quarter of the cutter's diameter)",
+        experts_only},
+       {"link-feed", &a.link_feed, feed,
+        "feed rate across cleared ground, per minute (default: four times --feed, at least 1500 mm)", experts_only}},
       mill_rows(a, CamFor::everyone),
       {sheet_row(a.sheet)},
   });

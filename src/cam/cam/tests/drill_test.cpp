@@ -149,5 +149,20 @@ TEST(DrillProgram, plain_moves_peck_and_circles_go_down_in_turns) {
   EXPECT_THAT(text, testing::HasSubstr("M3 S9000\n"));
 }
 
+TEST(DrillProgram, a_wide_bore_is_milled_from_its_middle_outwards) {
+  const Planned planned = plan_of(board_of({hole_at(0, 0, 7)}), {.mill = mm(2)});
+  const std::string text = write_drill_program(planned.plan, {.files = {}, .depth = mm(-0.5), .canned = false});
+  // Radii of the cutter centre from 0.9 to 2.5 mm: 0.8 diameters apart.
+  const std::size_t inner = text.find("G3 X0.9 Y0 I-0.9 J0\n");
+  const std::size_t outer = text.find("G3 X2.5 Y0 I-2.5 J0\n");
+  ASSERT_NE(outer, std::string::npos) << text;
+  EXPECT_LT(inner, outer);
+  // A hole of two diameters has no core.
+  const Planned narrow = plan_of(board_of({hole_at(0, 0, 4)}), {.mill = mm(2)});
+  const std::string once = write_drill_program(narrow.plan, {.files = {}, .depth = mm(-0.5), .canned = false});
+  EXPECT_EQ(once.find("G3 X0.9"), std::string::npos);
+  EXPECT_NE(once.find("G3 X1 Y0 Z-0.5 I-1 J0\n"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace passo

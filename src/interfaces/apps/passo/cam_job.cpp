@@ -198,9 +198,11 @@ std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string&
   std::string text;
   for (std::size_t i = 0; i < plan.tools.size(); ++i) {
     const MillLengths lengths = lengths_of(plan.tools[i], park);
-    text += fmt::format("tool {}: {}: {} down, {:.1f} {} milled, {:.1f} {} of rapids\n", i + 1, plan.tools[i].words,
+    const std::string links =
+        lengths.links_nm > 0 ? fmt::format("{:.1f} {} of links, ", lengths.links_nm / unit_nm, units) : "";
+    text += fmt::format("tool {}: {}: {} down, {:.1f} {} milled, {}{:.1f} {} of rapids\n", i + 1, plan.tools[i].words,
                         lengths.runs == 1 ? "once" : counted(lengths.runs, "time"), lengths.milled_nm / unit_nm, units,
-                        lengths.rapids_nm / unit_nm, units);
+                        links, lengths.rapids_nm / unit_nm, units);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // passo cam profile and passo cam pocket: programs that cut parts and pockets from drawings.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cam_part.hpp"
 #include "cam_program.hpp"
@@ -145,6 +146,11 @@ std::string unreached_words(double mm2) {
   return fmt::format("not reached: {} mm² in corners and gaps narrower than the cutter\n", sensible_number(mm2, 4));
 }
 
+// To a square micrometre.
+double told_loss(double mm2) {
+  return std::round(mm2 * 1e6) / 1e6;
+}
+
 std::string joined_words(const EdgeLoops& loops) {
   if (loops.joined == 0) return "";
   return fmt::format("joined: {} with gaps of at most {:.4g} mm\n", counted(loops.joined, "end"),
@@ -156,6 +162,7 @@ nlohmann::ordered_json lengths_json(const MillPlan& plan, DrawnPoint park) {
   if (!plan.tools.empty()) lengths = lengths_of(plan.tools.front(), park);
   return {{"runs", lengths.runs},
           {"milled_mm", lengths.milled_nm / nanometres_per_mm},
+          {"links_mm", lengths.links_nm / nanometres_per_mm},
           {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}};
 }
 
@@ -177,19 +184,104 @@ void check_layers(Nanometres depth, Nanometres step, LengthArguments& lengths) {
   }
 }
 
+// The stock that roughing leaves on walls.
+Nanometres allowance_of(const CamFinishArguments& arguments, Nanometres cutter, LengthArguments& lengths) {
+  if (arguments.allowance.empty()) return {arguments.finish_pass ? cutter.count / 20 : 0};
+  const Nanometres allowance = lengths.any("--allowance", arguments.allowance);
+  if (allowance.count < 0 || 4 * allowance.count > cutter.count) {
+    lengths.refuse("--allowance: expected 0 to a quarter of the cutter's diameter");
+  }
+  if (arguments.finish_pass && allowance.count == 0) {
+    lengths.refuse("--finish-pass needs an --allowance above 0");
+  }
+  return allowance;
+}
+
+void take_finish_feed(const CamFinishArguments& arguments, MillProgramOptions& program, LengthArguments& lengths) {
+  if (arguments.finish_feed.empty()) return;
+  program.finish_feed = lengths.above_0("--finish-feed", arguments.finish_feed);
+}
+
+// One line on allowances, or none.
+std::string finish_words(const CamFinishArguments& arguments, Nanometres allowance, std::size_t finished) {
+  if (allowance.count <= 0 || (arguments.finish_pass && finished == 0)) return "";
+  const double mm = to_mm(allowance).value();
+  if (!arguments.finish_pass) return fmt::format("allowance: {:.4g} mm stay on the walls\n", mm);
+  const std::string springs =
+      arguments.spring_passes == 0 ? "" : fmt::format(", and {} each", counted(arguments.spring_passes, "spring lap"));
+  return fmt::format("finishing: {} of {:.4g} mm at full depth{}\n", counted(finished, "lap"), mm, springs);
+}
+
+// The cutter of a chamfer: it goes deeper than the chamfer, and so much away from the edge that its tip is free.
+struct ChamferCut {
+  Nanometres beside;  // from the edge to the cutter's centre
+  Nanometres depth;
+};
+ChamferCut chamfer_of(const CamProfileArguments& arguments, LengthArguments& lengths) {
+  const Nanometres width = lengths.above_0("--chamfer", arguments.chamfer);
+  const Nanometres tip = lengths.any("--tip", arguments.tip);
+  if (tip.count < 0) lengths.refuse("--tip: expected a width of 0 or more");
+  constexpr std::int64_t below = 100'000;  // nm that the flank goes on beside the edge
+  const double slope = std::tan(arguments.angle / 360 * std::numbers::pi);
+  return {{tip.count / 2 + below}, {-std::llround(static_cast<double>(width.count + below) / slope)}};
+}
+
+// Cuts along the contours with the flank of a V-bit, in one pass. It is the same distance from all contours, so it
+// takes no more than the chamfer of any.
+void take_chamfer(const CamProfileArguments& arguments, OutlineOptions& cut, LengthArguments& lengths) {
+  if (arguments.finish_pass || !arguments.allowance.empty() || arguments.side == "on" || arguments.dog_bones) {
+    lengths.refuse("--chamfer cannot be combined with --allowance, --finish-pass, --dog-bones or --side on");
+  }
+  const ChamferCut chamfer = chamfer_of(arguments, lengths);
+  cut.cutter = {2 * chamfer.beside.count};
+  cut.words = fmt::format("V of {:g} degrees for a chamfer", arguments.angle);
+  cut.depth = chamfer.depth;
+  cut.step = {-chamfer.depth.count};
+  cut.tabs = 0;
+  cut.ramp_degrees = 0;
+}
+
+std::string chamfer_words(const CamProfileArguments& arguments, const OutlineOptions& cut) {
+  return fmt::format("chamfer {}: the tip is at Z{:.4g} mm, its centre {:.4g} mm beside the edge\n", arguments.chamfer,
+                     to_mm(cut.depth).value(), to_mm(cut.cutter).value() / 2);
+}
+
+std::string milling_words(bool climb) {
+  return climb ? "climb milling\n" : "conventional milling\n";
+}
+
+std::string unfinished_words(std::size_t count, const char* what) {
+  if (count == 0) return "";
+  return fmt::format("{} without an allowance, for lack of room\n", counted(count, what));
+}
+
+std::string tight_words(std::size_t count, Nanometres cutter) {
+  if (count == 0) return "";
+  return fmt::format("{} as wide as the cutter, within {:g} mm, along the middle line\n", counted(count, "cut"),
+                     to_mm(tight_cut_tolerance(cutter)).value());
+}
+
 }  // namespace
 
 int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progress) {
   if (!outputs_are_good(arguments, "")) return exit_bad_program;
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam profile", lengths, "stock");
-  const ProfileOptions options{.cut = outline_options_of(arguments, job, lengths), .side = side_of(arguments.side)};
+  ProfileOptions options{.cut = outline_options_of(arguments, job, lengths), .side = side_of(arguments.side)};
+  const bool is_chamfer = !arguments.chamfer.empty();
+  options.cut.allowance = allowance_of(arguments, options.cut.cutter, lengths);
+  options.cut.finishes = arguments.finish_pass;
+  options.cut.spring_passes = arguments.spring_passes;
+  take_finish_feed(arguments, job.program, lengths);
+  if (is_chamfer) take_chamfer(arguments, options.cut, lengths);
   const Nanometres join = join_of(arguments.join, lengths);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   const bool is_on = options.side == ProfileSide::on;
-  if (is_on && (!options.cut.tab_places.empty() || options.cut.lead.count > 0 || options.cut.dog_bones)) {
-    return fail(exit_bad_program, "--side on cannot be combined with --tab, --lead or --dog-bones");
+  if (is_on && (!options.cut.tab_places.empty() || options.cut.lead.count > 0 || options.cut.dog_bones ||
+                options.cut.allowance.count > 0)) {
+    return fail(exit_bad_program, "--side on cannot be combined with --tab, --lead, --dog-bones or an allowance");
   }
+  job.program.remarks.push_back(options.cut.climb ? "climb milling" : "conventional milling");
 
   const std::optional<PartDrawing> part = read_part(arguments, job, join, is_on ? OpenRows::kept : OpenRows::refused);
   if (!part) return exit_bad_program;
@@ -209,13 +301,19 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
     json["tabs"] = cut.tabs.size();
   } else {
     words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
-                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), cut.lost_mm2);
-    words += unreached_words(plan.unreached_mm2);
+                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), told_loss(cut.lost_mm2));
+    words += is_chamfer ? chamfer_words(arguments, options.cut) : unreached_words(plan.unreached_mm2);
+    words += tight_words(cut.tight, options.cut.cutter) + finish_words(arguments, options.cut.allowance, cut.finished);
+    words += unfinished_words(cut.unfinished, "contour") + milling_words(options.cut.climb);
     json["outsides"] = cut.outsides;
     json["insides"] = cut.openings;
     json["tabs"] = cut.tabs.size();
     json["lost_mm2"] = cut.lost_mm2;
     json["unreached_mm2"] = plan.unreached_mm2;
+    json["tight"] = cut.tight;
+    json["finished"] = cut.finished;
+    json["unfinished"] = cut.unfinished;
+    json["climb"] = options.cut.climb;
   }
   words += joined_words(part->loops);
   return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json.dump(2)},
@@ -233,10 +331,22 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
   options.step = lengths.above_0("--step", arguments.step);
   check_layers(options.depth, options.step, lengths);
   options.step_over = arguments.step_over / 100;
+  options.allowance = allowance_of(arguments, options.cutter, lengths);
+  options.floor_allowance = lengths.any("--floor-allowance", arguments.floor_allowance);
+  if (options.floor_allowance.count < 0 || options.floor_allowance > options.step ||
+      options.floor_allowance.count >= -options.depth.count) {
+    lengths.refuse("--floor-allowance: expected 0 to --step, and less than the depth");
+  }
+  options.finishes = arguments.finish_pass;
+  options.spring_passes = arguments.spring_passes;
+  options.lead = lengths.perhaps("--lead", arguments.lead).value_or(Nanometres{options.cutter.count / 4});
+  take_finish_feed(arguments, job.program, lengths);
+  if (!arguments.link_feed.empty()) job.program.link_feed = lengths.above_0("--link-feed", arguments.link_feed);
   options.ramp_degrees = arguments.ramp;
   options.most_engagement = arguments.engagement;
   options.climb = !arguments.conventional;
   options.park = job.program.park;
+  job.program.remarks.push_back(options.climb ? "climb milling" : "conventional milling");
   const Nanometres join = join_of(arguments.join, lengths);
   constexpr double least_engagement = 30;
   if (options.most_engagement > 0 && options.most_engagement < least_engagement) {
@@ -261,10 +371,12 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
       size_words(*part) +
       fmt::format("{} of {} mm², {} per layer; {:g} mm² of the part lost\n", counted(plan.pockets, "pocket"),
                   sensible_number(area_mm2(area), 4), counted(plan.loops, is_constant ? "disc" : "loop"),
-                  plan.lost_mm2) +
+                  told_loss(plan.lost_mm2)) +
       (is_constant ? fmt::format("engagement: at most {:.1f} degrees, except on the way down\n", plan.engagement)
                    : std::string()) +
-      unreached_words(plan.unreached_mm2) + joined_words(part->loops);
+      unreached_words(plan.unreached_mm2) + tight_words(plan.tight, options.cutter) +
+      finish_words(arguments, options.allowance, plan.finished) + unfinished_words(plan.unfinished, "pocket") +
+      milling_words(options.climb) + joined_words(part->loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
   json["pockets"] = plan.pockets;
   json[is_constant ? "discs" : "loops"] = plan.loops;
@@ -272,6 +384,10 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
   json["area_mm2"] = area_mm2(area);
   json["lost_mm2"] = plan.lost_mm2;
   json["unreached_mm2"] = plan.unreached_mm2;
+  json["tight"] = plan.tight;
+  json["finished"] = plan.finished;
+  json["unfinished"] = plan.unfinished;
+  json["climb"] = options.climb;
   return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json.dump(2)}, progress.part(0.9, 1));
 }
 

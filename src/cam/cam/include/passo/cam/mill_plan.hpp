@@ -1,6 +1,7 @@
 // MillPlan: the toolpaths of milling cutters as runs: down into the board, along a toolpath, and up again.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,15 +9,32 @@
 
 namespace passo {
 
+// How fast the cutter moves: it cuts, it finishes walls or floors, it links two cuts through cleared ground, or it
+// moves straight up or down in the air.
+enum class MillPace : std::uint8_t { cut, finish, link, rapid };
+
 // A position of the cutter centre. The bulge defines the connection to the next point, as in PathPoint; the height
 // changes linearly in between. Z0 is the surface of the board.
 struct MillPoint {
   DrawnPoint at = {};
   double bulge = 0;
   Nanometres z = {};
+  MillPace pace = MillPace::cut;  // of the way to the next point
 };
 
 using MillRun = std::vector<MillPoint>;  // at least two points
+
+// Begins a run above a floor that has been cut: the cutter rapids down to just above it. `floor`: its Z; where it is
+// not clearly below Z0, nothing is added.
+void enter_above(MillRun& run, DrawnPoint at, Nanometres floor);
+// Goes on to a point at the Z of the run's end, through cleared ground: slightly lifted where the way is long enough.
+void link_to(MillRun& run, DrawnPoint to);
+
+// A gap is cut along its middle line, as exactly as wide as the cutter, if it is narrower by at most this: 0.02 mm, and
+// 1 % of the cutter's diameter.
+constexpr Nanometres tight_cut_tolerance(Nanometres cutter) {
+  return {cutter.count < 2'000'000 ? cutter.count / 100 : 20'000};
+}
 
 struct MillTool {
   Nanometres width = {};           // milled width at the surface of the board; for varying depth, the tip width
@@ -32,6 +50,7 @@ struct MillPlan {
 struct MillLengths {
   std::size_t runs = 0;  // number of runs; equals the number of plunges
   double milled_nm = 0;
+  double links_nm = 0;   // through cleared ground
   double rapids_nm = 0;  // rapid distance at clearance height, from the park position and back, for each tool
 };
 

@@ -131,12 +131,23 @@ struct CamOutlineArguments : CamMillArguments {
 };
 std::vector<CamOption> cam_options_of(CamOutlineArguments& arguments);
 
-struct CamProfileArguments : CamOutlineArguments {
+// Roughing with an allowance, and finishing.
+struct CamFinishArguments {
+  std::string allowance;  // stock beside walls; empty: 5 % of the cutter's diameter with `finish_pass`, otherwise none
+  bool finish_pass = false;
+  std::string finish_feed;  // empty: as `feed`
+  std::uint32_t spring_passes = 0;
+};
+
+struct CamProfileArguments : CamOutlineArguments, CamFinishArguments {
   std::string side = "part";  // outside, inside or on
+  std::string chamfer;        // width; empty: no chamfer
+  double angle = 90;          // included angle of the chamfer's V-bit, degrees
+  std::string tip = "0mm";    // its tip width
 };
 std::vector<CamOption> cam_options_of(CamProfileArguments& arguments);
 
-struct CamPocketArguments : CamMillArguments {
+struct CamPocketArguments : CamMillArguments, CamFinishArguments {
   std::string tool = "3mm";
   std::string depth = "-3mm";
   std::string step = "1mm";
@@ -144,6 +155,9 @@ struct CamPocketArguments : CamMillArguments {
   double step_over = 40;  // stepover, percent of the cutter diameter
   double engagement = 0;  // maximum engagement, degrees; 0: loops
   double ramp = 5;        // degrees
+  std::string floor_allowance = "0mm";
+  std::string lead;       // radius, with `finish_pass`; empty: a quarter of the cutter's diameter
+  std::string link_feed;  // empty: usual_link_feed()
 };
 std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
 
