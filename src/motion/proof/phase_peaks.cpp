@@ -132,9 +132,18 @@ void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   if (place_) check_gap(distance(*place_, motors_at(curve.place(start.s))));
   rests = rests || stands();
   const ExactCurve::AllDerivatives slopes = curve.at(letters_, start.s);
+  bool jumps = false;
   for (std::size_t i = 0; i < before_.size(); ++i) {
-    meet(i, motion_of(slopes[i], start), rests);
+    const Motion motion = motion_of(slopes[i], start);
+    jumps = jumps || std::abs(motion.velocity - before_[i].velocity) > velocity_rounding * proof_.axes[i].velocity.limit;
+    meet(i, motion, rests);
     stopped_[i] = 0;
+  }
+  if (!rests || !jumps) return;
+  // Where axes jump to their velocities and from them, none has an acceleration.
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    raise(proof_.axes[i].acceleration_jump, before_[i].acceleration, 0);
+    raise(proof_.axes[i].acceleration_jump, motion_of(slopes[i], start).acceleration, 0);
   }
 }
 

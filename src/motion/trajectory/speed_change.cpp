@@ -259,6 +259,7 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
     const double speed = piece.phase.velocity_at(piece.phase.duration).value();
     for (const LimitedAxis& axis : request.axes) {
+      if (!axis.limits_jerk()) continue;
       const double seen = std::abs(axis.row.of(jump)) * speed * speed;
       worst.most.force = std::max(worst.most.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
     }
