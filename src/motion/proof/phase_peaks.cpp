@@ -108,6 +108,7 @@ void PhasePeaks::watch(const PlannedMove& move, const ExactCurve& curve) {
   check_gap(distance(*place_, motors_at(curve.place(move.to.value()))));
   const bool ends_curve = move.to.value() >= curve.length() * (1 - end_of_curve);
   if (move.segment.mode == PathMode::exact_stop && ends_curve) stop_exactly();
+  if (move.stops_at_once) rest(Seconds(0));
 }
 
 // At an exact stop no axis may move, or none faster than it may stop at once.
