@@ -71,6 +71,7 @@ head_of_table 'hold or stop to rest / least possible, if that is more than 20 ms
 column "$halt" '$6 / $7' | spread 'all'
 column "$halt && \$8 == \"line\"" '$6 / $7' | spread 'on a line'
 column "$halt && \$8 == \"bend\"" '$6 / $7' | spread 'on a bend, where the least time is too low'
+column "$halt && \$9 > 0" '$6 / $9' | spread 'on a bend, a rest sooner by a fifth was found'
 by_mixture "$halt" '$6 / $7'
 
 echo
@@ -79,7 +80,8 @@ broken=$(awk -F'\t' '
   $1 == "time" && $13 != "" { print "MixtureLaw " $2 ": " $13 " (" $3 ")" }
   $1 == "acts" && $5 != "" { print "RandomHalt " $2 ": " $5 " (" $3 ")" }
   $1 == "killed" { print "killed " $2 ": " $4 " (" $3 ")" }
-  $1 == "halt" && $7 > 0.02 && $6 / $7 > 1.2 { printf "RandomHalt %s: %s at %.4f s rests in %.3f times the least time (%s)\n", $2, $4, $5, $6 / $7, $3 }
+  $1 == "halt" && $7 > 0.02 && $8 == "line" && $6 / $7 > 1.2 { printf "RandomHalt %s: %s at %.4f s rests in %.3f times the least time (%s)\n", $2, $4, $5, $6 / $7, $3 }
+  $1 == "halt" && $9 > 0 { printf "RandomHalt %s: %s at %.4f s rests in %.3f times a time that was found (%s)\n", $2, $4, $5, $6 / $9, $3 }
 ' "$rows")
 [[ -z $broken ]] && exit 0
 printf '\n%d break the law:\n%s\n' "$(wc -l <<<"$broken")" "$broken"

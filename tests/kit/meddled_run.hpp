@@ -29,22 +29,19 @@ class Watch {
     job.items().watch([this](const BoardItem& item) { prover_.watch(item); });
     job.motion().watch([this, &machine](const MotionItem& item) {
       const auto* action = std::get_if<Action>(&item);
-      if (action != nullptr && action->kind == Action::Kind::feed_hold) {
-        EXPECT_TRUE(rests_) << "held in motion";
-        return;
-      }
+      const bool holds = action != nullptr && action->kind == Action::Kind::feed_hold;
+      EXPECT_TRUE(rests_ || !holds) << "held in motion";
       prover_.watch(item);
-      rests_ = action != nullptr || comes_to_rest(std::get<PlannedMove>(item), machine);
+      rests_ = action != nullptr || may_stop_after(std::get<PlannedMove>(item), machine);
     });
   }
   MotionProof finish() { return prover_.finish(); }
   const Point& place() const { return place_; }
 
  private:
-  // At the end of a path the motors may stop from their start-stop velocities.
-  static bool comes_to_rest(const PlannedMove& move, const MachineDescription& machine) {
-    if (move.ends_at_rest()) return true;
-    if (move.to < move.segment.curve.length()) return false;
+  // The motors may stop at once from their start-stop velocities.
+  static bool may_stop_after(const PlannedMove& move, const MachineDescription& machine) {
+    if (move.phase_count == 0) return true;
     const Point velocity = move.segment.curve.tangent(move.to) * move.exit_velocity().value();
     return std::ranges::all_of(machine.axes, [&](const AxisDescription& axis) {
       return std::abs(velocity[axis.axis]) <= axis.start_stop.value() * (1 + 1e-9) + 1e-6;

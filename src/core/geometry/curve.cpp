@@ -84,6 +84,13 @@ Curve Curve::line(const Point& start, const Point& end, const SurfaceScale& surf
   return curve;
 }
 
+bool Curve::has_length() const {
+  constexpr double rounding = 1e-12;
+  if (shape_ != Shape::line) return length_ > rounding;
+  return length_ > 0 &&
+         std::ranges::any_of((end_ - start_).values, [](double way) { return std::abs(way) > rounding; });
+}
+
 Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                  double second_center, double sweep) {
   const double first_arm = start[first] - first_center;

@@ -50,11 +50,13 @@ double JerkTimeBound::enter(const Rides& rides, double time) {
       continue;
     }
     if (axis.direction == 0) {
-      axis.whole = axis.part = {.began = time, .start = {.speed = axis.start, .steady = axis.steady}};
+      const double start = std::min(axis.start, std::sqrt(ride.entry));
+      axis.whole = axis.part = {.began = time, .start = {.speed = start, .steady = axis.steady}};
     } else if (axis.falls && ride.exit > ride.entry) {
       axis.part = {.began = time, .start = {.speed = std::sqrt(ride.entry)}};
     }
     axis.direction = ride.way > 0 ? 1 : -1;
+    axis.exit = std::sqrt(ride.exit);
     axis.falls = ride.exit < ride.entry || (axis.falls && ride.exit == ride.entry);
     for (Way* const way : {&axis.whole, &axis.part}) {
       way->length += std::abs(ride.way);
@@ -66,7 +68,7 @@ double JerkTimeBound::enter(const Rides& rides, double time) {
 
 double JerkTimeBound::rest(double time, bool steady) {
   for (Axis& axis : axes_) {
-    if (axis.ramp.limits()) time = stop(axis, time, {.speed = axis.jump, .steady = steady});
+    if (axis.ramp.limits()) time = stop(axis, time, {.speed = std::min(axis.jump, axis.exit), .steady = steady});
   }
   for (Axis& axis : axes_) {
     axis.start = axis.jump;

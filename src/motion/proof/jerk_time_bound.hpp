@@ -47,6 +47,7 @@ class JerkTimeBound {
     double jump;           // the start-stop velocity
     double start = 0;      // the speed with which it may begin to move
     double direction = 0;  // 0: it does not move
+    double exit = 0;       // the maximum speed at the end of the last cell
     bool falls = false;    // the maximum speed falls along the last cell
     bool steady = true;    // the last end was without acceleration
     Way whole;             // since the axis was stopped

@@ -98,7 +98,11 @@ class MotionProver::Implementation {
   }
   void watch(const MotionItem& item) {
     if (const auto* action = std::get_if<Action>(&item)) {
-      rest(action->dwell);
+      if (action->kind == Action::Kind::feed_hold) {
+        peaks_.rest(action->dwell);  // somewhere on the path
+      } else {
+        rest(action->dwell);
+      }
       return;
     }
     const auto& move = std::get<PlannedMove>(item);

@@ -108,6 +108,7 @@ void PhasePeaks::watch(const PlannedMove& move, const ExactCurve& curve) {
   check_gap(distance(*place_, motors_at(curve.place(move.to.value()))));
   const bool ends_curve = move.to.value() >= curve.length() * (1 - end_of_curve);
   if (move.segment.mode == PathMode::exact_stop && ends_curve) stop_exactly();
+  if (move.stops_at_once) rest(Seconds(0));
 }
 
 // At an exact stop no axis may move, or none faster than it may stop at once.
@@ -132,9 +133,18 @@ void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   if (place_) check_gap(distance(*place_, motors_at(curve.place(start.s))));
   rests = rests || stands();
   const ExactCurve::AllDerivatives slopes = curve.at(letters_, start.s);
+  bool jumps = false;
   for (std::size_t i = 0; i < before_.size(); ++i) {
-    meet(i, motion_of(slopes[i], start), rests);
+    const Motion motion = motion_of(slopes[i], start);
+    jumps = jumps || std::abs(motion.velocity - before_[i].velocity) > velocity_rounding * proof_.axes[i].velocity.limit;
+    meet(i, motion, rests);
     stopped_[i] = 0;
+  }
+  if (!rests || !jumps) return;
+  // Where axes jump to their velocities and from them, none has an acceleration.
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    raise(proof_.axes[i].acceleration_jump, before_[i].acceleration, 0);
+    raise(proof_.axes[i].acceleration_jump, motion_of(slopes[i], start).acceleration, 0);
   }
 }
 

@@ -29,7 +29,7 @@ class RampBound {
     double speed = 0;
     bool steady = false;
   };
-  // `top` is the maximum speed on the distance. Returns 0 if the ends are too fast for a statement.
+  // `top` is the maximum speed on the distance. Returns 0 if one end is too fast for the other, with any acceleration.
   double least_time(const End& start, const End& end, double way, double top) const;
 
  private:
@@ -38,6 +38,7 @@ class RampBound {
     double way = 0;
   };
   Ramp ramp(const End& end, double peak) const;
+  double time_between(const End& start, const End& end, double way) const;
 
   double acceleration_;
   double jerk_;

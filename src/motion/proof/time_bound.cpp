@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rounding.hpp"
+
 namespace passo::proof {
 namespace {
 
@@ -286,7 +288,7 @@ TimeBound::Joint TimeBound::joint_at(const Place& place) const {
   Joint joint{.place = place,
               .direction = place.slope,
               .steepness = std::sqrt(squares_of(place.slope)),
-              .rest_cap = rest_cap(place.slope)};
+              .rest_cap = rest_cap(place)};
   for (double& part : joint.direction) part = joint.steepness > 0 ? part / joint.steepness : 0;
   return joint;
 }
@@ -302,14 +304,26 @@ double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
   return cap;
 }
 
-// The largest x with which a path of this slope can begin or end at a rest.
-double TimeBound::rest_cap(const Row& slope) const {
+// The largest x with which a path can begin or end at a rest in this place. Each axis jumps to its velocity, and an axis
+// with a limit of jerk has no acceleration there: as in turning_at(), with those accelerations.
+double TimeBound::rest_cap(const Place& place) const {
   if (!any_jumps_) return 0;
   double cap = fastest;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!ramps_[i].limits() || slope[i] == 0) continue;
+    if (!ramps_[i].limits() || place.slope[i] == 0) continue;
     const double most = axes_[i].start_stop.value() + rounding * axes_[i].velocity.value();
-    cap = std::min(cap, squared(most / slope[i]));
+    cap = std::min(cap, squared(most / place.slope[i]));
+  }
+  const auto strength = [&](std::size_t i) {
+    return axes_[i].acceleration.value() * (axes_[i].jerk > MmPerSecond3(0) ? acceleration_rounding : 1);
+  };
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j, ++pair) {
+      if (!ramps_[i].limits() || !ramps_[j].limits() || place.turn[pair] == 0) continue;
+      const double most = strength(i) * std::abs(place.slope[j]) + strength(j) * std::abs(place.slope[i]);
+      cap = std::min(cap, most / std::abs(place.turn[pair]));
+    }
   }
   return cap;
 }
@@ -443,7 +457,7 @@ void TimeBound::raise_by_line(bool steady) {
   if (!line_ || line_->curves == 0) return;
   const RampBound ramp(line_->acceleration, line_->jerk);
   if (!ramp.limits()) return;
-  const double jump = std::sqrt(rest_cap(line_->direction));
+  const double jump = std::sqrt(rest_cap({.slope = line_->direction}));
   const double time = ramp.least_time({.speed = jump, .steady = line_->steady}, {.speed = jump, .steady = steady},
                                       line_->length, line_->top);
   time_ = std::max(time_, line_->began + time);

@@ -125,7 +125,7 @@ class TimeBound {
   double cap_within(const Place& from, const Place& middle, const Place& to) const;
   Joint joint_at(const Place& place) const;
   double kink_cap(const Joint& before, const Joint& after) const;
-  double rest_cap(const Row& slope) const;
+  double rest_cap(const Place& place) const;
   double most_at(const End& end, const End& other, double at_other, const Cell& cell) const;
   double least_time(const Cell& cell, double entry, double exit) const;
 

@@ -73,13 +73,17 @@ class AccelerationLaw final : public SpeedLaw {
   bool brake(PlannedMove& move) override {
     braking_ = true;
     const Segment* segment = path_.front();
-    if (speed_squared_ == 0 || segment == nullptr) return false;
+    if (speed_squared_ == 0 || segment == nullptr || stops_at_once(*segment)) return false;
     move.begin_on(*segment);
     bool complete = false;
     while (speed_squared_ > 0 && !complete && move.phase_count < PlannedMove::most_phases) {
-      const Ride ride = shortest_ride(0, speed_squared_);
+      const Ride ride = shortest_stop(*segment);
       add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
       complete = go(ride, move);
+      if (!stands_ && move.to < segment->curve.length() && stops_at_once(*segment)) {
+        move.stops_at_once = true;
+        return true;
+      }
     }
     if (speed_squared_ == 0 && !stands_) stand_after({});
     return true;
@@ -303,6 +307,26 @@ class AccelerationLaw final : public SpeedLaw {
     const bool is_ahead = i >= decided_ || entry > cells_[i].decided_entry * (1 + rounding);
     const double decided = is_ahead ? ride.exit : cells_[i].decided_exit;
     return {ride.way, std::min({ride.exit, planned_exit(i, entry), decided})};
+  }
+
+  // Whether the motors stop at once from the present velocities: then they have stopped.
+  bool stops_at_once(const Segment& segment) {
+    if (!rests_.any() || cells_.empty()) return false;
+    const Point direction = segment.curve.tangent(Mm(cells_[0].cell.start));
+    if (speed_squared_ > rests_.at_end(direction) * (1 + rounding)) return false;
+    stand_after(direction * std::sqrt(speed_squared_));
+    return true;
+  }
+
+  // The shortest ride through the first cell, or to the place on a line where the motors may stop at once. A bend is
+  // passed in short cells.
+  Ride shortest_stop(const Segment& segment) const {
+    const Ride ride = shortest_ride(0, speed_squared_);
+    const Cell& cell = cells_[0].cell;
+    if (!rests_.any() || segment.curve.shape() != Curve::Shape::line) return ride;
+    const double least = rests_.at_end(segment.curve.tangent(Mm(cell.start)));
+    const double way = ride.way * (speed_squared_ - least) / (speed_squared_ - ride.exit);
+    return ride.exit < least && way + cell.smallest_rest < cell.length ? Ride{way, least} : ride;
   }
 
   // Removes the move's way from the queue. Returns whether the move is complete: at the end of its segment or time.

@@ -147,7 +147,7 @@ double JerkCutter::joint_cap(const Segment& before, const Segment& after) const 
   double cap = entry_cap(after);
   for (const LimitedAxis& axis : axes_) {
     const double jump = std::abs(axis.row.of(out) - axis.row.of(in));
-    if (jump > 0) cap = std::min(cap, unseen_jump * axis.acceleration / jump);
+    if (jump > 0 && axis.limits_jerk()) cap = std::min(cap, unseen_jump * axis.acceleration / jump);
   }
   return cap;
 }

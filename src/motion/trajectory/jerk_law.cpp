@@ -73,7 +73,7 @@ class JerkLaw final : public SpeedLaw {
     unsuited_ = true;
     if (now_.speed == 0) return false;
     if (is_stop_late() && may_try(pause_in_stop())) stop_sooner();
-    return produce(move);
+    return now_.speed > 0 && produce(move);
   }
 
   // The shortest gentle way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place
@@ -87,7 +87,7 @@ class JerkLaw final : public SpeedLaw {
     while (state.speed > 0) {
       std::optional<SpeedChange> stop;
       if (since_trial >= between_trials) {
-        stop = plan_stop(state);
+        stop = plan_stop(state, to_speed_0());
         since_trial = 0;
       }
       if (stop) {
@@ -130,6 +130,7 @@ class JerkLaw final : public SpeedLaw {
     now_ = PathState::behind(move, path_.first());
     since_trial_ += move.duration();
     if (rest_ || !(has_stopped() || ends_at_stop(move, path_.first()))) return true;
+    move.stops_at_once = has_stopped();
     if (stops_.any()) stopped_ = move.segment.curve.tangent(move.to) * now_.speed;
     now_.speed = now_.acceleration = 0;
     return true;
@@ -210,25 +211,23 @@ class JerkLaw final : public SpeedLaw {
     }
   }
 
-  SpeedChange::Request to_rest() const { return {.axes = axes_, .feeds = fastest_, .exit = 0}; }
-
-  bool is_late(const SpeedChange& stop, const PathState& state) const {
-    return stop.duration_from(0) > late * SpeedChange::shortest_stop(path_, state, axes_);
+  // A hold may use the start-stop velocities. The stop ramp of a board ends with speed 0.
+  SpeedChange::Request to_rest() const {
+    return {.axes = axes_, .feeds = fastest_, .exit = 0, .stops = stops_.any() ? &stops_ : nullptr};
   }
+  SpeedChange::Request to_speed_0() const { return {.axes = axes_, .feeds = fastest_, .exit = 0}; }
 
   // The soonest stop that is found: the simplest one that is not late, or the best of all.
-  std::optional<SpeedChange> plan_stop(const PathState& state) {
+  std::optional<SpeedChange> plan_stop(const PathState& state, const SpeedChange::Request& request) {
+    const Seconds soon = late * SpeedChange::shortest_stop(path_, state, request);
     std::optional<SpeedChange> best;
     const auto is_soon = [&](std::optional<SpeedChange> stop) {
       if (stop && !(best && best->duration_from(0) <= stop->duration_from(0))) best = std::move(stop);
-      return best && !is_late(*best, state);
+      return best && best->duration_from(0) <= soon;
     };
-    const auto of_way = [&](SpeedChange::Way way) {
-      return SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0}, way);
-    };
+    const auto of_way = [&](SpeedChange::Way way) { return SpeedChange::plan(path_, state, request, way); };
     static_cast<void>(is_soon(of_way(SpeedChange::Way::of_one_strength)) ||
-                      is_soon(soonest_stop(path_, state, axes_, fastest_)) ||
-                      is_soon(of_way(SpeedChange::Way::in_steps)));
+                      is_soon(soonest_stop(path_, state, request)) || is_soon(of_way(SpeedChange::Way::in_steps)));
     return best;
   }
 
@@ -242,8 +241,9 @@ class JerkLaw final : public SpeedLaw {
   // A stop that is hardly late is tried again only when half of it is over, so there are few trials.
   Seconds pause_in_stop() const {
     const Seconds left = time_to_rest();
-    return left < very_late * SpeedChange::shortest_stop(path_, now_, axes_) ? std::max(left, Seconds(between_trials))
-                                                                             : Seconds(between_trials);
+    return left < very_late * SpeedChange::shortest_stop(path_, now_, to_rest())
+               ? std::max(left, Seconds(between_trials))
+               : Seconds(between_trials);
   }
 
   // The remaining time of the current stop. Infinite if there is none.
@@ -254,15 +254,24 @@ class JerkLaw final : public SpeedLaw {
   }
 
   bool is_stop_late() const {
-    const Seconds shortest = SpeedChange::shortest_stop(path_, now_, axes_);
+    const Seconds shortest = SpeedChange::shortest_stop(path_, now_, to_rest());
     return time_to_rest() > std::max(late * shortest, shortest + Seconds(least_gain_of_stop));
   }
 
   void stop_sooner() {
-    std::optional<SpeedChange> stop = plan_stop(now_);
+    std::optional<SpeedChange> stop = plan_stop(now_, to_rest());
     const Seconds left = time_to_rest();
     const Seconds most = std::min(left * worth, left - Seconds(least_gain_of_stop));
-    if (stop && stop->duration_from(0) <= most) lead_off(std::move(stop));
+    if (!stop || stop->duration_from(0) > most) return;
+    if (stop->pieces().empty()) return stand_at_once();
+    lead_off(std::move(stop));
+  }
+
+  // The start-stop velocities allow a stop without a ramp.
+  void stand_at_once() {
+    rest_.reset();
+    stopped_ = path_.at(now_.segment)->curve.tangent(Mm(now_.s)) * now_.speed;
+    now_.speed = now_.acceleration = 0;
   }
 
   void lead_off(std::optional<SpeedChange> change) {

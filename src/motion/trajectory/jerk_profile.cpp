@@ -96,6 +96,7 @@ double JerkProfile::passing_cap(std::size_t node) const {
   cap *= planned_velocity * planned_velocity;
   if (node == 0 || (cells_[node - 1].straight && cells_[node].straight)) return cap;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
+    if (!axes_[k].limits_jerk()) continue;
     const double jump = std::abs(shapes(node)[k].bend_in - shapes(node - 1)[k].bend_out);
     if (jump * cap > unseen_jump * axes_[k].acceleration) cap = unseen_jump * axes_[k].acceleration / jump;
   }
@@ -181,15 +182,17 @@ double JerkProfile::most_at_end() const {
       {ends_.end_squared, planned_velocity * planned_velocity * velocity, stop_cap(cells_.size() - 1, false)});
 }
 
-// The greatest x with which a motion may begin or end at a stop without acceleration along the path: no axis'
-// acceleration jumps there where the path bends, and none has more jerk than it may.
+// The greatest x with which a motion may begin or end at a stop without acceleration along the path: the acceleration of
+// no axis with a jerk limit jumps there where the path bends, and no axis exceeds a limit.
 double JerkProfile::stop_cap(std::size_t cell, bool begins) const {
   double cap = infinity;
   const AxisShape* shape = shapes(cell);
   for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double slope = std::abs(begins ? shape->slope_in : shape->slope_out);
     const double bend = std::abs(begins ? shape->bend_in : shape->bend_out);
     const double third = std::abs(begins ? shape->third_in : shape->third_out);
-    if (bend > 0) cap = std::min(cap, unseen_jump * axes_[k].acceleration / bend);
+    if (bend > 0 && axes_[k].limits_jerk()) cap = std::min(cap, unseen_jump * axes_[k].acceleration / bend);
+    if (bend > 0) cap = std::min(cap, axes_[k].turning_cap(slope, bend, planned_share));
     if (third > 0) cap = std::min(cap, std::pow(planned_share * axes_[k].jerk / third, 2.0 / 3));
   }
   return cap;

@@ -180,6 +180,9 @@ void JerkWindow::pull() {
     at_stops_.end_direction = segment->curve.tangent(segment->curve.length());
     at_stops_.end_squared = end_squared_after(cut_, at_stops_.end_direction);
   }
+  if (rests && stops_ != nullptr) {
+    at_stops_.end_squared = stops_->at_end(segment->curve.tangent(Mm(std::min(rest, length))));
+  }
   const double exit = after == nullptr ? at_stops_.end_squared : cutter_.joint_cap(*segment, *after);
   cutter_.begin(*segment, {.from = from,
                            .to = rest < length - least ? rest : length,

@@ -26,6 +26,7 @@ struct LimitedAxis {
     return std::ranges::any_of(row.shares(), [](const AxisRow::Share& share) { return passo::is_rotary(share.axis); });
   }
   bool limits_acceleration() const { return std::isfinite(acceleration); }
+  bool limits_jerk() const { return std::isfinite(jerk); }
   // The acceleration limit at this square of the axis' speed.
   double acceleration_at(double w) const {
     return falls_at(w) ? std::min(acceleration, line_at(w).at(w)) : acceleration;

@@ -20,7 +20,11 @@ constexpr PlanEffort little{.rounds = 3, .attempts = 2};
 
 std::optional<SpeedChange> fastest_to_rest_after(double way, PathAhead& path, const PathState& from,
                                                  const SpeedChange::Request& request) {
-  JerkWindow window({.axes = request.axes, .path = path, .feeds = request.feeds, .most_queued = most_cells_of_stop},
+  JerkWindow window({.axes = request.axes,
+                     .path = path,
+                     .feeds = request.feeds,
+                     .stops = request.stops,
+                     .most_queued = most_cells_of_stop},
                     little);
   window.begin_at(from);
   if (!window.can_rest_after(way)) return std::nullopt;
@@ -39,9 +43,9 @@ std::optional<SpeedChange> fastest_to_rest_after(double way, PathAhead& path, co
 
 }  // namespace
 
-std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const std::vector<LimitedAxis>& axes,
-                                        const FeedFactors& feeds) {
-  const SpeedChange::Request request{.axes = axes, .feeds = feeds, .exit = 0, .planned = true};
+std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const SpeedChange::Request& to_rest) {
+  SpeedChange::Request request = to_rest;
+  request.planned = true;
   std::optional<SpeedChange> soonest;
   const auto try_way = [&](double way) {
     std::optional<SpeedChange> stop = fastest_to_rest_after(way, path, from, request);
@@ -49,7 +53,7 @@ std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, 
     if (!soonest || stop->duration_from(0) < soonest->duration_from(0)) soonest = std::move(stop);
     return true;
   };
-  double high = from.speed / 2 * SpeedChange::shortest_stop(path, from, axes).value();
+  double high = from.speed / 2 * SpeedChange::shortest_stop(path, from, request).value();
   int ways = 1;
   while (!try_way(high) && ways++ < most_ways) high *= longer;
   // A shorter distance takes less time, down to where the limits allow no stop.

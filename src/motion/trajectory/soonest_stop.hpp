@@ -16,7 +16,6 @@ namespace passo {
 
 // Plans the fastest motion to a stop for several distances, and returns the one that takes the least time. Nothing if
 // none was found.
-std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const std::vector<LimitedAxis>& axes,
-                                        const FeedFactors& feeds);
+std::optional<SpeedChange> soonest_stop(PathAhead& path, const PathState& from, const SpeedChange::Request& to_rest);
 
 }  // namespace passo

@@ -96,17 +96,20 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
   return change ? change : plan(path, state, request, Way::in_steps);
 }
 
-std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request, Way way) {
+std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& wanted, Way way) {
   const Segment* first = path.at(state.segment);
   if (first == nullptr) return std::nullopt;
-  const Strength most = strength_at(*first, state, request.axes);
+  const Strength most = strength_at(*first, state, wanted.axes);
   Strength strength = most;
+  const double least = wanted.exit > 0 ? least_left * state.speed : 0;  // of the speed that is left
+  Request request = wanted;
+  if (wanted.exit == 0) request.exit = stop_speed(path, state, wanted);
   SpeedChange change;
   const int most_of_way = way == Way::in_steps ? most_trials_in_steps : most_trials;
   for (int trial = 0; trial < most_of_way; ++trial) {
     const Strength share{.acceleration = strength.acceleration / most.acceleration, .jerk = strength.jerk / most.jerk};
     const bool shaped = way == Way::in_steps ? change.shape_in_steps(path, state, request, strength, share)
-                                             : change.shape(state, request.exit, strength);
+                                             : change.shape(state, request.exit, least, strength);
     if (!shaped) return std::nullopt;
     const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
@@ -115,6 +118,11 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
       worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
       if (worst.force <= 1 && worst.jolt <= 1) {
+        if (wanted.exit == 0) {
+          // The path may have turned.
+          if (change.end_.speed > stop_speed(path, change.end_, wanted) * (1 + rounding_of_limits)) return std::nullopt;
+          change.end_.speed = 0;
+        }
         const double exit = change.end_.speed;
         change.braking_way_ = exit * (exit / most.acceleration + most.acceleration / most.jerk) / 2;
         return change;
@@ -157,22 +165,39 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
   return strength;
 }
 
-Seconds SpeedChange::shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes) {
+// The speed from which the motors may stop at once at that place. The acceleration of no axis with a jerk limit jumps
+// there where the path bends, and no axis exceeds a limit, as at the stops of the path (JerkProfile::stop_cap).
+double SpeedChange::stop_speed(PathAhead& path, const PathState& at, const Request& request) {
+  const Segment* const segment = request.stops != nullptr ? path.at(at.segment) : nullptr;
+  if (segment == nullptr) return 0;
+  const Curve& curve = segment->curve;
+  double cap = request.stops->at_end(curve.tangent(Mm(at.s)));
+  for (const LimitedAxis& axis : request.axes) {
+    const double bend = std::abs(axis.row.of(curve.second_derivative(Mm(at.s))));
+    const double third = std::abs(axis.row.of(curve.third_derivative(Mm(at.s))));
+    if (bend > 0) cap = std::min(cap, (axis.limits_jerk() ? unseen_jump : looked_at) * axis.acceleration / bend);
+    if (third > 0) cap = std::min(cap, std::pow(axis.jerk / third, 2.0 / 3));
+  }
+  return std::sqrt(cap);
+}
+
+Seconds SpeedChange::shortest_stop(PathAhead& path, const PathState& state, const Request& request) {
   const Segment* const segment = path.at(state.segment);
   if (segment == nullptr) return Seconds(0);
-  const double jerk = strength_at(*segment, state, axes).jerk;
+  const double jerk = strength_at(*segment, state, request.axes).jerk;
+  const double lost = std::max(state.speed - stop_speed(path, state, request), 0.0);
   // Where the torque falls with the speed, more torque is available as the motion slows down: the mean of the
   // slownesses counts.
   double slowness = 0;
   for (int i = 0; i < slices_of_speed; ++i) {
-    const PathState slower{.s = state.s, .speed = state.speed * (i + 0.5) / slices_of_speed};
-    slowness += 1 / (slices_of_speed * strength_at(*segment, slower, axes).acceleration);
+    const PathState slower{.s = state.s, .speed = state.speed - lost * (i + 0.5) / slices_of_speed};
+    slowness += 1 / (slices_of_speed * strength_at(*segment, slower, request.axes).acceleration);
   }
   const double strongest_mean = 1 / slowness;
   const double rise = strongest_mean / jerk;
   const double begun = std::clamp(state.acceleration, -strongest_mean, strongest_mean);
   // Like a stop that begins without acceleration, at a higher speed.
-  const double speed = state.speed + begun * begun / (2 * jerk);
+  const double speed = lost + begun * begun / (2 * jerk);
   // Where the acceleration does not rise to the strongest.
   const bool is_slow = speed < strongest_mean * rise;
   return Seconds(std::max((is_slow ? 2 * std::sqrt(speed / jerk) : speed / strongest_mean + rise) + begun / jerk, 0.0));
@@ -190,7 +215,7 @@ Seconds SpeedChange::duration_from(std::size_t piece) const {
 
 // The acceleration goes to -p, stays there and goes back to 0, where p is the strongest braking. Returns false where
 // the speed must fall below 0, or to hardly any although some is wanted.
-bool SpeedChange::shape(const PathState& state, double exit, const Strength& strength) {
+bool SpeedChange::shape(const PathState& state, double exit, double least, const Strength& strength) {
   const double v = state.speed;
   const double a = state.acceleration;
   const double j = strength.jerk;
@@ -199,7 +224,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double eased = v + a * std::abs(a) / (2 * j);
   if (eased <= exit || eased <= 0) {
     end_.speed = eased;
-    if (!(eased > (exit > 0 ? least_left * v : 0))) return false;
+    if (!(eased > least)) return false;
     add(std::abs(a) / j, a > 0 ? -j : j);
     return true;
   }
@@ -259,6 +284,7 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
     const double speed = piece.phase.velocity_at(piece.phase.duration).value();
     for (const LimitedAxis& axis : request.axes) {
+      if (!axis.limits_jerk()) continue;
       const double seen = std::abs(axis.row.of(jump)) * speed * speed;
       worst.most.force = std::max(worst.most.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
     }

@@ -19,6 +19,7 @@
 #include "path_ahead.hpp"
 #include "path_state.hpp"
 #include "phase_chain.hpp"
+#include "rest.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -41,6 +42,8 @@ class SpeedChange {
     double exit = 0;       // the requested speed, or the speed that remains when the acceleration has returned to 0, if
                            // that is lower
     bool planned = false;  // the profile has already checked the change, including kinks of falling limits
+    // For a change to rest: the motors stop at once from the speeds that these allow. Null: from 0 only.
+    const StopSpeeds* stops = nullptr;
   };
   // Plans the change from `state` on. Returns nothing if the limits do not allow one.
   static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request);
@@ -53,14 +56,15 @@ class SpeedChange {
                                             const Request& request);
 
   // Returns how long a stop would take if the path continued straight.
-  static Seconds shortest_stop(PathAhead& path, const PathState& state, const std::vector<LimitedAxis>& axes);
+  static Seconds shortest_stop(PathAhead& path, const PathState& state, const Request& request);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   // Returns the total time of the pieces from that one on.
   Seconds duration_from(std::size_t piece) const;
   // Returns the approximate braking distance from the speed at its end.
   double braking_way() const { return braking_way_; }
-  // Returns the state at its end, without acceleration.
+  // Returns the state at its end, without acceleration. A change to rest ends with speed 0, even if its last phase does
+  // not.
   const PathState& end() const { return end_; }
 
  private:
@@ -69,6 +73,7 @@ class SpeedChange {
     double jerk = 0;
   };
   static Strength strength_at(const Segment& segment, const PathState& state, const std::vector<LimitedAxis>& axes);
+  static double stop_speed(PathAhead& path, const PathState& at, const Request& request);
   struct Rooms;    // remaining limits of the axes at a point
   struct Demand {  // as multiples of the limits
     double speed = 0;
@@ -84,7 +89,7 @@ class SpeedChange {
     void raise(const Look& look);
     void raise_between(const std::array<Look, 3>& looks, std::size_t newest);
   };
-  [[nodiscard]] bool shape(const PathState& state, double exit, const Strength& strength);
+  [[nodiscard]] bool shape(const PathState& state, double exit, double least, const Strength& strength);
   // `share`: the strength as fractions of the limits.
   [[nodiscard]] bool shape_in_steps(PathAhead& path, const PathState& state, const Request& request,
                                     const Strength& strength, const Strength& share);

@@ -114,6 +114,14 @@ TEST(Line, counts_xyz_then_uvw_then_abc) {
   EXPECT_FALSE(Curve::line(Point{}, end).has_length());
 }
 
+TEST(Line, has_length_if_any_axis_moves_by_more_than_rounding) {
+  Point end = point_of(9.7e-16, 0, 0);
+  EXPECT_FALSE(Curve::line(Point{}, end).has_length());
+  end[Axis::a] = 90;
+  EXPECT_TRUE(Curve::line(Point{}, end).has_length());
+  EXPECT_TRUE(Curve::line(Point{}, point_of(0, 2e-12, 0)).has_length());
+}
+
 TEST(Line, without_length_stays_finite) {
   const Curve line = Curve::line(point_of(1, 2, 3), point_of(1, 2, 3));
   EXPECT_EQ(line.tangent(Mm(0)), Point{});

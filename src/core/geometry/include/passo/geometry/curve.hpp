@@ -71,7 +71,9 @@ class Curve {
   const Point& start() const { return start_; }
   const Point& end() const { return end_; }
   Mm length() const { return Mm(length_); }
-  bool has_length() const { return length_ > 0; }
+  // Whether an axis moves by more than 1e-12 mm or degrees. A shorter curve is left by rounding: a motor does not
+  // notice it, and no motion can be planned on it.
+  bool has_length() const;
 
   Point at(Mm s) const;
   // dP/ds. If X, Y or Z moves, its part in X Y Z has length 1 (for a cubic: nearly 1).

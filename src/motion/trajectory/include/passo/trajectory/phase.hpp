@@ -54,6 +54,7 @@ struct PlannedMove {
   void begin_on(const Segment& whole) {
     segment = whole;
     phase_count = 0;
+    stops_at_once = false;
   }
   void add(const Phase& phase) {
     assert(phase_count < most_phases);
@@ -64,6 +65,9 @@ struct PlannedMove {
   // The part of the curve that the move covers: from the start of its first phase,
   Mm from() const { return phase_count > 0 ? phases[0].start : Mm(0); }
   Mm to{0};  // to here
+  // Whether the motors stop at once from the velocities at the end, which their start-stop velocities allow. Set at the
+  // end of a hold; at a stop of the path an action follows, or the next motion.
+  bool stops_at_once = false;
   Seconds duration() const {
     Seconds sum{0};
     for (const Phase& phase : *this) sum += phase.duration;
@@ -74,12 +78,13 @@ struct PlannedMove {
     const Phase& last = phases[phase_count - 1];
     return last.velocity_at(last.duration);
   }
-  // Whether all axes are stopped at the end, except for rounding errors. This tests the axes, not the speed along the
-  // path, because on an extremely short segment a rotary axis may turn by a hundred thousand degrees per millimetre.
+  // Whether the machine is stopped after the move: all axes are, except for rounding errors, or the motors stop at once.
+  // This tests the axes, not the speed along the path, because on an extremely short segment a rotary axis may turn by
+  // a hundred thousand degrees per millimetre.
   bool ends_at_rest() const {
     constexpr double rest_speed =
         1e-6;  // mm/s or degrees/s; at this speed, a step takes half a minute on the finest machine
-    if (phase_count == 0) return true;
+    if (phase_count == 0 || stops_at_once) return true;
     const double speed = exit_velocity().value();
     if (speed >= rest_speed) return false;
     const Point slope = segment.curve.tangent(to);
