@@ -3,11 +3,10 @@
 
 #include "grbl_kit.hpp"
 #include "kit/in_full.hpp"
+#include "kit/path_text.hpp"
 #include "kit/seed.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include "passo/path/path_text.hpp"
 
 namespace passo::test {
 namespace {

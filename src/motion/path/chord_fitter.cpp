@@ -268,12 +268,7 @@ ChordFitter::Fit ChordFitter::best_fit() {
   while (vertices_.size() < most_fitted) {
     const bool begins_long = vertices_.size() == 1 && start > vertices_.back().s;
     const double goal = begins_long ? start : growth * vertices_.back().s;
-    const std::size_t least = std::max<std::size_t>(least_fitted, vertices_.size() + 1);
-    bool goes_on = goes_on_after(first + vertices_.size() - 1);
-    while (goes_on && vertices_.size() < most_fitted && (vertices_.size() < least || vertices_.back().s < goal)) {
-      add_chord(first + vertices_.size());
-      goes_on = goes_on_after(first + vertices_.size() - 1);
-    }
+    bool goes_on = extend_to(std::max<std::size_t>(least_fitted, vertices_.size() + 1), goal);
     const bool is_all = !goes_on;
     if (!goes_on && comes_to_a_corner()) {
       stay_clear_of_the_end();
@@ -294,8 +289,32 @@ ChordFitter::Fit ChordFitter::best_fit() {
     if (leaves_tube && longer.error <= best.error) best = longer;
     if (is_all) break;
   }
+  if (best.count == 0 && overlap_ > 0) best = fit_of_fewest();
   if (best.end_is_free) cut(best);
   return best;
+}
+
+// In the middle of a curve, where it bends too much for one cubic through the least number of chords. A chord that
+// stays there is a corner.
+ChordFitter::Fit ChordFitter::fit_of_fewest() {
+  for (std::uint64_t count = least_fitted - 1; count >= fewest_fitted; --count) {
+    add_chords(1);
+    if (!extend_to(count, 0)) continue;
+    Fit fit = solved(true);
+    if (passes(fit) && fit.deviation <= share_for_few * tolerance_) return fit;
+  }
+  return {};
+}
+
+// Adds chords until there are so many, and as long as that. Returns whether the curve goes on after them.
+bool ChordFitter::extend_to(std::uint64_t count, double length) {
+  const std::uint64_t first = ahead_.first();
+  bool goes_on = goes_on_after(first + vertices_.size() - 1);
+  while (goes_on && vertices_.size() < most_fitted && (vertices_.size() < count || vertices_.back().s < length)) {
+    add_chord(first + vertices_.size());
+    goes_on = goes_on_after(first + vertices_.size() - 1);
+  }
+  return goes_on;
 }
 
 bool ChordFitter::comes_to_a_corner() {

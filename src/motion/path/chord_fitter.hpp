@@ -30,6 +30,7 @@ namespace passo {
 class ChordFitter {
  public:
   static constexpr std::uint64_t least_fitted = 8;
+  static constexpr std::uint64_t fewest_fitted = 4;  // where a curve bends too much for the least number
   static constexpr std::uint64_t most_fitted = 512;
 
   explicit ChordFitter(Source<PathItem>& path) : merger_(path) {}
@@ -95,7 +96,9 @@ class ChordFitter {
   void add_what_is_behind();
   bool comes_to_a_corner();
   void stay_clear_of_the_end();
+  bool extend_to(std::uint64_t count, double length);
   Fit best_fit();
+  Fit fit_of_fewest();
   Fit solved(bool end_is_free) const;
   bool passes(Fit& fit) const;
   template <std::size_t axes>

@@ -52,6 +52,8 @@ void JerkOptimizer::set_up(const Stretch& stretch, std::size_t first, std::size_
   }
   make_passable(stretch, first);
   make_rows(stretch, first, last);
+  rows_.resize(rows_made_);
+  jolt_rows_.resize(jolt_rows_made_);
 }
 
 // A guess may have accelerations that leave no speed in the middle of a long cell beside a short one. Then all of them
@@ -320,7 +322,7 @@ bool JerkOptimizer::raise(const Stretch& stretch, std::size_t first, std::size_t
     const Reach reach = reach_along(target);
     if (!(reach.share > least_share)) break;
     for (std::size_t i = 2; i + 2 < at_.size(); ++i) at_[i] += reach.share * step_[i];
-    if (step % steps_with_rows == steps_with_rows - 1) make_rows_again(stretch, first, last);
+    if (step % steps_with_rows == steps_with_rows - 1) make_rows(stretch, first, last);
     const double product = go(reach);
     if (target <= last_target * unit && reach.share > 0.5) break;
     target = std::max(product * (1 - reach.share * (1 - target_falls)), last_target * unit);

@@ -106,7 +106,6 @@ class JerkOptimizer {
   void set_up(const Stretch& stretch, std::size_t first, std::size_t last, const std::vector<NodeState>& states);
   void make_passable(const Stretch& stretch, std::size_t first);
   void make_rows(const Stretch& stretch, std::size_t first, std::size_t last);
-  void make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last);
   void add_cell(const Stretch& stretch, std::size_t cell);
   void add_rows(const Stretch& stretch, std::size_t cell, bool is_first);
   struct Place {
@@ -126,6 +125,7 @@ class JerkOptimizer {
   };
   Binding binding_in(const Stretch& stretch, std::size_t cell) const;
   void add_row(Row row);
+  void add_tied_row(const Row& row);
   void add_jolt_row(JoltRow row);
   double begin_prices();
   template <class Visit>
@@ -149,8 +149,8 @@ class JerkOptimizer {
   std::vector<Cell> cells_;
   std::vector<Row> rows_;
   std::vector<JoltRow> jolt_rows_;
-  std::vector<Row> old_rows_;
-  std::vector<JoltRow> old_jolt_rows_;
+  std::size_t rows_made_ = 0;
+  std::size_t jolt_rows_made_ = 0;
   Tie tied_first_;
   Tie tied_last_;
   std::size_t cell_ = 0;          // the cell whose rows are being built, counted from the first

@@ -52,12 +52,25 @@ void JerkOptimizer::tie(Four& along) const {
 
 void JerkOptimizer::add_row(Row row) {
   tie(row.along);
-  rows_.push_back(row);
+  add_tied_row(row);
+}
+
+// Slacks and prices of a row stay when it is made again.
+void JerkOptimizer::add_tied_row(const Row& row) {
+  if (rows_made_ == rows_.size()) rows_.emplace_back();
+  Row& to = rows_[rows_made_++];
+  to.along = row.along;
+  to.offset = row.offset;
+  to.limit = row.limit;
 }
 
 void JerkOptimizer::add_jolt_row(JoltRow row) {
   tie(row.along);
-  jolt_rows_.push_back(row);
+  if (jolt_rows_made_ == jolt_rows_.size()) jolt_rows_.emplace_back();
+  JoltRow& to = jolt_rows_[jolt_rows_made_++];
+  to.along = row.along;
+  to.limit = row.limit;
+  to.place = row.place;
 }
 
 // The greatest x at the node of the cell that is no rest. With the jerk the same in all of the cell, a³ = 6 h j², and
@@ -96,7 +109,7 @@ double JerkOptimizer::highest_beside_rest(const Stretch& stretch, std::size_t ce
 void JerkOptimizer::add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins) {
   const std::size_t node = begins ? cell + 1 : cell;
   const double cap = std::min(stretch.node_cap[node], highest_beside_rest(stretch, cell, begins)) / 2;
-  rows_.push_back({.along = begins ? x_out : x_in, .offset = cap, .limit = cap});
+  add_tied_row({.along = begins ? x_out : x_in, .offset = cap, .limit = cap});
 }
 
 void JerkOptimizer::add_straight_rows(const JerkCell& cell, double share, double in_share) {
@@ -230,10 +243,12 @@ void JerkOptimizer::add_rows(const Stretch& stretch, std::size_t cell, bool is_f
   }
 }
 
+// Where a cell bends, its rows have factors that hold for speeds near the present ones, so they are made again during a
+// lift: the same rows in the same order.
 void JerkOptimizer::make_rows(const Stretch& stretch, std::size_t first, std::size_t last) {
   cells_.clear();
-  rows_.clear();
-  jolt_rows_.clear();
+  rows_made_ = 0;
+  jolt_rows_made_ = 0;
   for (std::size_t k = first; k < last; ++k) {
     cell_ = k - first;
     here_ = &at_[2 * cell_];
@@ -258,21 +273,9 @@ void JerkOptimizer::add_cell(const Stretch& stretch, std::size_t cell) {
     own.pace_count = stretch.cells[cell].straight ? 5 : 3;
     for (std::size_t p = 0; p < own.pace_count; ++p) own.paces[p].square = squares[p];
   }
-  own.rows_end = rows_.size();
-  own.jolt_rows_end = jolt_rows_.size();
+  own.rows_end = rows_made_;
+  own.jolt_rows_end = jolt_rows_made_;
   cells_.push_back(own);
-}
-
-// Where a cell bends, its rows have factors that hold for speeds near the present ones. Slacks and prices stay.
-void JerkOptimizer::make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last) {
-  old_rows_.swap(rows_);
-  old_jolt_rows_.swap(jolt_rows_);
-  make_rows(stretch, first, last);
-  const auto take_over = [](const auto& from, auto& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i].sides = from[i].sides;
-  };
-  take_over(old_rows_, rows_);
-  take_over(old_jolt_rows_, jolt_rows_);
 }
 
 }  // namespace passo

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "kit/list_source.hpp"
+#include "kit/path_text.hpp"
 #include <gtest/gtest.h>
-
-#include "passo/path/path_text.hpp"
 
 namespace passo {
 namespace {

@@ -1,6 +1,7 @@
 // Chords on grids near the tolerance, short arcs and tiny circles, smoothed.
 #include <functional>
 
+#include "../chord_fitter.hpp"
 #include "smoothing_kit.hpp"
 
 namespace passo {
@@ -65,6 +66,37 @@ TEST_F(CoarseChords, chords_whose_rounding_nears_the_tolerance_bend_as_the_curve
         EXPECT_LT(most, 1.5 * one.most) << one.name << " " << chord;
       }
     }
+  }
+}
+
+// A turn of a radian in two chords is too much for a cubic through the least number of chords, but not for a shorter
+// one. A chord that stayed would have a corner at each end.
+TEST_F(CoarseChords, where_a_curve_bends_much_its_chords_are_fitted_too) {
+  constexpr double turn = 2 * 3.14159265358979;
+  const auto wave = [](double t) {
+    const double radius = 20 + 2 * std::cos(30 * turn * t);
+    return xyz(radius * std::cos(turn * t), radius * std::sin(turn * t));
+  };
+  // At equal distances: the wave's length is 283 mm.
+  std::vector<Point> places = {wave(0)};
+  for (double t = 0; t < 1; t += 1e-5) {
+    if (apart(wave(t), places.back()) >= 0.05) places.push_back(wave(t));
+  }
+  for (Point& place : places) {
+    for (double& value : place.values) value = std::round(value * 1000) / 1000;
+  }
+  for (std::size_t i = 1; i < places.size(); ++i) add(Curve::line(places[i - 1], places[i]));
+  expect_good(path_, Smoothness::slow_bending);
+  test::ListSource<PathItem> source(path_);
+  ChordFitter fitter(source);
+  PathItem item;
+  double deviation = 0;
+  double s = 0;
+  while (fitter.next(item, deviation)) {
+    const Curve& curve = std::get<Segment>(item).curve;
+    s += curve.length().value();
+    const bool is_inside = s > 1 && s < 280;
+    EXPECT_TRUE(!is_inside || curve.shape() == Curve::Shape::cubic) << s;
   }
 }
 

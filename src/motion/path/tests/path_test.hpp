@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "kit/path_text.hpp"
 #include "kit/stage_test.hpp"
 
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
-#include "passo/path/path_text.hpp"
 
 namespace passo {
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <vector>
 
+#include "kit/path_text.hpp"
 #include "kit/stage_test.hpp"
 #include <gtest/gtest.h>
 
 #include "passo/path/path_smoother.hpp"
-#include "passo/path/path_text.hpp"
 
 namespace passo::test {
 

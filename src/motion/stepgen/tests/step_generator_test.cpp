@@ -3,10 +3,9 @@
 #include <cstdlib>
 #include <random>
 
+#include "kit/board_text.hpp"
 #include "kit/stage_test.hpp"
 #include "kit/step_oracle.hpp"
-
-#include "passo/stepgen/board_text.hpp"
 
 namespace passo {
 namespace {

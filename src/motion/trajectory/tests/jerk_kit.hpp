@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "kit/motion_text.hpp"
 #include "planner_kit.hpp"
 #include "random_program.hpp"
 
-#include "passo/trajectory/motion_text.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo::test {

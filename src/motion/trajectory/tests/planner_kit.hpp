@@ -10,11 +10,11 @@
 
 #include "../cell.hpp"
 #include "../speed_window.hpp"
+#include "kit/motion_text.hpp"
 #include "kit/stage_test.hpp"
 #include <gtest/gtest.h>
 
 #include "passo/path/path_smoother.hpp"
-#include "passo/trajectory/motion_text.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo::test {

@@ -1,14 +1,21 @@
-#include "passo/stepgen/board_text.hpp"
+// Board items as text, one line each. Golden files use this form. Board items are the input of the wire protocol.
+//
+//   segment 200 events, 250.5 ticks, change 0.125, X +1 Y -0.40002 Z 0
+//   outputs spindle clockwise 1000 rpm, flood
+#pragma once
+
+#include <string>
 
 #include <fmt/format.h>
 
 #include "passo/base/counted.hpp"
+#include "passo/stepgen/step_generator.hpp"
 #include "passo/wire/segment_parts.hpp"
 
 namespace passo {
-namespace {
+namespace text {
 
-double in_steps(const BoardSegment& segment, unsigned motor) {
+inline double in_steps(const BoardSegment& segment, unsigned motor) {
   const bool down = (segment.directions >> motor & 1U) != 0;
   const bool flip = (segment.flips >> motor & 1U) != 0;
   const double fraction = segment.increments[motor] / 65536.0;
@@ -17,13 +24,13 @@ double in_steps(const BoardSegment& segment, unsigned motor) {
 }
 
 // Of the axes that the motor turns.
-std::string letters_of(const AxisRow& row) {
+inline std::string letters_of(const AxisRow& row) {
   std::string letters;
   for (const AxisRow::Share& share : row.shares()) letters += letter_of(share.axis);
   return letters;
 }
 
-std::string text_of(const BoardSegment& segment, const StepOptions& options) {
+inline std::string text_of(const BoardSegment& segment, const StepOptions& options) {
   std::string text =
       fmt::format("segment {}, {:.8g} ticks, ", counted(segment.events, "event"), segment.interval / 65536.0);
   text += is_root(segment.form)
@@ -37,7 +44,7 @@ std::string text_of(const BoardSegment& segment, const StepOptions& options) {
   return text + "\n";
 }
 
-std::string text_of(const Action& action) {
+inline std::string text_of(const Action& action) {
   switch (action.kind) {
     case Action::Kind::dwell: return fmt::format("dwelt {:.6g} s\n", action.dwell.value());
     case Action::Kind::program_stop: return "program stop\n";
@@ -64,11 +71,11 @@ std::string text_of(const Action& action) {
   return text + "\n";
 }
 
-}  // namespace
+}  // namespace text
 
-std::string to_text(const BoardItem& item, const StepOptions& options) {
+inline std::string to_text(const BoardItem& item, const StepOptions& options) {
   const auto* segment = std::get_if<BoardSegment>(&item);
-  return segment != nullptr ? text_of(*segment, options) : text_of(std::get<Action>(item));
+  return segment != nullptr ? text::text_of(*segment, options) : text::text_of(std::get<Action>(item));
 }
 
 }  // namespace passo
