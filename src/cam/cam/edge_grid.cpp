@@ -23,6 +23,11 @@ EdgeGrid::EdgeGrid(const DrawnBox& box, Nanometres cell) : box_(box), cell_(stat
   rows_ = static_cast<std::int64_t>(height / cell_) + 1;
 }
 
+EdgeGrid::EdgeGrid(const DrawnBox& box, Nanometres cell, const std::vector<DrawnRing>& rings) : EdgeGrid(box, cell) {
+  for (const DrawnRing& ring : rings) add(ring, 0);
+  finish();
+}
+
 EdgeGrid::Cells EdgeGrid::cells_of(const DrawnBox& box, double reach) const {
   const auto cell = [this, reach](Nanometres from, Nanometres place, double sign, std::int64_t count) {
     const double off = static_cast<double>(place.count - from.count) + sign * reach;
@@ -65,6 +70,10 @@ void EdgeGrid::add(const DrawnRing& ring, std::uint32_t owner) {
   for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
     edges_.push_back({ring[last], ring[i], owner});
   }
+}
+
+void EdgeGrid::add_line(const DrawnRing& line, std::uint32_t owner) {
+  for (std::size_t i = 1; i < line.size(); ++i) edges_.push_back({line[i - 1], line[i], owner});
 }
 
 void EdgeGrid::finish() {

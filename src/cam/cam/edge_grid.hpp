@@ -27,8 +27,11 @@ class EdgeGrid {
   // `cell`: the side of a cell, about the typical search distance. A grid that would exceed 16 million cells gets
   // larger cells.
   EdgeGrid(const DrawnBox& box, Nanometres cell);
+  // The finished index of these rings.
+  EdgeGrid(const DrawnBox& box, Nanometres cell, const std::vector<DrawnRing>& rings);
 
   void add(const DrawnRing& ring, std::uint32_t owner);
+  void add_line(const DrawnRing& line, std::uint32_t owner);  // open
   // Must be called once, after the last add().
   void finish();
 

@@ -12,6 +12,7 @@
 #include "narrow_gaps.hpp"
 #include "ring_groups.hpp"
 #include "voronoi_lines.hpp"
+#include "way_distance.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/mill_program.hpp"
@@ -115,9 +116,7 @@ class LoopCollector {
  public:
   LoopCollector(const Region* within, bool climb) : within_(within), climb_(climb) {
     if (within == nullptr || within->empty()) return;
-    grid_.emplace(*bounds(*within), Nanometres{200'000});
-    for (const DrawnRing& ring : within->rings) grid_->add(ring, 0);
-    grid_->finish();
+    grid_.emplace(*bounds(*within), Nanometres{200'000}, within->rings);
   }
 
   // Whether anything was taken.
@@ -150,9 +149,7 @@ class LoopCollector {
 
   // The pieces lie in any direction: the nearest edge of their ring tells which is right.
   void take_pieces(const std::vector<DrawnRing>& parted) {
-    EdgeGrid rings(*bounds(Region{parted}), {200'000});
-    for (const DrawnRing& ring : parted) rings.add(ring, 0);
-    rings.finish();
+    const EdgeGrid rings(*bounds(Region{parted}), {200'000}, parted);
     for (DrawnRing& piece : ways_within(parted, *within_)) {
       if (piece.size() < 2) continue;
       const DrawnPoint a = piece[0];
@@ -181,10 +178,7 @@ class LoopCollector {
 };
 
 EdgeGrid grid_over(const Region& region) {
-  EdgeGrid grid(bounds(region).value_or(DrawnBox{}), {200'000});
-  for (const DrawnRing& ring : region.rings) grid.add(ring, 0);
-  grid.finish();
-  return grid;
+  return {bounds(region).value_or(DrawnBox{}), {200'000}, region.rings};
 }
 
 // Ground that the cutters so far left, where it joins two islands or all is to be cleared. Where the widest cutter does
@@ -289,11 +283,13 @@ std::vector<CutterWay> IsolationPlanner::ways_in_gaps(const IsolationCutter& fin
   std::ranges::sort(narrow);
   narrow.erase(std::unique(narrow.begin(), narrow.end()), narrow.end());
   std::vector<Region> beside;
-  for (const std::size_t island : narrow) beside.push_back(islands_[island]);
+  std::vector<Region> others;
+  for (std::size_t i = 0; i < islands_.size(); ++i)
+    (std::ranges::binary_search(narrow, i) ? beside : others).push_back(islands_[i]);
   Region within = options_.board;
   if (!within.empty()) within = grown(within, radius, options_.tolerance);
-  std::optional<NarrowGapWays> found =
-      part_narrow_gaps(beside, within, {radius + chord_room, around, options_.allowed_loss, options_.least_trace});
+  std::optional<NarrowGapWays> found = part_narrow_gaps(
+      beside, others, within, {radius + chord_room, around, options_.allowed_loss, options_.least_trace});
   if (!found || found->ways.empty()) return {};
   plan_.kept = islands_;
   for (std::size_t i = 0; i < narrow.size(); ++i) plan_.kept[narrow[i]] = std::move(found->kept[i]);
@@ -330,8 +326,9 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
   if (ways.empty()) return;
 
   const EdgeGrid copper_rim = grid_over(grown(copper_, {off(cutter).count - chord_room.count / 2}, options_.tolerance));
-  // The rims that links must not cross.
-  const EdgeGrid kept_rim = grid_over(grown(gathered(plan_.kept), radius + Nanometres{chord_room.count / 2}));
+  const EdgeGrid stays = grid_over(plan_.kept.empty() ? copper_ : gathered(plan_.kept));
+  constexpr Nanometres link_room{2'500};  // more than the proof allows for, less than the loops keep
+  const Nanometres link_away = Nanometres{(cutter.width.count + 1) / 2} + link_room;
   const EdgeGrid outer_rim = grid_over(outermost);
   const auto may_link = [&](DrawnPoint from, DrawnPoint to) {
     constexpr double longest = 3e6;  // nm; a longer way takes more time than lifting
@@ -339,7 +336,7 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
     const bool is_in_the_open = length > static_cast<double>(cutter.width.count) && !options_.clear;
     if (length > std::max(longest, static_cast<double>(cutter.width.count))) return false;
     if (is_in_the_open && (loops_of(cutter) == 1 || !is_first || outer_rim.is_crossed(from, to))) return false;
-    return from == to || !(copper_rim.is_crossed(from, to) || kept_rim.is_crossed(from, to));
+    return from == to || !(copper_rim.is_crossed(from, to) || is_near(stays, link_away, from, to));
   };
   const ArcFit arcs{.even_chord_nm = static_cast<double>(options_.tolerance.count),
                     .rounded_turn = options_.climb ? -1 : 1};

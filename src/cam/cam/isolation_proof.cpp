@@ -116,10 +116,9 @@ Region left_around(Region face, const Region& milled) {
 class ProvedLayer {
  public:
   explicit ProvedLayer(const Region& copper)
-      : copper_(copper), islands_(parts_of(copper)), rims_(bounds(copper).value_or(DrawnBox{}), {200'000}) {
-    for (const DrawnRing& ring : copper.rings) rims_.add(ring, 0);
-    rims_.finish();
-  }
+      : copper_(copper),
+        islands_(parts_of(copper)),
+        rims_(bounds(copper).value_or(DrawnBox{}), {200'000}, copper.rings) {}
   const std::vector<Region>& islands() const { return islands_; }
 
   // Whether any place is in both. Where no rims meet, a part of one lies in the other as a whole, or not at all.

@@ -80,11 +80,7 @@ std::vector<CopperGap> without_milled(std::vector<CopperGap> gaps, const MillPla
              {std::max(box.most.x, of_way.most.x), std::max(box.most.y, of_way.most.y)}};
     }
     EdgeGrid grid(box, {200'000});
-    // A way is a ring that goes there and back.
-    for (DrawnRing& way : ways) {
-      for (std::size_t i = way.size() - 1; i-- > 1;) way.push_back(way[i]);
-      grid.add(way, 0);
-    }
+    for (const DrawnRing& way : ways) grid.add_line(way, 0);
     grid.finish();
     for (std::size_t i = 0; i < gaps.size(); ++i)
       is_milled[i] = is_milled[i] || grid.nearest(gaps[i].at, static_cast<double>(tool.width.count) / 2).has_value();

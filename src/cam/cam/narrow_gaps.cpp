@@ -5,9 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "edge_grid.hpp"
 #include "medial_axis.hpp"
 #include "ring_groups.hpp"
 #include "voronoi_lines.hpp"
+#include "way_distance.hpp"
 
 namespace passo {
 namespace {
@@ -67,27 +69,31 @@ std::vector<Region> kept_of(const std::vector<Region>& islands, const std::vecto
 
 }  // namespace
 
-std::optional<NarrowGapWays> part_narrow_gaps(const std::vector<Region>& islands, const Region& within,
-                                              const NarrowGapRules& rules) {
+std::optional<NarrowGapWays> part_narrow_gaps(const std::vector<Region>& islands, const std::vector<Region>& others,
+                                              const Region& within, const NarrowGapRules& rules) {
   constexpr double widest_trace = 500'000;  // nm; wider copper gives first
+  constexpr Nanometres cell{200'000};
   const auto least = static_cast<double>(rules.least_trace.count);
   const Region copper = gathered(islands);
-  Region zone = grown(copper, rules.reach + past_the_mouth, fine_gap_chords);
-  if (!within.empty()) zone = common(zone, within);
+  const DrawnBox box = bounds(copper).value_or(DrawnBox{});
+  const EdgeGrid rims(box, cell, copper.rings);
   const std::vector<std::optional<MedialAxis>> middles = middles_of(islands);
   NarrowGapWays found;
   // Each guard takes from copper that the one before it spared.
   for (const TraceGuard& guard :
        {TraceGuard{std::max(widest_trace, least) / 2, least / 2}, TraceGuard{least / 2, least / 2}}) {
     found.kept = kept_of(islands, middles, guard, rules.loss);
-    const Region kept = gathered(found.kept);
-    const std::optional<std::vector<DrawnRing>> lines = voronoi_lines(found.kept, *bounds(copper));
+    std::optional<std::vector<DrawnRing>> lines = voronoi_lines(found.kept, box);
     if (!lines) return std::nullopt;
-    const Region free = subtracted(zone, grown(kept, rules.away, fine_gap_chords));
-    std::vector<DrawnRing> ways = ways_within(*lines, free);
-    std::erase_if(ways, [](const DrawnRing& way) { return way.size() < 2; });
-    zone = subtracted(zone, swept(ways, rules.loss + Nanometres{10'000}));
-    std::ranges::move(ways, std::back_inserter(found.ways));
+    std::vector<DrawnRing> ways = pieces_near(rims, rules.reach + past_the_mouth, *lines);
+    if (!within.empty()) ways = ways_within(ways, within);
+    EdgeGrid milled(box, cell);
+    for (const DrawnRing& way : found.ways) milled.add_line(way, 0);
+    milled.finish();
+    ways = pieces_far_from(milled, rules.loss + Nanometres{10'000}, ways);
+    std::vector<DrawnRing> stays = gathered(found.kept).rings;
+    for (const Region& other : others) stays.insert(stays.end(), other.rings.begin(), other.rings.end());
+    std::ranges::move(pieces_far_from(EdgeGrid(box, cell, stays), rules.away, ways), std::back_inserter(found.ways));
   }
   return found;
 }

@@ -24,9 +24,9 @@ struct NarrowGapWays {
   std::vector<Region> kept = {};     // of each island, what the toolpaths leave
 };
 
-// `islands`: those beside narrow gaps, a single part each. `within`: where the middle of the cutter may be; empty:
-// anywhere. Nothing if the islands spread over more than 1 m.
-std::optional<NarrowGapWays> part_narrow_gaps(const std::vector<Region>& islands, const Region& within,
-                                              const NarrowGapRules& rules);
+// `islands`: those beside narrow gaps, a single part each. `others`: copper from which the toolpaths keep away.
+// `within`: where the middle of the cutter may be; empty: anywhere. Nothing if the islands spread over more than 1 m.
+std::optional<NarrowGapWays> part_narrow_gaps(const std::vector<Region>& islands, const std::vector<Region>& others,
+                                              const Region& within, const NarrowGapRules& rules);
 
 }  // namespace passo

@@ -78,6 +78,45 @@ TEST(NarrowGaps, a_narrow_gap_is_milled_midway_and_both_sides_give) {
   EXPECT_EQ(less.gaps.size(), 1U);
 }
 
+// The way midway between these rounded ends passes the point where the copper that must stay on both sides is as far
+// from it as the cutter's edge, and just there the gap is too narrow.
+TEST(NarrowGaps, a_waist_that_is_too_narrow_is_not_milled) {
+  IsolationOptions options = with({0.2});
+  options.allowed_loss = wide(0.03);
+  const double away = 0.0635;  // half the gap
+  const Region copper = united(swept({{spot(0, 0.1016 + away), spot(0, 1)}}, wide(0.1016)),
+                               swept({{spot(0, -0.1016 - away), spot(0, -1)}}, wide(0.1016)));
+  const auto [plan, proof] = isolated(copper, options);
+  EXPECT_EQ(proof.damage_mm2, 0);
+  EXPECT_LE(proof.deepest, wide(0.031));
+}
+
+TEST(NarrowGaps, random_layouts_with_gaps_near_the_cutter_keep_what_must_stay) {
+  std::mt19937 random(1);
+  const auto between = [&random](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  for (int layout = 0; layout < 60; ++layout) {
+    SCOPED_TRACE(layout);
+    IsolationOptions options = with({between(0.1, 0.3)});
+    options.allowed_loss = wide(between(0.005, 0.06));
+    options.least_trace = wide(between(0.02, 0.2));
+    options.passes = 1 + static_cast<std::uint32_t>(layout) % 3;
+    const double pitch = between(0.3, 1);
+    const double size = std::max(0.06, pitch - to_mm(options.cutters[0].width).value() * between(0.4, 1.15));
+    std::vector<Region> shapes;
+    for (int i = 0; i < 9; ++i) {
+      const DrawnPoint at = spot(pitch * (i % 3), pitch * (i / 3));
+      const DrawnPoint end = spot(pitch * (i % 3) + size / 4, pitch * (i / 3) + between(-0.2, 0.2));
+      shapes.push_back(random() % 2 == 0 ? pad(pitch * (i % 3), pitch * (i / 3), size)
+                                         : swept({{at, end}}, wide(size / 4)));
+    }
+    const auto [plan, proof] = isolated(united(shapes), options);
+    EXPECT_EQ(proof.damage_mm2, 0);
+    EXPECT_TRUE(proof.broken.empty());
+  }
+}
+
 // A trace of 0.12 mm between two pads may lose 0.01 mm on each side, so the pads give the rest.
 TEST(NarrowGaps, a_trace_keeps_its_least_width_and_the_pads_give) {
   IsolationOptions options = with({0.2});
