@@ -276,6 +276,7 @@ struct CamReliefArguments {
   std::string rest_least = "0.05mm";
   std::string rest_feed;  // empty: as `feed`
   std::optional<double> rest_removal;
+  bool pencil = false;            // the last cutter also cuts along inner edges
   std::uint32_t spindle = 12000;  // rpm; 0: no spindle commands
 };
 std::vector<CamOption> cam_options_of(CamReliefArguments& arguments);
