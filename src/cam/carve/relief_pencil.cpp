@@ -49,8 +49,7 @@ void finish_pencil(ReliefPass& pass, const HeightGrid& surface, const NodeLattic
   // The patches of the map hang over a valley between two nodes, so their bottom goes up and down along it. The path
   // does not follow that.
   const double uneven = std::min(surface.pitch_x, surface.pitch_y).value() / 4;
-  const LevelPathFit fit{
-      .tolerance = options.tolerance.value() + uneven, .has_arcs = false, .places_of_cell = 8};
+  const LevelPathFit fit{.tolerance = options.tolerance.value() + uneven, .has_arcs = false, .places_of_cell = 8};
   const ReliefPass::WayEntry entry{.near = gap_of(options, tool.cutter.radius * 2).value(), .is_row = true};
   const auto all = static_cast<double>(lines.size());
   while (!lines.empty()) {
