@@ -67,12 +67,22 @@ std::size_t ReliefPass::ramp_down(const LevelPath& path, double from, double to)
       next = (next + 1) % path.cuts.size();
     }
   } else {
-    std::size_t count = 0;
-    while (count < path.cuts.size() && way < wanted / 2) way += level_length(path.cuts[count++]);
+    std::vector<CarvedCut> there;
+    while (there.size() < path.cuts.size() && way < wanted / 2) {
+      there.push_back(path.cuts[there.size()]);
+      const double length = level_length(there.back());
+      const double rest = wanted / 2 - way;
+      if (there.back().kind == CarvedCut::Kind::line && length > rest) {
+        there.back().to = place_on(there.back(), rest / length);
+        way = wanted / 2;
+      } else {
+        way += length;
+      }
+    }
     const double turns = std::clamp(std::ceil(wanted / 2 / std::max(way, 1e-6)), 1.0, most_turns);
     for (double turn = 0; turn < turns; ++turn) {
-      for (std::size_t i = 0; i < count; ++i) ramp.push_back(path.cuts[i]);
-      for (std::size_t i = count; i-- > 0;) ramp.push_back(backwards(path.cuts[i]));
+      ramp.insert(ramp.end(), there.begin(), there.end());
+      for (std::size_t i = there.size(); i-- > 0;) ramp.push_back(backwards(there[i]));
     }
     way *= 2 * turns;
   }

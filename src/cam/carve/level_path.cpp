@@ -251,12 +251,13 @@ LevelPath fit_level_path(const LevelLine& line, double height, const TipSurface&
 
 namespace {
 
-// The tip's heights along lines, at places half a cell apart; each is that of the way to both its neighbours.
+// The tip's heights along lines, at places that are less than a cell apart; each is that of the way to both its
+// neighbours.
 class WayProfile {
  public:
   WayProfile(const std::vector<CarvedCut>& lines, double least, const TipSurface& surface, const NodeLattice& lattice,
-             bool is_closed) {
-    const double apart = std::min(surface.pitch_x(), surface.pitch_y()) / 2;
+             bool is_closed, double places_of_cell) {
+    const double apart = std::min(surface.pitch_x(), surface.pitch_y()) / places_of_cell;
     std::vector<double> of_way;
     for (const CarvedCut& line : lines) {
       const FlatPlace from = flat(line.from, lattice);
@@ -302,7 +303,7 @@ LevelPath fit_following_path(const LevelLine& line, double least, const TipSurfa
   flat.looks_for_gouges = false;
   const std::vector<CarvedCut> lines = PathFitter(std::move(points), least, surface, lattice, flat).fit();
   if (lines.empty()) return {};
-  const WayProfile profile(lines, least, surface, lattice, line.is_closed);
+  const WayProfile profile(lines, least, surface, lattice, line.is_closed, fit.places_of_cell);
   LevelPath path{.cuts = {}, .is_closed = line.is_closed};
   CarvedPlace at = lines.front().from;
   at.z = carved_height(static_cast<double>(profile.heights().front()));

@@ -20,6 +20,8 @@ struct LevelPathFit {
   // Whether the points lie on the boundary of the free area, so that they must be moved.
   bool is_on_edge = true;
   bool looks_for_gouges = true;
+  // Of a path that follows the surface: how many places of each cell it is measured at.
+  double places_of_cell = 2;
 };
 
 // Consecutive cuts. If the toolpath is closed, the last one ends where the first one begins.
@@ -35,7 +37,7 @@ LevelPath fit_level_path(const LevelLine& line, double height, const TipSurface&
                          const LevelPathFit& fit);
 
 // Fits lines along a toolpath that follows the surface wherever the surface is higher than `least`: nowhere below the
-// surface, and at most `fit.tolerance` above the surface's maximum within half a cell of each point.
+// surface, and at most `fit.tolerance` above its maximum within a part of a cell (`places_of_cell`) of each point.
 LevelPath fit_following_path(const LevelLine& line, double least, const TipSurface& surface, const NodeLattice& lattice,
                              const LevelPathFit& fit);
 

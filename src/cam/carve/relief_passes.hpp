@@ -216,6 +216,9 @@ void finish_spiral(ReliefPass& pass, const HeightGrid& surface, const NodeLattic
 // Finishes steep areas at constant heights, the remaining area in rows.
 void finish_contours(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                      const std::function<void(double)>& progress);
+// Cuts along inner edges with the last cutter.
+void finish_pencil(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
+                   const std::function<void(double)>& progress);
 void finish_rest(ReliefPass& pass, const HeightGrid& surface, const NodeLattice& lattice,
                  const std::function<void(double)>& progress);
 

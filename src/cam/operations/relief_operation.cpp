@@ -171,6 +171,7 @@ std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
        removal,
        "target removal rate of this cutter, mm3/min",
        {.range = any_removal, .matters_to = experts}},
+      {"pencil", &a.pencil, flag, "also cut along inner edges, with the last cutter"},
   };
 }
 

@@ -228,6 +228,7 @@ export const operations = {
   'cam.option.rest-least': 'Rest machining: ignore leftover material below',
   'cam.option.rest-feed': 'Rest machining: feed rate, per minute',
   'cam.option.rest-removal': 'Rest machining: target removal rate, mm³/min',
+  'cam.option.pencil': 'Also cut along inner edges (pencil pass)',
   'cam.option.pen-up': 'Z of the raised pen',
   'cam.option.pen-down': 'Z of the lowered pen',
   'cam.option.servo': 'Pen servo: S words down,up',

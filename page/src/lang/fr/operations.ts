@@ -230,6 +230,7 @@ export const operations: Same<typeof en> = {
   'cam.option.rest-least': 'Reprise : ignorer les restes sous',
   'cam.option.rest-feed': 'Reprise : avance par minute',
   'cam.option.rest-removal': 'Reprise : débit copeaux visé, mm³/min',
+  'cam.option.pencil': 'Repasser le long des arêtes intérieures (crayon)',
   'cam.option.pen-up': 'Z de la plume levée',
   'cam.option.pen-down': 'Z de la plume qui trace',
   'cam.option.servo': 'Servo de la plume : mots S bas,haut',

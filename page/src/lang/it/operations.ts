@@ -230,6 +230,7 @@ export const operations: Same<typeof en> = {
   'cam.option.rest-least': 'Ripresa: ignora residui inferiori a',
   'cam.option.rest-feed': 'Ripresa: avanzamento al minuto',
   'cam.option.rest-removal': 'Ripresa: asportazione desiderata, mm³/min',
+  'cam.option.pencil': 'Ripassa lungo gli spigoli interni (matita)',
   'cam.option.pen-up': 'Z della penna alzata',
   'cam.option.pen-down': 'Z della penna che disegna',
   'cam.option.servo': 'Servo della penna: parole S giù,su',

@@ -230,6 +230,7 @@ export const operations: Same<typeof en> = {
   'cam.option.rest-least': '残料加工：忽略小于此值的残料',
   'cam.option.rest-feed': '残料加工：进给速度，每分钟',
   'cam.option.rest-removal': '残料加工：目标材料去除率，mm³/min',
+  'cam.option.pencil': '清根：沿内棱再走一刀',
   'cam.option.pen-up': '抬笔时的 Z',
   'cam.option.pen-down': '落笔时的 Z',
   'cam.option.servo': '抬笔舵机：S 值（落,抬）',

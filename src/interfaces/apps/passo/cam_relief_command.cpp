@@ -166,6 +166,7 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
                                               arguments.rest_removal, arguments),
                               .least = read.length("--rest-least", arguments.rest_least, least_length, Mm(10))};
   }
+  program.pencil = arguments.pencil;
   program.scallop = read.length("--scallop", arguments.scallop, Mm(0.0001), Mm(10));
   program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
   program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
@@ -210,9 +211,9 @@ bool read_curves(const std::string& path, std::vector<std::vector<ReliefPoint>>&
 
 // A node must not be far apart for what the finest cutter can do.
 Mm pitch_for(const ReliefProgramOptions& program) {
-  const auto of_tool = [](const ReliefTool& tool) {
+  const auto of_tool = [&program](const ReliefTool& tool) {
     const Cutter& cutter = tool.cutter;
-    const Mm fine = cutter.corner.value() > 0 ? cutter.corner / 8 : cutter.radius / 16;
+    const Mm fine = (cutter.corner.value() > 0 ? cutter.corner / 8 : cutter.radius / 16) / (program.pencil ? 2 : 1);
     return tool.step_over.value() > 0 ? std::min(fine, tool.step_over) : fine;
   };
   Mm pitch = of_tool(program.finish);
@@ -424,10 +425,10 @@ std::string summary_of(const ReliefReport& report) {
     std::string more =
         part.arcs > 0 ? fmt::format(", {} of them {}", part.arcs, part.arcs == 1 ? "an arc" : "arcs") : "";
     text += fmt::format(
-        "{}: {}; stepover {:.4g} mm, {}{}, {:.2f} m of feeds, {:.2f} m of rapids, {} at the programmed feeds{}\n",
-        part.what, part.tool, part.step.value(), counted(part.moves, "move"), more, part.cut.value() / 1000,
-        part.rapid.value() / 1000, minutes_words(part.minutes),
-        part.removal > 0 ? fmt::format(", at most {:.0f} mm3/min", part.removal) : "");
+        "{}: {}; {}{}{}, {:.2f} m of feeds, {:.2f} m of rapids, {} at the programmed feeds{}\n", part.what, part.tool,
+        part.step.value() > 0 ? fmt::format("stepover {:.4g} mm, ", part.step.value()) : "",
+        counted(part.moves, "move"), more, part.cut.value() / 1000, part.rapid.value() / 1000,
+        minutes_words(part.minutes), part.removal > 0 ? fmt::format(", at most {:.0f} mm3/min", part.removal) : "");
   }
   return text;
 }

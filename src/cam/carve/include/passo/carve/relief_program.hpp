@@ -100,6 +100,7 @@ struct ReliefProgramOptions {
   ReliefRows rows = {};
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
+  bool pencil = false;   // the last cutter also cuts along inner edges
   Mm scallop{0.02};      // scallop height between two rows on a flat area, if no stepover is given
   Mm tolerance{0.01};    // tolerance of lines, upward only
   Mm clearance{5};       // clearance height
@@ -119,7 +120,7 @@ struct ReliefProgramOptions {
 struct ReliefPart {
   std::string what = {};  // "roughing"
   std::string tool = {};  // description of the cutter
-  Mm step{};              // stepover
+  Mm step{};              // stepover; 0 for a pencil pass
   std::uint64_t moves = 0;
   std::uint64_t arcs = 0;  // number of arcs among the moves
   Mm cut{};                // cutting distance

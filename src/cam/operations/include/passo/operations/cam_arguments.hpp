@@ -325,6 +325,7 @@ struct CamReliefArguments : CamProgramArguments, CamToolArguments {
   std::string rest_least = "0.05mm";
   std::string rest_feed;  // empty: as `feed`
   std::optional<double> rest_removal;
+  bool pencil = false;            // the last cutter also cuts along inner edges
   std::uint32_t spindle = 12000;  // rpm; 0: no spindle commands
   std::string units = "mm";       // unit of the program, and of lengths without a unit: mm or inch
   std::string park = "0,0";

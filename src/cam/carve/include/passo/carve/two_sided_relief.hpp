@@ -1,0 +1,51 @@
+// split_relief: the surfaces of a part that is carved from both sides of a piece of stock, which is as thick as the
+// part.
+//
+// Seen from above, the stock consists of the part, a trench around it, in which the cutters find room, and the frame,
+// which stays. The first side, the top, is cut down to the web: a layer of the stock at the parting height, in the
+// trench and in openings of the part. The second side, the bottom, cuts through the web, except at the tabs, which hold
+// the part in the frame. The parting height is the one that the part's edge crosses at most places: there the web hides
+// nothing of the part.
+//
+// Heights are relative to the top of the stock of each side. Both grids have their node (0, 0) at the lower left of
+// what the side shows: the bottom is a view after the flip.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "passo/carve/height_grid.hpp"
+
+namespace passo {
+
+// `left_to_right` flips about a line parallel to Y, `front_to_back` about one parallel to X.
+enum class StockFlip : std::uint8_t { left_to_right, front_to_back };
+
+struct SplitOptions {
+  StockFlip flip = StockFlip::left_to_right;
+  Mm trench{10};                   // width
+  Mm tab_height{2};                // also the thickness of the web
+  Mm tab_width{6};                 // 0: no tabs, and the web stays
+  std::optional<Mm> parting = {};  // below the top; empty: chosen
+  Mm through{0.1};                 // how far the bottom is cut below the web
+};
+
+struct SplitRelief {
+  HeightGrid top = {};
+  HeightGrid bottom = {};
+  Mm beside_x{};  // distance of the part's edge from node (0, 0): the trench and the frame
+  Mm beside_y{};
+  Mm parting{};  // the middle of the web, below the top
+  std::size_t tabs = 0;
+  // The share of the part's edge that the web does not meet, 0 to 1: it is above or below the web.
+  double hidden = 0;
+  std::vector<bool> part = {};  // for each node of `top`: whether it belongs to the part
+};
+
+// `top`, `bottom`: the part seen from both sides, with as many nodes, and with the height of its lowest point where
+// there is no part. The part must have a height of more than the web.
+SplitRelief split_relief(const HeightGrid& top, const HeightGrid& bottom, const SplitOptions& options);
+
+}  // namespace passo
