@@ -34,6 +34,40 @@ class RealGrbl : public passo::test::CommandLine {
   }
 };
 
+// Grbl's check mode parses each line as in a run, and moves nothing.
+TEST_F(RealGrbl, on_an_emulated_uno_takes_each_line_that_is_written_for_it) {
+  const auto outcome = bash(R"(
+$P/build.sh "$PWD/uno" || exit 77
+E=$(dirname $(dirname $MACHINE))
+passo cam drill $E/boards/timer.drl --tools 0.8,1.0 --mill 1 --peck 0.5 --for grbl -o 1.nc >/dev/null || exit
+passo cam outline $E/boards/timer-Edge_Cuts.gbr --for grbl --units inch --tool 2mm --step 0.5mm -o 2.nc >/dev/null || exit
+passo cam pocket $E/parts/bracket.svg --layer pocket --tool 3 --depth -3 --step 1.5 --for grbl -o 3.nc >/dev/null || exit
+passo cam engrave --text 'Ah! Why?' --font simplex --for grbl -o 4.nc >/dev/null || exit
+passo cam plot $E/parts/bracket.svg --servo 300 --knife 0.5 --for grbl -o 5.nc >/dev/null || exit
+passo cam wire $E/foam/naca2412.dat --chord 100 --axes XY --for grbl -o 6.nc >/dev/null || exit
+passo cam relief $E/reliefs/flower.png --width 6 --depth -2 --pitch 0.5 --for grbl -o 7.nc >/dev/null || exit
+mkfifo commands
+./uno $P/grbl-1.1h-uno.elf "$PWD/tty" --speed 0 <commands >/dev/null &
+trap "kill $!" EXIT
+exec 3>commands
+until [ -e tty ]; do sleep 0.05; done
+exec 4<>tty
+until read -t 20 -u 4 answer && [[ $answer = Grbl* ]]; do :; done
+while read -t 1 -u 4 answer; do :; done
+{ echo '$C'; cat ?.nc; } >all.nc
+while IFS= read -r line; do
+  printf '%s\n' "$line" >&4
+  until read -t 20 -u 4 answer && [[ $answer = ok* || $answer = error* ]]; do :; done
+  [[ $answer = ok* ]] || echo "$line: $answer"
+done <all.nc
+wc -l <all.nc >&2
+)");
+  if (outcome.code == 77) GTEST_SKIP() << "grbl_on_uno does not build here: libsimavr is missing";
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_GT(std::stoi(outcome.err), 300) << outcome.err;
+}
+
 // The switches of X and Y close 2 mm from where the machine starts, that of Z 1 mm. After homing the machine stands a
 // millimetre off them, at -1, and the program makes 3 mm and 2.5 mm of it at 250 steps/mm.
 TEST_F(RealGrbl, on_an_emulated_uno_homes_and_makes_each_step) {

@@ -316,7 +316,7 @@ class ControllerCheck {
       must_rise_ = false;
       return;
     }
-    const bool is_low_rapid = crosses && (motion_ == 0 || is_cycle) && mm(at_[2]) < safety_.lowest_crossing - 1e-6;
+    const bool is_low_rapid = crosses && (motion_ == 0 || is_cycle) && mm(at_[2]) < safety_.lowest_crossing - 1e-4;
     if (is_low_rapid) complain("a rapid across at Z" + std::to_string(at_[2]));
     if (motion_ == 0 && crosses && find('Z') != nullptr && to[2] < at_[2]) complain("a rapid across and down");
     const bool cuts = motion_ != 0 && mm(to[2]) < 0;
