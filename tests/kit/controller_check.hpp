@@ -93,7 +93,7 @@ struct SafetyRules {
   bool has_z = true;  // Z moves the tool
   bool has_spindle = true;
   double lowest_crossing = 0.5;  // Z below which no rapid may move in X or Y, mm
-  double change_height = 30;     // mm
+  double change_height = 20;     // mm
   bool may_be_inch = false;
 };
 

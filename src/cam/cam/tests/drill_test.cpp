@@ -102,8 +102,8 @@ TEST(DrillProgram, one_tool_has_no_change_and_begins_and_ends_high) {
           {.name = "b(1).ngc", .files = {"board.drl"}, .clearance = mm(2), .depth = mm(-3), .spindle = {}, .park = {}}),
       "(b_1_.ngc: holes, by passo cam drill)\n(from board.drl)\n(tool 1: drill 0.8 mm, 2 holes)\n"
       "(X0 Y0 is the drawing's zero, Z0 the face of the board)\nG17 G21 G40 G80 G90 G94\n\n"
-      "(tool 1: drill 0.8 mm, 2 holes)\nG0 Z30\nG0 X10 Y0\nG0 Z2\nF100\nG98 G81 X10 Y0 Z-3 R0.5\nX20 Y0\nG80\n"
-      "G0 Z30\nG0 X0 Y0\nM2\n");
+      "(tool 1: drill 0.8 mm, 2 holes)\nG0 Z20\nG0 X10 Y0\nG0 Z2\nF100\nG98 G81 X10 Y0 Z-3 R0.5\nX20 Y0\nG80\n"
+      "G0 Z20\nG0 X0 Y0\nM2\n");
 }
 
 TEST(DrillProgram, the_drill_stays_low_between_near_holes_and_rises_for_the_way_to_a_far_one) {

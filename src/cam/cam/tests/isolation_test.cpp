@@ -309,10 +309,10 @@ TEST(MillProgram, goes_down_along_and_up_and_ends_at_rest) {
                         {{{spot(1, 2), 0, wide(-0.1)}, {spot(3, 2), 1, wide(-0.1)}, {spot(5, 2), 0, wide(-0.1)}}}});
   const std::string program =
       write_mill_program(plan, {.name = "front.ngc", .command = "passo cam isolate", .spindle = 10'000});
-  EXPECT_THAT(program, testing::HasSubstr("G17 G21 G40 G80 G90 G94\n\nG0 Z30\nM3 S10000\n"));
+  EXPECT_THAT(program, testing::HasSubstr("G17 G21 G40 G80 G90 G94\n\nG0 Z20\nM3 S10000\n"));
   EXPECT_THAT(program, testing::HasSubstr("M3 S10000\n"));
   EXPECT_THAT(program, testing::HasSubstr("G0 X1 Y2\nG0 Z0.5\nF60\nG1 Z-0.1\nF200\nG1 X3 Y2\nG3 X5 Y2 I1 J0\nG0 Z2\n"));
-  EXPECT_THAT(program, testing::EndsWith("G0 Z2\nG0 Z30\nM5\nG0 X0 Y0\nM2\n"));
+  EXPECT_THAT(program, testing::EndsWith("G0 Z2\nG0 Z20\nM5\nG0 X0 Y0\nM2\n"));
 }
 
 TEST(Mirror, turns_a_board_over_about_a_line) {

@@ -7,7 +7,7 @@ namespace passo {
 
 struct SafeChange {
   // Z of the first and the last rapid, and of tool changes. A clearance height above it takes its place.
-  Nanometres height{30'000'000};
+  Nanometres height{20'000'000};
   double spindle_seconds = 2;  // dwell after M3
 };
 

@@ -85,7 +85,7 @@ struct ReliefArea {
 
 // Where the program starts, changes tools and ends, and its spindle.
 struct ReliefChange {
-  Mm height{30};  // Z of the first and the last rapid, and of tool changes; at least the clearance height
+  Mm height{20};  // Z of the first and the last rapid, and of tool changes; at least the clearance height
   ReliefPoint park = {};
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
   double spindle_seconds = 2;                 // dwell after M3

@@ -19,7 +19,7 @@ struct CamProgramArguments {
   std::string start_text;            // files with lines of the operator; empty: none
   std::string tool_change_text;      // replaces the words that call a tool
   std::string end_text;
-  std::string change_height = "30mm";  // Z at the start, at tool changes and at the end
+  std::string change_height = "20mm";  // Z at the start, at tool changes and at the end
   double spindle_delay = 2;            // seconds
 };
 
