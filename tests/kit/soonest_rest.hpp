@@ -1,11 +1,11 @@
-// The soonest rest that a search finds on the path, within the limits of all axes together: the machine could come to rest
-// in that time. test::least_rest_after() is below the least possible time, this is above it. Shares no code with the
-// planner.
+// The soonest rest that a search finds on the path, within the limits of all axes together: the machine could come to
+// rest in that time. test::least_rest_after() is below the least possible time, this is above it. Shares no code with
+// the planner.
 //
 // The search goes by even steps of time. In each step the acceleration along the path changes evenly, to one of a few
-// values between the least and the greatest that the limits allow. Of the motions that are at nearly the same place with
-// nearly the same speed and acceleration, one goes on, and of all those the ones that look soonest at rest. A motion is
-// at rest after an even rise of its acceleration to 0.
+// values between the least and the greatest that the limits allow. Of the motions that are at nearly the same place
+// with nearly the same speed and acceleration, one goes on, and of all those the ones that look soonest at rest. A
+// motion is at rest after an even rise of its acceleration to 0.
 #pragma once
 
 #include <algorithm>
@@ -93,9 +93,9 @@ class SoonestRest {
 
  private:
   static constexpr int steps = 120;
-  // Times the limits of accelerations and jerks: the motion before may use up to 0.999 of them, and needs some room. Where
-  // it uses them fully, the time to rest depends on them a lot: with 1.01 here, rests are sooner by up to 1.17 times, and
-  // with 1.03 by 1.37 times (program 9300000).
+  // Times the limits of accelerations and jerks: the motion before may use up to 0.999 of them, and needs some room.
+  // Where it uses them fully, the time to rest depends on them a lot: with 1.01 here, rests are sooner by up to 1.17
+  // times, and with 1.03 by 1.37 times (program 9300000).
   static constexpr double raised = 1.001;
   static constexpr std::size_t most_states = 1500;
   static constexpr std::array shares = {0.0, 0.1, 0.3, 0.6, 1.0};
@@ -205,7 +205,8 @@ class SoonestRest {
     const double strength = std::max(-accelerations(shape, 0).low, 1e-9);
     const double jerk = std::min(std::max(jerks(shape, 0, 0).high, 1e-9), 1e12);
     const double eased = place.speed + place.acceleration * std::abs(place.acceleration) / (2 * jerk);
-    const double v = std::max(eased, 0.0) + (place.acceleration < 0 ? place.acceleration * place.acceleration / jerk : 0);
+    const double v =
+        std::max(eased, 0.0) + (place.acceleration < 0 ? place.acceleration * place.acceleration / jerk : 0);
     const double whole = v * jerk > strength * strength ? v / strength + strength / jerk : 2 * std::sqrt(v / jerk);
     return whole + place.acceleration / jerk;
   }

@@ -42,11 +42,11 @@ struct Halt {
   bool is_tail = false;  // the board plays what it holds
   double asked = 0;
   double from = 0;
-  double rested = 0;                // the drive says so: no step came from then on
-  std::vector<double> speeds = {};  // of each axis: the highest from `asked` to `from`
-  test::LeastRest least = {};       // from `from` to rest
-  test::LaidPath::Place place = {}; // at `from`
-  double sooner = 0;                // a rest that the search found, in less time than the law allows; 0: none
+  double rested = 0;                 // the drive says so: no step came from then on
+  std::vector<double> speeds = {};   // of each axis: the highest from `asked` to `from`
+  test::LeastRest least = {};        // from `from` to rest
+  test::LaidPath::Place place = {};  // at `from`
+  double sooner = 0;                 // a rest that the search found, in less time than the law allows; 0: none
 };
 
 // How fast the axes were in the motion given last.
@@ -300,10 +300,9 @@ std::string rows_of(std::uint64_t number, const test::RandomJob& job, const Halt
   std::string rows;
   for (const Halt& halt : run.halts) {
     if (halt.least.time == 0) continue;  // a lost line
-    rows +=
-        fmt::format("halt\t{}\t{}\t{}\t{:.6f}\t{:.6f}\t{:.6f}\t{}\t{:.6f}\n", number, test::mixture_of(job.machine),
-                    halt.what, halt.from, halt.rested - halt.from, halt.least.time,
-                    halt.least.is_on_line ? "line" : "bend", halt.sooner);
+    rows += fmt::format("halt\t{}\t{}\t{}\t{:.6f}\t{:.6f}\t{:.6f}\t{}\t{:.6f}\n", number, test::mixture_of(job.machine),
+                        halt.what, halt.from, halt.rested - halt.from, halt.least.time,
+                        halt.least.is_on_line ? "line" : "bend", halt.sooner);
   }
   return rows + fmt::format("acts\t{}\t{}\t{}\t{}\n", number, test::mixture_of(job.machine), tally.instants(),
                             fmt::join(run.faults, "; "));

@@ -136,7 +136,8 @@ void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   bool jumps = false;
   for (std::size_t i = 0; i < before_.size(); ++i) {
     const Motion motion = motion_of(slopes[i], start);
-    jumps = jumps || std::abs(motion.velocity - before_[i].velocity) > velocity_rounding * proof_.axes[i].velocity.limit;
+    jumps =
+        jumps || std::abs(motion.velocity - before_[i].velocity) > velocity_rounding * proof_.axes[i].velocity.limit;
     meet(i, motion, rests);
     stopped_[i] = 0;
   }

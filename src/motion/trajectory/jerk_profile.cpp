@@ -182,8 +182,8 @@ double JerkProfile::most_at_end() const {
       {ends_.end_squared, planned_velocity * planned_velocity * velocity, stop_cap(cells_.size() - 1, false)});
 }
 
-// The greatest x with which a motion may begin or end at a stop without acceleration along the path: the acceleration of
-// no axis with a jerk limit jumps there where the path bends, and no axis exceeds a limit.
+// The greatest x with which a motion may begin or end at a stop without acceleration along the path: the acceleration
+// of no axis with a jerk limit jumps there where the path bends, and no axis exceeds a limit.
 double JerkProfile::stop_cap(std::size_t cell, bool begins) const {
   double cap = infinity;
   const AxisShape* shape = shapes(cell);

@@ -31,8 +31,8 @@ class SpeedLaw {
   [[nodiscard]] virtual bool go_on(PlannedMove& move) = 0;
   // Returns the next move of the shortest stop. Returns false when stopped.
   [[nodiscard]] virtual bool brake(PlannedMove& move) = 0;
-  // Returns a stop from here, without changing the law's state; if gentle, all moves that brake() would return, and then
-  // those from the start-stop velocities down to 0.
+  // Returns a stop from here, without changing the law's state; if gentle, all moves that brake() would return, and
+  // then those from the start-stop velocities down to 0.
   virtual void braking_plan(Planner::Braking how, std::vector<PlannedMove>& plan) = 0;
 };
 

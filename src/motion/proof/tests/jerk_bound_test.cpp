@@ -105,6 +105,16 @@ TEST(JerkBound, knows_that_an_arc_is_not_entered_at_speed) {
   EXPECT_LT(bound_along({before, arc, after}), 2 * from_rest_to_rest(8) + 1);
 }
 
+// At a stop in a bend no axis has an acceleration, so the start-stop velocities are of little use.
+TEST(JerkBound, of_an_arc_allows_hardly_any_speed_at_its_stops) {
+  const double side = std::sqrt(2);
+  const Curve arc = Curve::arc(xyz(side, -side), xyz(side, side), Axis::x, Axis::y, 0, 0, std::numbers::pi / 2);
+  std::vector<ProvenAxis> starting = both_limited;
+  for (ProvenAxis& axis : starting) axis.start_stop = MmPerSecond(20);
+  EXPECT_GT(bound_along({arc}, starting), 0.95 * bound_along({arc}));
+  EXPECT_LE(bound_along({arc}, starting), bound_along({arc}));
+}
+
 // A path whose bend grows evenly along the way, k s, and falls again: |d(k s v³)/ds| is at most the jerk along x and y.
 TEST(JerkBound, knows_how_fast_a_bend_may_grow) {
   const double growth = 400;

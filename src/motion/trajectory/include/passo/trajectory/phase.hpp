@@ -78,9 +78,9 @@ struct PlannedMove {
     const Phase& last = phases[phase_count - 1];
     return last.velocity_at(last.duration);
   }
-  // Whether the machine is stopped after the move: all axes are, except for rounding errors, or the motors stop at once.
-  // This tests the axes, not the speed along the path, because on an extremely short segment a rotary axis may turn by
-  // a hundred thousand degrees per millimetre.
+  // Whether the machine is stopped after the move: all axes are, except for rounding errors, or the motors stop at
+  // once. This tests the axes, not the speed along the path, because on an extremely short segment a rotary axis may
+  // turn by a hundred thousand degrees per millimetre.
   bool ends_at_rest() const {
     constexpr double rest_speed =
         1e-6;  // mm/s or degrees/s; at this speed, a step takes half a minute on the finest machine
