@@ -26,9 +26,7 @@ constexpr double cluster_share = 0.5;
 constexpr double cluster_tube = 0.5;
 
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
-// Found by a search for the least time of stairs and polygons of six angles with legs of 5 to 300 tolerances, of random
-// walks and of reliefs and chips, with a fast and with a slow feed.
-constexpr std::array knots_for_swinging = {1.0, 1.57, 2.7, 3.9, 6.6};
+constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
 // For legs that have no room for the first of those. Found by a search for the least time of stairs and polygons with
 // legs of five to ten tolerances.
 constexpr std::array knots_for_short_legs = {0.79, 1.29, 1.6};
@@ -47,6 +45,10 @@ constexpr double straight_enough = 0.1;
 constexpr double arc_to_swing_on = 8;
 // Knots for swinging are too far apart if none has room and the nodes are this share of a width apart.
 constexpr double too_far = 0.7;
+// How soon the weight of the bend falls, for no reversal; how it depends on the reversal; and the most. By trial.
+constexpr double weight_fall = 1.2;
+constexpr double weight_fall_less = 2.2;
+constexpr double most_weight_fall = 0.9;
 constexpr std::array knots_for_slow_bending = {0.48, 1.0, 1.55, 2.3};
 // Knots and weights of corners that swing with limits of jerk: by search for the least time of right angles, zigzags,
 // polygons, random walks, reliefs and chips. The weights even out the jerk of the swings.
@@ -138,7 +140,7 @@ const KnotPlacer::Spacing KnotPlacer::swinging_twice =
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
 const KnotPlacer::Spacing KnotPlacer::on_short_legs = {.corner_width = 4, .knots = knots_for_short_legs};
 const KnotPlacer::Spacing KnotPlacer::swinging = {
-    .corner_width = 6.5, .knots = knots_for_swinging, .closer = &on_short_legs};
+    .corner_width = 7, .knots = knots_for_swinging, .closer = &on_short_legs};
 
 KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
     : reader_(reader), bends_slowly_(smoothness == Smoothness::slow_bending) {}
@@ -238,6 +240,7 @@ bool KnotPlacer::find_node(Node& node) {
     node.s = (piece(first).end() + piece(cluster.last).end()) / 2;
     node.width = width_of(cluster);
     node.spacing = &spacing_of(cluster);
+    node.weight_fall = weight_fall_of(cluster);
     node.turn = turn_of(cluster);
   }
   node.before = first;
@@ -414,14 +417,35 @@ double KnotPlacer::rate_at(const Node& node, const Places& places, std::size_t k
   return (1 + quickening * distance(knot)) / (1 + quickening * distance(knots - at_rate_of_s));
 }
 
+// Least bending alone bends most in the middle of a node, because there the spline is pushed in. The speed at which a
+// gentle corner can be passed depends on the largest bend, so that even bending is better: the weight falls with the
+// distance. The more an axis goes back, the more the motion slows down toward the corner, and may bend more there.
+double KnotPlacer::weight_fall_of(const Cluster& cluster) const {
+  if (&spacing_of(cluster) != &swinging) return 0;
+  const double back = reversal(piece(cluster.first), piece(cluster.last + 1));
+  return std::clamp(weight_fall * (1 - weight_fall_less * back), 0.0, most_weight_fall);
+}
+
+double KnotPlacer::weight_at(double s) const {
+  double most = 0;
+  for (const Node* const node : {&nodes_[1], &nodes_[2]}) {
+    if (node->width > 0) most = std::max(most, 1 / (1 + node->weight_fall * std::abs(s - node->s) / node->width));
+  }
+  return most > 0 ? most : 1;
+}
+
 void KnotPlacer::add_knot(double s, double rate, double change_weight) {
   while (s >= piece(knot_piece_).end() && reader_.has(knot_piece_ + 1)) ++knot_piece_;
   in_stretch_ = true;
   const Piece& at = piece(knot_piece_);
   const double along = s >= at.end() ? at.length : std::min(s - at.start, at.length);
-  steps_.push_back(
-      {.mark = Mark::knot,
-       .knot = {.s = s, .piece = knot_piece_, .along = along, .rate = rate, .change_weight = change_weight}});
+  steps_.push_back({.mark = Mark::knot,
+                    .knot = {.s = s,
+                             .piece = knot_piece_,
+                             .along = along,
+                             .rate = rate,
+                             .weight = weight_at(s),
+                             .change_weight = change_weight}});
 }
 
 }  // namespace passo

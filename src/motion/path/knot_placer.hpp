@@ -35,6 +35,7 @@ struct Knot {
   std::uint64_t piece = 0;
   double along = 0;          // s in the piece
   double rate = 1;           // ds/dt, where t is the spline's parameter; 1 next to exact pieces
+  double weight = 1;         // weight of the bend here
   double change_weight = 1;  // weight of the change of the bend, in the span after the knot
 };
 
@@ -103,6 +104,7 @@ class KnotPlacer {
     std::uint64_t before = 0;
     std::uint64_t after = 0;  // the pieces around the node
     const Spacing* spacing = &inside;
+    double weight_fall = 0;  // decay of the weight of the bend with the distance, per width
   };
   const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
   // The junctions after the pieces `first` to `last`.
@@ -139,6 +141,8 @@ class KnotPlacer {
   const Spacing& spacing_of(const Cluster& cluster) const;
   static bool has_room_to_swing(const Piece& piece, const Point& bend, double width);
   static double reversal(const Piece& before, const Piece& after);
+  double weight_fall_of(const Cluster& cluster) const;
+  double weight_at(double s) const;
   static double rate_at(const Node& node, const Places& places, std::size_t knot);
 
   RunReader& reader_;

@@ -200,7 +200,7 @@ void TubeSpline::find_steps(std::int64_t k) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t knot = k - 1 + static_cast<std::int64_t>(i);
-    const double weight = (at(knot - 1).pace.width + at(knot).pace.width) / 2;
+    const double weight = at(knot).knot.weight * (at(knot - 1).pace.width + at(knot).pace.width) / 2;
     factors.off[i] = at(knot).value[2 - i];
     factors.bend[i] = at(knot).bend[2 - i];
     factors.pull[i] = weight * factors.bend[i];
