@@ -170,6 +170,26 @@ template <std::size_t axes>
   take_step<axes>(at, step, false);
 }
 
+// A step of Newton's method, for each axis.
+template <std::size_t axes>
+[[gnu::flatten]] void Relaxation::relax_highest_bending(std::int64_t k) {
+  const std::size_t at = slot(k);
+  const Factors& factors = factors_[at];
+  std::array<double, axes> step;
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double* const bend = &axes_[i].bend[at - 1];
+    double slope = 0;
+    double change = 0;
+    for (std::size_t knot = 0; knot < 3; ++knot) {
+      const double weight = factors.pull[knot] * bend[knot] * bend[knot];
+      slope += weight * bend[knot];
+      change += weight * factors.bend[knot];
+    }
+    step[i] = change > 0 ? -slope / (3 * change) : 0;
+  }
+  take_step<axes>(at, step, false);
+}
+
 template <std::size_t axes>
 [[gnu::flatten]] void Relaxation::relax_change(std::int64_t k, bool slides) {
   const std::size_t at = slot(k);
@@ -184,6 +204,8 @@ template <std::size_t axes>
 
 template void Relaxation::relax_bending<3>(std::int64_t k);
 template void Relaxation::relax_bending<axis_count>(std::int64_t k);
+template void Relaxation::relax_highest_bending<3>(std::int64_t k);
+template void Relaxation::relax_highest_bending<axis_count>(std::int64_t k);
 template void Relaxation::relax_change<3>(std::int64_t k, bool slides);
 template void Relaxation::relax_change<axis_count>(std::int64_t k, bool slides);
 

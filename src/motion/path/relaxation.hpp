@@ -51,6 +51,9 @@ class Relaxation {
   // Makes a step of control point k. `axes`: the number of moving axes, from the first on. The others must not move.
   template <std::size_t axes>
   void relax_bending(std::int64_t k);
+  // The same for the least sum of the fourth powers of each axis' p''.
+  template <std::size_t axes>
+  void relax_highest_bending(std::int64_t k);
   // `slides`: a step that the tube stops slides along the tube, which takes longer.
   template <std::size_t axes>
   void relax_change(std::int64_t k, bool slides);

@@ -67,10 +67,10 @@ void TubeSpline::close() {
   while (controls_ <= knots_) advance();
   // Nothing more comes: each sweep and each check goes on to the end.
   const std::int64_t begun = controls_ - 1 - reach_of_control;
-  for (int sweep = 0; sweep < sweeps_; ++sweep) {
+  for (int sweep = 0; sweep < sweeps_.all; ++sweep) {
     for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 2); k <= knots_ - 3; ++k) relax(k, sweep);
   }
-  const std::int64_t swept = begun - lag * sweeps_ - 1;
+  const std::int64_t swept = begun - lag * sweeps_.all - 1;
   for (int round = 0; round < checks; ++round) {
     for (std::int64_t k = std::max<std::int64_t>(swept - lag * round + 1, 0); k <= knots_ - 2; ++k) check(k);
   }
@@ -87,15 +87,15 @@ void TubeSpline::advance() {
   ++controls_;
   if (is_free(ready)) find_steps(ready);
   std::int64_t k = ready;
-  for (int sweep = 0; sweep < sweeps_ && k >= 2; ++sweep, k -= lag) {
+  for (int sweep = 0; sweep < sweeps_.all && k >= 2; ++sweep, k -= lag) {
     if (is_free(k)) relax(k, sweep);
   }
-  k = ready - lag * sweeps_ - 1;
+  k = ready - lag * sweeps_.all - 1;
   for (int round = 0; round < checks && k >= 0; ++round, k -= lag) check(k);
 }
 
 bool TubeSpline::next(Span& span) {
-  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps_ - 1 - lag * (checks - 1);
+  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps_.all - 1 - lag * (checks - 1);
   const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag - 1;
   if (taken_ > final) return false;
   span.from = end_at(taken_);
@@ -207,7 +207,7 @@ void TubeSpline::find_steps(std::int64_t k) {
     sum += factors.pull[i] * factors.bend[i];
   }
   for (double& pull : factors.pull) pull /= sum;
-  if (sweeps_ > bending_sweeps) find_change_pull(k, factors);
+  if (bends_slowly_) find_change_pull(k, factors);
 
   const auto part = [&](std::size_t i, double square) { return factors.off[i] / 2 - factors.bend[i] * square / 16; };
   for (std::size_t i = 0; i < 4; ++i) {
@@ -302,11 +302,14 @@ void TubeSpline::measure_middle(std::int64_t k) {
 }
 
 void TubeSpline::relax(std::int64_t k, int sweep) {
-  if (sweep >= bending_sweeps) {
-    const bool slides = (sweep - bending_sweeps) % slides_each == slides_each - 1;
+  const bool is_on_curve = !bends_slowly_ && piece(at(k).knot.piece).is_fitted;
+  if (sweep < sweeps_.first || is_on_curve) {
+    wide_ ? relaxation_.relax_bending<axis_count>(k) : relaxation_.relax_bending<3>(k);
+  } else if (bends_slowly_) {
+    const bool slides = (sweep - sweeps_.first) % slides_each == slides_each - 1;
     wide_ ? relaxation_.relax_change<axis_count>(k, slides) : relaxation_.relax_change<3>(k, slides);
   } else {
-    wide_ ? relaxation_.relax_bending<axis_count>(k) : relaxation_.relax_bending<3>(k);
+    wide_ ? relaxation_.relax_highest_bending<axis_count>(k) : relaxation_.relax_highest_bending<3>(k);
   }
 }
 

@@ -7,11 +7,15 @@
 //     p   = value[0] C[k-1] + value[1] C[k] + value[2] C[k+1],   and likewise p' (slope) and p'' (bend).
 //
 // The first and the last three control points are those of the path's own Taylor polynomial (blossoms), so position,
-// tangent and second derivative are continuous with the adjacent exact pieces. 12 sweeps move the other control points,
-// one after the other, to the minimum of the sum of |p''|² times the knots' weight and distance (a Gauss-Seidel step).
-// A control point moves only as far as the deviation from the path stays within the tube, at the knots and in the
-// middles between them. For slow bending, 9 more sweeps do the same for |p'''|². Every third of these sweeps slides
-// along the tube where the tube stops a control point.
+// tangent and second derivative are continuous with the adjacent exact pieces. Sweeps move the other control points,
+// one after the other, to the minimum of a sum over the knots (a Gauss-Seidel step). A control point moves only as far
+// as the deviation from the path stays within the tube, at the knots and in the middles between them.
+//
+//   least bending:   6 sweeps for |p''|² times the knots' weight and distance, then 4 for the fourth power of each
+//   axis'
+//                   p'' instead of |p''|²
+//   slow bending:   12 sweeps for |p''|², then 9 for |p'''|². Every third of these slides along the tube where the tube
+//                   stops a control point.
 //
 // Each sweep runs four control points behind the previous sweep, because nearer control points would influence each
 // other. So the result is the same as that of sweeps over the whole section. Only a window of `window` knots is kept,
@@ -33,15 +37,20 @@ namespace passo {
 
 class TubeSpline {
  public:
-  static constexpr int bending_sweeps = 12;
-  static constexpr int change_sweeps = 9;
-  static constexpr int slides_each = 3;        // every third of these sweeps slides
+  struct Sweeps {
+    int first = 0;  // for |p''|²
+    int all = 0;
+  };
+  static constexpr Sweeps least_bending_sweeps{.first = 6, .all = 10};
+  static constexpr Sweeps slow_bending_sweeps{.first = 12, .all = 21};
+  static constexpr int slides_each = 3;        // every third of the sweeps for |p'''|² slides
   static constexpr int checks = 12;            // rounds: correcting a span pushes its neighbours outwards
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
   TubeSpline(const RunReader& reader, Smoothness smoothness)
       : reader_(reader),
-        sweeps_(smoothness == Smoothness::slow_bending ? bending_sweeps + change_sweeps : bending_sweeps) {}
+        bends_slowly_(smoothness == Smoothness::slow_bending),
+        sweeps_(bends_slowly_ ? slow_bending_sweeps : least_bending_sweeps) {}
 
   // Adds the knots of a section, at least four, and then its end. After the end, every span must be returned before
   // more knots are added.
@@ -140,7 +149,8 @@ class TubeSpline {
   End end_at(std::int64_t k) const;
 
   const RunReader& reader_;
-  const int sweeps_;
+  const bool bends_slowly_;
+  const Sweeps sweeps_;
   std::array<Site, window> sites_;
   Relaxation relaxation_;
   std::int64_t knots_ = 0;
