@@ -26,8 +26,8 @@ class Tools : public passo::test::CommandLine {
   }
   std::vector<std::string> warnings_of(const std::string& arguments) const {
     std::vector<std::string> codes;
-    for (const json& one : json_of(arguments + " --json -o " + path("part.ngc"))["warnings"])
-      codes.push_back(one["code"]);
+    const json made = json_of(arguments + " --json -o " + path("part.ngc"));
+    for (const json& one : made.at("warnings")) codes.push_back(one["code"]);
     return codes;
   }
   const std::string pocket = "cam pocket " + bracket_drawing + " --layer pocket --tool-table " + tool_library;
@@ -80,7 +80,8 @@ TEST_F(Tools, of_a_library_give_a_pocket_its_feeds_and_are_named_in_the_program)
   EXPECT_THAT(program, HasSubstr("\nM3 S18000\n"));
   const json feeds = json_of("tools feeds " + tool_library + " -t 6 --material hdpe --json");
   EXPECT_THAT(program, HasSubstr("F" + std::to_string(feeds["feed_mm_min"].get<int>()) + "\n"));
-  const Outcome cut = passo("simulate " + path("part.ngc") + " --tool-table " + tool_library + " --tool flat:3 --cell 0.2");
+  const Outcome cut =
+      passo("simulate " + path("part.ngc") + " --tool-table " + tool_library + " --tool flat:3 --cell 0.2");
   EXPECT_EQ(cut.code, 0) << cut.err;
 }
 
@@ -103,8 +104,8 @@ TEST_F(Tools, warn_about_their_use_with_advice_that_helps) {
 }
 
 TEST_F(Tools, that_cannot_plunge_get_a_ramp) {
-  const std::string profile =
-      "cam profile " + bracket_drawing + " --layer cut --tool-table " + tool_library + " --tool T7 --depth -2 --step 1 ";
+  const std::string profile = "cam profile " + bracket_drawing + " --layer cut --tool-table " + tool_library +
+                              " --tool T7 --depth -2 --step 1 ";
   EXPECT_TRUE(warnings_of(profile + "--material fr4").empty());
   EXPECT_THAT(warnings_of(profile + "--material fr4 --ramp 0"), testing::ElementsAre("tool.plunge"));
 }
@@ -128,12 +129,13 @@ TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
   const Outcome letters = passo("cam engrave --text Hi --tool T3 --material hardwood" + with);
   EXPECT_EQ(letters.code, 0) << letters.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(tool: T3 \"lettering\", V of 60 degrees, 6 mm, tip 0.1 mm; "));
-  const Outcome holes = passo("cam drill " + checkout + "/examples/boards/timer.drl --drill T8 --material fr4" + with);
+  const Outcome holes =
+      passo("cam drill " + checkout + "/examples/boards/timer.drl --drill T8 --material fr4 --route-steps 0" + with);
   EXPECT_EQ(holes.code, 0) << holes.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(drill: T8 \"pilot holes\", drill, 3 mm; "));
   const std::string heights = write("map.csv", "0,0,0\n10,0,1\n0,10,1\n10,10,0\n");
   const Outcome relief =
-      passo("cam relief " + heights + " --cutter T2 --rough T1 --material hardwood --depth -2" + with);
+      passo("cam relief " + heights + " --cutter T2 --rough T1 --material hardwood --depth -2 --scallop 0.2" + with);
   EXPECT_EQ(relief.code, 0) << relief.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(roughing: T1 \"roughing\", flat end, 6 mm; "));
 }
