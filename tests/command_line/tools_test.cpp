@@ -14,8 +14,8 @@ using passo::test::read;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string library = checkout + "/examples/tools/router-tools.toml";
-const std::string bracket = checkout + "/examples/parts/bracket.svg";
+const std::string tool_library = checkout + "/examples/tools/router-tools.toml";
+const std::string bracket_drawing = checkout + "/examples/parts/bracket.svg";
 
 class Tools : public passo::test::CommandLine {
  protected:
@@ -26,19 +26,19 @@ class Tools : public passo::test::CommandLine {
   }
   std::vector<std::string> warnings_of(const std::string& arguments) const {
     std::vector<std::string> codes;
-    for (const json& one : json_of(arguments + " --json -o " + path("part.ngc"))["warnings"])
-      codes.push_back(one["code"]);
+    const json made = json_of(arguments + " --json -o " + path("part.ngc"));
+    for (const json& one : made.at("warnings")) codes.push_back(one["code"]);
     return codes;
   }
-  const std::string pocket = "cam pocket " + bracket + " --layer pocket --tool-table " + library;
+  const std::string pocket = "cam pocket " + bracket_drawing + " --layer pocket --tool-table " + tool_library;
 };
 
 TEST_F(Tools, are_listed_as_a_table_and_as_json) {
-  const Outcome done = passo("tools list " + library);
+  const Outcome done = passo("tools list " + tool_library);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("\nT1     flat           6      2       22        28   24000  carbide  roughing\n"));
   EXPECT_THAT(done.out, HasSubstr("(does not plunge)\n"));
-  const json all = json_of("tools list --json " + library)["tools"];
+  const json all = json_of("tools list --json " + tool_library)["tools"];
   ASSERT_EQ(all.size(), 8U);
   EXPECT_EQ(all[5]["chip_load_mm"]["acrylic"], 0.08);
   EXPECT_EQ(all[6]["centre_cutting"], false);
@@ -46,13 +46,13 @@ TEST_F(Tools, are_listed_as_a_table_and_as_json) {
 }
 
 TEST_F(Tools, have_feeds_with_reasons_within_the_limits_of_a_machine) {
-  const json free = json_of("tools feeds " + library + " -t T1 --material plywood --json");
+  const json free = json_of("tools feeds " + tool_library + " -t T1 --material plywood --json");
   EXPECT_NEAR(free["feed_mm_min"], free["rpm"].get<double>() * 2 * free["chip_load_mm"].get<double>(), 20);
   const std::string machine = checkout + "/examples/machines/pantograph.toml";
-  const json limited = json_of("tools feeds " + library + " -t 1 --material plywood --json -m " + machine);
+  const json limited = json_of("tools feeds " + tool_library + " -t 1 --material plywood --json -m " + machine);
   EXPECT_LT(limited["feed_mm_min"], free["feed_mm_min"]);
   EXPECT_LT(limited["rpm"], free["rpm"]);
-  const Outcome words = passo("tools feeds " + library + " -t 1 --material plywood -m " + machine);
+  const Outcome words = passo("tools feeds " + tool_library + " -t 1 --material plywood -m " + machine);
   EXPECT_THAT(words.out, HasSubstr("https://www.asttooling.com/"));
   EXPECT_THAT(words.out, HasSubstr("the limit of the machine"));
 }
@@ -63,12 +63,12 @@ TEST_F(Tools, of_a_bad_library_or_number_are_refused) {
   EXPECT_EQ(listed.code, 2);
   EXPECT_THAT(listed.err, HasSubstr("bad.toml:4:1: error: a tool library has no key tool.1.flute [tools.unknown-key]"));
   for (const std::string tool : {"9", "T", "x", "-1"}) {
-    const Outcome none = passo("tools feeds " + library + " --tool=" + tool + " --material mdf");
+    const Outcome none = passo("tools feeds " + tool_library + " --tool=" + tool + " --material mdf");
     EXPECT_EQ(none.code, 2);
     EXPECT_THAT(none.err, HasSubstr("expected one of T1, T2")) << tool;
   }
-  EXPECT_EQ(passo("tools feeds " + library + " -t 1 --material steel").code, 2);
-  EXPECT_EQ(passo("tools feeds " + library + " -t 1 --material mdf --min-rpm 9000 --max-rpm 8000").code, 2);
+  EXPECT_EQ(passo("tools feeds " + tool_library + " -t 1 --material steel").code, 2);
+  EXPECT_EQ(passo("tools feeds " + tool_library + " -t 1 --material mdf --min-rpm 9000 --max-rpm 8000").code, 2);
   EXPECT_EQ(passo("tools list " + path("none.toml")).code, 2);
 }
 
@@ -78,9 +78,10 @@ TEST_F(Tools, of_a_library_give_a_pocket_its_feeds_and_are_named_in_the_program)
   EXPECT_THAT(program, HasSubstr("(tool: T6 \"one flute, for plastics and aluminium\", flat end, 3 mm; "));
   EXPECT_THAT(program, HasSubstr(" mm per tooth in hdpe)\n"));
   EXPECT_THAT(program, HasSubstr("\nM3 S18000\n"));
-  const json feeds = json_of("tools feeds " + library + " -t 6 --material hdpe --json");
+  const json feeds = json_of("tools feeds " + tool_library + " -t 6 --material hdpe --json");
   EXPECT_THAT(program, HasSubstr("F" + std::to_string(feeds["feed_mm_min"].get<int>()) + "\n"));
-  const Outcome cut = passo("simulate " + path("part.ngc") + " --tool-table " + library + " --tool flat:3 --cell 0.2");
+  const Outcome cut =
+      passo("simulate " + path("part.ngc") + " --tool-table " + tool_library + " --tool flat:3 --cell 0.2");
   EXPECT_EQ(cut.code, 0) << cut.err;
 }
 
@@ -103,8 +104,8 @@ TEST_F(Tools, warn_about_their_use_with_advice_that_helps) {
 }
 
 TEST_F(Tools, that_cannot_plunge_get_a_ramp) {
-  const std::string profile =
-      "cam profile " + bracket + " --layer cut --tool-table " + library + " --tool T7 --depth -2 --step 1 ";
+  const std::string profile = "cam profile " + bracket_drawing + " --layer cut --tool-table " + tool_library +
+                              " --tool T7 --depth -2 --step 1 ";
   EXPECT_TRUE(warnings_of(profile + "--material fr4").empty());
   EXPECT_THAT(warnings_of(profile + "--material fr4 --ramp 0"), testing::ElementsAre("tool.plunge"));
 }
@@ -119,21 +120,22 @@ TEST_F(Tools, of_other_shapes_or_without_a_library_are_refused) {
   EXPECT_THAT(refusal(pocket + " --tool T3"), HasSubstr("expected a tool of shape flat, ball or bull, found T3"));
   EXPECT_THAT(refusal(pocket + " --tool T77"), HasSubstr("[tool.unknown]"));
   EXPECT_THAT(refusal(pocket), HasSubstr("[tool.none-chosen]"));
-  EXPECT_THAT(refusal("cam pocket " + bracket + " --tool T1"), HasSubstr("[tool.no-library]"));
-  EXPECT_THAT(refusal("cam pocket " + bracket + " --material mdf"), HasSubstr("[tool.no-library]"));
+  EXPECT_THAT(refusal("cam pocket " + bracket_drawing + " --tool T1"), HasSubstr("[tool.no-library]"));
+  EXPECT_THAT(refusal("cam pocket " + bracket_drawing + " --material mdf"), HasSubstr("[tool.no-library]"));
 }
 
 TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
-  const std::string with = " --tool-table " + library + " -o " + path("made.ngc") + " ";
+  const std::string with = " --tool-table " + tool_library + " -o " + path("made.ngc") + " ";
   const Outcome letters = passo("cam engrave --text Hi --tool T3 --material hardwood" + with);
   EXPECT_EQ(letters.code, 0) << letters.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(tool: T3 \"lettering\", V of 60 degrees, 6 mm, tip 0.1 mm; "));
-  const Outcome holes = passo("cam drill " + checkout + "/examples/boards/timer.drl --drill T8 --material fr4" + with);
+  const Outcome holes =
+      passo("cam drill " + checkout + "/examples/boards/timer.drl --drill T8 --material fr4 --route-steps 0" + with);
   EXPECT_EQ(holes.code, 0) << holes.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(drill: T8 \"pilot holes\", drill, 3 mm; "));
   const std::string heights = write("map.csv", "0,0,0\n10,0,1\n0,10,1\n10,10,0\n");
   const Outcome relief =
-      passo("cam relief " + heights + " --cutter T2 --rough T1 --material hardwood --depth -2" + with);
+      passo("cam relief " + heights + " --cutter T2 --rough T1 --material hardwood --depth -2 --scallop 0.2" + with);
   EXPECT_EQ(relief.code, 0) << relief.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(roughing: T1 \"roughing\", flat end, 6 mm; "));
 }

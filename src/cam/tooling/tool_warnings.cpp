@@ -97,7 +97,7 @@ std::optional<ToolWarning> UseJudge::step_over(const ToolUse& use) const {
   ToolUse advised = use;
   advised.step_over = tool.diameter / 2;
   return ToolWarning{.code = "tool.step-over",
-                     .message = fmt::format("passes {:g} mm apart leave ridges: {} is {:g} mm wide",
+                     .message = fmt::format("passes {:g} mm apart leave material between them: {} is {:g} mm wide",
                                             use.step_over.value(), named(), tool.diameter.value()),
                      .advice = fmt::format("a stepover of {:g} mm, half the diameter", advised.step_over.value()),
                      .found = use.step_over.value(),

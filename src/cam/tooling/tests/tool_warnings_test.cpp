@@ -62,7 +62,7 @@ TEST(ToolWarnings, tell_each_kind_with_its_numbers) {
   EXPECT_EQ(only(use), "tool.chip-large: T2 cuts 0.167 mm per tooth in hardwood: the tables permit 0.096 mm");
   use = good;
   use.step_over = Mm(3.5);
-  EXPECT_EQ(only(use), "tool.step-over: passes 3.5 mm apart leave ridges: T2 is 3 mm wide");
+  EXPECT_EQ(only(use), "tool.step-over: passes 3.5 mm apart leave material between them: T2 is 3 mm wide");
   use = good;
   use.rpm = 7000;
   use.feed = mm_per_minute(900);

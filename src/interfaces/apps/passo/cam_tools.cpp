@@ -19,9 +19,9 @@
 namespace passo {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using ToolJson = nlohmann::ordered_json;
 
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
+constexpr double degrees_of_radian = 180 / std::numbers::pi;
 constexpr double usual_ramp = 5;  // degrees, for a tool that cannot plunge
 
 std::string mm_text(double mm) {
@@ -71,7 +71,7 @@ class ToolShelf {
   std::optional<WorkMaterial> material_;
   ToolLimits limits_;
   Diagnostics findings_;
-  Json warnings_ = Json::array();
+  ToolJson warnings_ = ToolJson::array();
   int code_ = exit_done;
 };
 
@@ -165,7 +165,7 @@ void ToolShelf::judge(const CuttingTool& tool, const ToolUse& use) {
 int ToolShelf::finish() {
   if (code_ != exit_done || !library_) return code_;
   show(findings_);
-  arguments_.tool_warnings_json = warnings_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  arguments_.tool_warnings_json = warnings_.dump(-1, ' ', false, ToolJson::error_handler_t::replace);
   return exit_done;
 }
 
@@ -232,7 +232,7 @@ ToolUse relief_use(const ToolShelf& shelf, const CamReliefArguments& a, const st
 
 std::string cutter_text(const CuttingTool& tool) {
   const double d = tool.diameter.value();
-  const double degrees = tool.angle.value * degrees_per_radian;
+  const double degrees = tool.angle.value * degrees_of_radian;
   switch (tool.shape) {
     case CuttingShape::flat: return fmt::format("flat:{:.10g}", d);
     case CuttingShape::ball: return fmt::format("ball:{:.10g}", d);
@@ -266,7 +266,7 @@ int use_tools(CamPocketArguments& a, const IsGiven& is_given) {
   // Adaptive clearing keeps the engagement: half the width is a quarter turn.
   constexpr double quarter = 90;
   const bool is_narrow = a.engagement > 0 && a.engagement < quarter;
-  const double width = is_narrow ? (1 - std::cos(a.engagement / degrees_per_radian)) / 2 : 1;
+  const double width = is_narrow ? (1 - std::cos(a.engagement / degrees_of_radian)) / 2 : 1;
   ToolUse use = use_in_layers(shelf, *tool, width, a, is_given);
   use.step_over = tool->diameter * (a.step_over / 100);
   shelf.remark("tool", *tool, use);
@@ -286,7 +286,7 @@ int use_tools(CamEngraveArguments& a, const IsGiven& is_given) {
   if (tool != nullptr) {
     a.tool = mm_text(tool->diameter.value());
     if (tool->shape == CuttingShape::vee) {
-      if (!is_given("--angle")) a.angle = tool->angle.value * degrees_per_radian;
+      if (!is_given("--angle")) a.angle = tool->angle.value * degrees_of_radian;
       if (!is_given("--tip")) a.tip = mm_text(tool->tip.value());
     }
     if (const auto feeds = fill_in_feeds(shelf, *tool, {.depth = Mm(depth)}, a, is_given)) {
@@ -396,9 +396,9 @@ int use_tools(CamReliefArguments& a, const IsGiven& is_given) {
 
 std::string with_tool_warnings(const std::string& json, const CamToolArguments& arguments) {
   if (arguments.tool_warnings_json.empty()) return json;
-  Json summary = Json::parse(json, nullptr, false);
+  ToolJson summary = ToolJson::parse(json, nullptr, false);
   if (!summary.is_object()) return json;
-  summary["warnings"] = Json::parse(arguments.tool_warnings_json, nullptr, false);
+  summary["warnings"] = ToolJson::parse(arguments.tool_warnings_json, nullptr, false);
   return summary.dump(2);
 }
 

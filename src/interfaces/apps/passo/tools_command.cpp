@@ -16,9 +16,9 @@
 namespace passo {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using ToolsJson = nlohmann::ordered_json;
 
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
+constexpr double degrees_in_radian = 180 / std::numbers::pi;
 
 std::optional<ToolLibrary> shown_library(const std::string& path) {
   Diagnostics findings;
@@ -27,60 +27,62 @@ std::optional<ToolLibrary> shown_library(const std::string& path) {
   return library;
 }
 
-int print_json(const Json& json) {
-  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+int print_tools_json(const ToolsJson& json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, ToolsJson::error_handler_t::replace));
   return flush_output();
 }
 
-Json known(Mm length) {
-  return length > Mm(0) ? Json(length.value()) : Json();
+ToolsJson known_length(Mm length) {
+  return length > Mm(0) ? ToolsJson(length.value()) : ToolsJson();
 }
 
-Json json_of(const CuttingTool& tool) {
-  Json json = {{"number", tool.number},
-               {"name", tool.name},
-               {"shape", name_of(tool.shape)},
-               {"diameter_mm", tool.diameter.value()}};
+ToolsJson json_of(const CuttingTool& tool) {
+  ToolsJson json = {{"number", tool.number},
+                    {"name", tool.name},
+                    {"shape", name_of(tool.shape)},
+                    {"diameter_mm", tool.diameter.value()}};
   if (tool.shape == CuttingShape::bull) json["corner_radius_mm"] = tool.corner_radius.value();
-  if (tool.angle.value > 0) json["angle_deg"] = tool.angle.value * degrees_per_radian;
+  if (tool.angle.value > 0) json["angle_deg"] = tool.angle.value * degrees_in_radian;
   if (tool.shape == CuttingShape::vee || tool.shape == CuttingShape::taper) json["tip_diameter_mm"] = tool.tip.value();
   json["flutes"] = tool.flutes;
-  json["flute_length_mm"] = known(tool.flute_length);
-  json["stick_out_mm"] = known(tool.stick_out);
-  json["holder_diameter_mm"] = known(tool.holder_diameter);
+  json["flute_length_mm"] = known_length(tool.flute_length);
+  json["stick_out_mm"] = known_length(tool.stick_out);
+  json["holder_diameter_mm"] = known_length(tool.holder_diameter);
   json["centre_cutting"] = tool.centre_cutting;
   json["material"] = name_of(tool.material);
-  json["max_rpm"] = tool.most_rpm ? Json(*tool.most_rpm) : Json();
-  Json loads = Json::object();
+  json["max_rpm"] = tool.most_rpm ? ToolsJson(*tool.most_rpm) : ToolsJson();
+  ToolsJson loads = ToolsJson::object();
   for (const auto& [material, load] : tool.chip_loads) loads[std::string(name_of(material))] = load.value();
   json["chip_load_mm"] = loads;
   return json;
 }
 
-std::string cell(Mm length) {
+std::string length_cell(Mm length) {
   return length > Mm(0) ? fmt::format("{:g}", length.value()) : "-";
 }
 
-double per_minute(MmPerSecond speed) {
+double speed_per_minute(MmPerSecond speed) {
   return speed.value() * seconds_per_minute;
 }
 
-Json json_of(const CuttingTool& tool, WorkMaterial material, const CuttingFeeds& feeds) {
-  Json json = {{"tool", tool.number},
-               {"description", describe(tool)},
-               {"material", name_of(material)},
-               {"rpm", feeds.rpm},
-               {"feed_mm_min", per_minute(feeds.feed)},
-               {"plunge_mm_min", feeds.plunge > MmPerSecond(0) ? Json(per_minute(feeds.plunge)) : Json()},
-               {"depth_per_pass_mm", known(feeds.depth_per_pass)},
-               {"step_over_percent", feeds.step_over > 0 ? Json(feeds.step_over * 100) : Json()},
-               {"chip_load_mm", feeds.chip_load.value()},
-               {"chip_load_least_mm", feeds.chip_range.least.value()},
-               {"chip_load_most_mm", feeds.chip_range.most.value()}};
-  json["reasons"] = Json::array();
+ToolsJson json_of(const CuttingTool& tool, WorkMaterial material, const CuttingFeeds& feeds) {
+  ToolsJson json = {
+      {"tool", tool.number},
+      {"description", describe(tool)},
+      {"material", name_of(material)},
+      {"rpm", feeds.rpm},
+      {"feed_mm_min", speed_per_minute(feeds.feed)},
+      {"plunge_mm_min", feeds.plunge > MmPerSecond(0) ? ToolsJson(speed_per_minute(feeds.plunge)) : ToolsJson()},
+      {"depth_per_pass_mm", known_length(feeds.depth_per_pass)},
+      {"step_over_percent", feeds.step_over > 0 ? ToolsJson(feeds.step_over * 100) : ToolsJson()},
+      {"chip_load_mm", feeds.chip_load.value()},
+      {"chip_load_least_mm", feeds.chip_range.least.value()},
+      {"chip_load_most_mm", feeds.chip_range.most.value()}};
+  json["reasons"] = ToolsJson::array();
   for (const FeedReason& reason : feeds.reasons) {
-    json["reasons"].push_back(
-        {{"of", reason.of}, {"text", reason.text}, {"source", reason.source.empty() ? Json() : Json(reason.source)}});
+    json["reasons"].push_back({{"of", reason.of},
+                               {"text", reason.text},
+                               {"source", reason.source.empty() ? ToolsJson() : ToolsJson(reason.source)}});
   }
   return json;
 }
@@ -100,8 +102,8 @@ void print_feeds(const CuttingTool& tool, WorkMaterial material, const CuttingFe
   };
   row("chip load", fmt::format("{:.3g} mm/tooth", feeds.chip_load.value()), "chip load");
   row("spindle", fmt::format("{:g} rpm", feeds.rpm), "spindle");
-  row("feed", fmt::format("{:g} mm/min", per_minute(feeds.feed)), "feed");
-  row("plunge", feeds.plunge > MmPerSecond(0) ? fmt::format("{:g} mm/min", per_minute(feeds.plunge)) : "none",
+  row("feed", fmt::format("{:g} mm/min", speed_per_minute(feeds.feed)), "feed");
+  row("plunge", feeds.plunge > MmPerSecond(0) ? fmt::format("{:g} mm/min", speed_per_minute(feeds.plunge)) : "none",
       "plunge");
   if (feeds.depth_per_pass > Mm(0))
     row("depth", fmt::format("{:.3g} mm a pass", feeds.depth_per_pass.value()), "depth");
@@ -120,9 +122,9 @@ int tools_list(const ToolsListArguments& arguments) {
   const auto library = shown_library(arguments.library);
   if (!library) return exit_bad_program;
   if (arguments.json) {
-    Json json = Json::array();
+    ToolsJson json = ToolsJson::array();
     for (const CuttingTool& tool : library->tools()) json.push_back(json_of(tool));
-    return print_json({{"file", arguments.library}, {"tools", json}});
+    return print_tools_json({{"file", arguments.library}, {"tools", json}});
   }
   fmt::print("{:<6} {:<7} {:>8} {:>6} {:>8} {:>9} {:>7}  {:<7}  {}\n", "tool", "shape", "diameter", "flutes", "cuts to",
              "stick-out", "max rpm", "of", "name");
@@ -131,7 +133,7 @@ int tools_list(const ToolsListArguments& arguments) {
     const std::string_view plunges = tool.centre_cutting ? "" : "(does not plunge)";
     std::string line = fmt::format("{:<6} {:<7} {:>8g} {:>6} {:>8} {:>9} {:>7}  {:<7}  {}{}{}",
                                    fmt::format("T{}", tool.number), name_of(tool.shape), tool.diameter.value(),
-                                   tool.flutes, cell(tool.flute_length), cell(tool.stick_out), rpm,
+                                   tool.flutes, length_cell(tool.flute_length), length_cell(tool.stick_out), rpm,
                                    name_of(tool.material), tool.name, tool.name.empty() ? "" : " ", plunges);
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::print("{}\n", line);
@@ -169,7 +171,7 @@ int tools_feeds(const ToolsFeedsArguments& arguments) {
                                               request.spindle.least_rpm));
   }
   const CuttingFeeds feeds = feeds_of(*tool, request);
-  if (arguments.json) return print_json(json_of(*tool, request.material, feeds));
+  if (arguments.json) return print_tools_json(json_of(*tool, request.material, feeds));
   print_feeds(*tool, request.material, feeds);
   return flush_output();
 }

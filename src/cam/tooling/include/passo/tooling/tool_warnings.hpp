@@ -3,7 +3,7 @@
 //
 //   tool.depth-over-flutes    the cut is deeper than the cutting edges are long
 //   tool.holder               the holder comes down to the material
-//   tool.step-over            neighbouring passes leave ridges
+//   tool.step-over            neighbouring passes leave material between them
 //   tool.chip-small           the teeth rub instead of cutting
 //   tool.chip-large           a tooth takes more than the tables permit
 //   tool.plunge               a tool without teeth at its centre descends straight
