@@ -23,7 +23,13 @@ struct CamProgramArguments {
   double spindle_delay = 2;            // seconds
 };
 
-struct CamDrillArguments : CamProgramArguments {
+// What is read of SVG drawings, besides layers.
+struct CamShapeSelection {
+  std::vector<std::string> colors;  // colours of the shapes; empty: all
+  std::vector<std::string> names;   // ids or labels of the shapes or groups; empty: all
+};
+
+struct CamDrillArguments : CamProgramArguments, CamShapeSelection {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -33,8 +39,6 @@ struct CamDrillArguments : CamProgramArguments {
                                     // `units`
   std::string zeros;                // suppressed zeros in drill files: leading or trailing; empty: as the files state
   std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
-  std::vector<std::string> colors;  // SVG: colours of the shapes to read; empty: all
-  std::vector<std::string> names;   // SVG: ids or labels of the shapes or groups to read; empty: all
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
@@ -59,7 +63,7 @@ struct CamDrillArguments : CamProgramArguments {
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
 // The arguments of every milling operation.
-struct CamMillArguments : CamProgramArguments {
+struct CamMillArguments : CamProgramArguments, CamShapeSelection {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -69,8 +73,6 @@ struct CamMillArguments : CamProgramArguments {
   std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
                                     // `units`
   std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
-  std::vector<std::string> colors;  // SVG: colours of the shapes to read; empty: all
-  std::vector<std::string> names;   // SVG: ids or labels of the shapes or groups to read; empty: all
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
