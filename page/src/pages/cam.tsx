@@ -154,9 +154,9 @@ export function CamPage() {
   return (
     <div class="cam">
       <div class="pins-side">
-        <section class="panel" aria-label={say('cam.job')}>
+        <section class="panel" aria-label={say('cam.operation')}>
           <Choice
-            title={say('cam.job')}
+            title={say('cam.operation')}
             value={form.job}
             all={forms.value.map((one) => [one.job, say(one.title)] as const)}
             set={(to) => {

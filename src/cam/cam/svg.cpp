@@ -6,12 +6,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "svg_clip.hpp"
 #include "svg_figure.hpp"
-#include "svg_paint.hpp"
+#include "svg_selection.hpp"
 #include "svg_style.hpp"
 #include "svg_words.hpp"
 #include <fmt/format.h>
@@ -44,9 +43,8 @@ class SvgExpansion {
         diagnostics_(diagnostics),
         builder_(name, diagnostics),
         inch_(inch_of(document)),
-        reader_(name, options.tolerance, inch_, builder_, diagnostics) {
-    for (const std::string& color : options.colors) wanted_colours_.push_back(svg_colour(color));
-  }
+        reader_(name, options.tolerance, inch_, builder_, diagnostics),
+        selection_(options) {}
 
   Drawing expand();
 
@@ -54,9 +52,7 @@ class SvgExpansion {
   struct Place : SvgSpace {
     bool is_chosen = true;  // the layer is read
     bool is_visible = true;
-    bool is_named = false;  // the element or a group around it has one of the wanted names
-    std::string_view stroke = {};
-    std::string_view fill = {};
+    SvgSelection::Paint paint = {};
     int uses = 0;
     std::shared_ptr<const SvgClip> clip = nullptr;  // null: everything is drawn
   };
@@ -67,8 +63,6 @@ class SvgExpansion {
   void add_use(const SvgElement& element, const Place& place);
   bool into_svg(const SvgElement& element, const SvgElement& sized, Place& place);
   void enter_layer(const SvgElement& element, Place& place);
-  void enter_selection(const SvgElement& element, Place& place);
-  bool is_selected(const Place& place);
   bool is_displayed(const SvgElement& element, Place& place);
   bool transform(const SvgElement& element, Place& place);
   void draw(const SvgElement& element, const Place& place);
@@ -117,8 +111,7 @@ class SvgExpansion {
   SvgFigure* collected_ = nullptr;  // collects what is drawn in a clip path, or for its bounds; otherwise null
   RegionBudget clip_budget_{3};
   UsedClip last_clip_;
-  std::vector<std::string> wanted_colours_;  // as svg_colour() returns them
-  std::set<std::string> found_selectors_;
+  SvgSelection selection_;
   std::size_t work_ = 0;
 };
 
@@ -163,14 +156,7 @@ Drawing SvgExpansion::expand() {
       builder_.note(fmt::format("there is no layer '{}'", layer));
     }
   }
-  for (const std::string& color : options_.colors) {
-    if (!found_selectors_.contains(svg_colour(color))) {
-      builder_.note(fmt::format("nothing that is read has the colour '{}'", color));
-    }
-  }
-  for (const std::string& name : options_.names) {
-    if (!found_selectors_.contains(name)) builder_.note(fmt::format("nothing has the id or label '{}'", name));
-  }
+  for (std::string& words : selection_.missing()) builder_.note(std::move(words));
   return builder_.take();
 }
 
@@ -211,7 +197,7 @@ void SvgExpansion::expand_root(const SvgElement& root) {
     place.transform = place.transform.after(into_viewport(box, page, root.attribute("preserveAspectRatio")));
     place.view = {box[2], box[3]};
   }
-  enter_selection(root, place);
+  selection_.enter(root, place.paint);
   if (!is_displayed(root, place) || !transform(root, place)) return;
   clip(0, place);
   add_children(root, place);
@@ -231,32 +217,6 @@ void SvgExpansion::enter_layer(const SvgElement& element, Place& place) {
   const std::string name(label.empty() ? element.attribute("id") : label);
   place.layer = builder_.layer(name);
   if (!options_.layers.empty()) place.is_chosen = std::ranges::find(options_.layers, name) != options_.layers.end();
-}
-
-// Colours are inherited, and a group's name is that of all in it.
-void SvgExpansion::enter_selection(const SvgElement& element, Place& place) {
-  if (!wanted_colours_.empty()) {
-    for (const auto& [property, paint] : {std::pair("stroke", &place.stroke), std::pair("fill", &place.fill)}) {
-      const std::string_view own = element.property(property);
-      if (!own.empty() && !is_css_word(own, "inherit")) *paint = own;
-    }
-  }
-  for (const std::string& name : options_.names) {
-    if (element.attribute("id") != name && element.attribute("inkscape:label") != name) continue;
-    place.is_named = true;
-    found_selectors_.insert(name);
-  }
-}
-
-// Clip paths are read whole.
-bool SvgExpansion::is_selected(const Place& place) {
-  if (collected_ != nullptr) return true;
-  if (!options_.names.empty() && !place.is_named) return false;
-  if (wanted_colours_.empty()) return true;
-  const std::string colour = drawn_colour(place.stroke, place.fill);
-  if (std::ranges::find(wanted_colours_, colour) == wanted_colours_.end()) return false;
-  found_selectors_.insert(colour);
-  return true;
 }
 
 // Whether the element and its children may be visible.
@@ -308,7 +268,7 @@ void SvgExpansion::add(std::uint32_t index, const Place& outer) {
     return;
   }
   Place place = outer;
-  enter_selection(element, place);
+  selection_.enter(element, place.paint);
   if (!is_displayed(element, place) || !transform(element, place)) return;
   clip(index, place);
   if (element.name == "g" || element.name == "a" || element.name == "switch") {
@@ -352,7 +312,8 @@ void SvgExpansion::add_use(const SvgElement& element, const Place& outer) {
 }
 
 void SvgExpansion::draw(const SvgElement& element, const Place& place) {
-  if (!place.is_chosen || !is_selected(place)) return;
+  // Clip paths are read whole.
+  if (!place.is_chosen || (collected_ == nullptr && !selection_.takes(place.paint))) return;
   const std::string& name = element.name;
   const bool is_text = name == "text" || name == "flowRoot";
   const bool is_picture = name == "image" || name == "foreignObject";

@@ -1,6 +1,6 @@
 // English. The CAM tab, without the options of its operations.
 export const cam = {
-  'cam.job': 'Operation',
+  'cam.operation': 'Operation',
   'cam.files': 'Drawings',
   'cam.drop': 'Drop drawings or a picture here',
   'cam.forget': 'Remove the drawings',

@@ -3,7 +3,7 @@ import type { cam as en } from '../en/cam';
 import type { Same } from '../same';
 
 export const cam: Same<typeof en> = {
-  'cam.job': 'Opération',
+  'cam.operation': 'Opération',
   'cam.files': 'Dessins',
   'cam.drop': 'Déposer ici des dessins ou une image',
   'cam.forget': 'Retirer les dessins',

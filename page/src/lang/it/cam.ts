@@ -3,7 +3,7 @@ import type { cam as en } from '../en/cam';
 import type { Same } from '../same';
 
 export const cam: Same<typeof en> = {
-  'cam.job': 'Operazione',
+  'cam.operation': 'Operazione',
   'cam.files': 'Disegni',
   'cam.drop': 'Trascina qui disegni o un’immagine',
   'cam.forget': 'Rimuovi i disegni',

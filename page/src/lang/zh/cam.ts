@@ -3,7 +3,7 @@ import type { cam as en } from '../en/cam';
 import type { Same } from '../same';
 
 export const cam: Same<typeof en> = {
-  'cam.job': '加工方式',
+  'cam.operation': '加工方式',
   'cam.files': '图纸',
   'cam.drop': '把图纸或图片拖到这里',
   'cam.forget': '移除图纸',

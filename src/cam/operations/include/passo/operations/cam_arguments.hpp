@@ -33,7 +33,13 @@ struct CamToolArguments {
   std::string tool_warnings_json = {};
 };
 
-struct CamDrillArguments : CamProgramArguments, CamToolArguments {
+// What is read of SVG drawings, besides layers.
+struct CamShapeSelection {
+  std::vector<std::string> colors;  // colours of the shapes; empty: all
+  std::vector<std::string> names;   // ids or labels of the shapes or groups; empty: all
+};
+
+struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -43,8 +49,6 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments {
                                     // `units`
   std::string zeros;                // suppressed zeros in drill files: leading or trailing; empty: as the files state
   std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
-  std::vector<std::string> colors;  // SVG: colours of the shapes to read; empty: all
-  std::vector<std::string> names;   // SVG: ids or labels of the shapes or groups to read; empty: all
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
@@ -69,7 +73,7 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments {
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
 // The arguments of every milling operation. Profile, pocket and engrave have the options of the tools.
-struct CamMillArguments : CamProgramArguments, CamToolArguments {
+struct CamMillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -79,8 +83,6 @@ struct CamMillArguments : CamProgramArguments, CamToolArguments {
   std::string input;                // unit of the numbers in the files; empty: as the files state; with --scale as
                                     // `units`
   std::vector<std::string> layers;  // layers of DXF files; empty: all layers that are on
-  std::vector<std::string> colors;  // SVG: colours of the shapes to read; empty: all
-  std::vector<std::string> names;   // SVG: ids or labels of the shapes or groups to read; empty: all
   std::string zero = "file";        // position of X0 Y0: file, lower-left or X,Y
   std::string mirror;               // x or y; empty: the board is not flipped
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0

@@ -1,4 +1,4 @@
-#include "svg_paint.hpp"
+#include "svg_selection.hpp"
 
 #include <algorithm>
 #include <array>
@@ -65,9 +65,47 @@ std::string svg_colour(std::string_view text) {
   return rgb_colour(colour).value_or(colour);
 }
 
-std::string drawn_colour(std::string_view stroke, std::string_view fill) {
-  if (!is_no_paint(stroke)) return svg_colour(stroke);
-  return svg_colour(fill.empty() ? "black" : fill);
+SvgSelection::SvgSelection(const SvgOptions& options) : options_(options) {
+  for (const std::string& color : options.colors) colours_.push_back(svg_colour(color));
+}
+
+// Colours are inherited, and a group's name is that of all in it.
+void SvgSelection::enter(const SvgElement& element, Paint& paint) {
+  const auto inherit = [&](const char* property, std::string_view& value) {
+    const std::string_view own = element.property(property);
+    if (!own.empty() && !is_css_word(own, "inherit")) value = own;
+  };
+  if (!colours_.empty()) {
+    inherit("stroke", paint.stroke);
+    inherit("fill", paint.fill);
+  }
+  for (const std::string& name : options_.names) {
+    if (element.attribute("id") != name && element.attribute("inkscape:label") != name) continue;
+    paint.is_named = true;
+    found_.insert(name);
+  }
+}
+
+bool SvgSelection::takes(const Paint& paint) {
+  if (!options_.names.empty() && !paint.is_named) return false;
+  if (colours_.empty()) return true;
+  const std::string_view area = paint.fill.empty() ? "black" : paint.fill;
+  const std::string colour = svg_colour(is_no_paint(paint.stroke) ? area : paint.stroke);
+  if (std::ranges::find(colours_, colour) == colours_.end()) return false;
+  found_.insert(colour);
+  return true;
+}
+
+std::vector<std::string> SvgSelection::missing() const {
+  std::vector<std::string> notes;
+  for (const std::string& color : options_.colors) {
+    if (found_.contains(svg_colour(color))) continue;
+    notes.push_back(fmt::format("nothing that is read has the colour '{}'", color));
+  }
+  for (const std::string& name : options_.names) {
+    if (!found_.contains(name)) notes.push_back(fmt::format("nothing has the id or label '{}'", name));
+  }
+  return notes;
 }
 
 }  // namespace passo
