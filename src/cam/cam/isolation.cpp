@@ -11,6 +11,7 @@
 #include "mill_order.hpp"
 #include "narrow_gaps.hpp"
 #include "ring_groups.hpp"
+#include "thin_line.hpp"
 #include "voronoi_lines.hpp"
 #include "way_distance.hpp"
 #include <fmt/format.h>
@@ -203,6 +204,15 @@ double farthest_corner_nm(const Region& board, const Region& copper) {
                     beyond(inner.least.y - outer.least.y, outer.most.y - inner.most.y));
 }
 
+// Of a region that grows again and again, each corner would become two each time. It gets smaller by at most as much,
+// so the next loop is a little nearer than one step.
+Region thinned(Region region) {
+  constexpr double tolerance = 250;  // nm
+  for (DrawnRing& ring : region.rings) ring = thinned_ring(ring, tolerance);
+  std::erase_if(region.rings, [](const DrawnRing& ring) { return ring.size() < 3; });
+  return region;
+}
+
 // Around the copper, one around the other. `outermost`: what the last one is around.
 std::vector<CutterWay> IsolationPlanner::loops(const IsolationCutter& cutter, const Region* within, Region& outermost,
                                                const WorkProgress& progress) const {
@@ -212,9 +222,10 @@ std::vector<CutterWay> IsolationPlanner::loops(const IsolationCutter& cutter, co
   const double ground_mm2 = options_.clear ? area_mm2(options_.board) - copper_mm2 : 0;
   const double farthest = options_.clear ? farthest_corner_nm(options_.board, copper_) : 0;
   for (std::uint32_t k = 0; k < loops_of(cutter); ++k) {
-    Region around = grown(copper_, {off(cutter).count + k * step(cutter).count}, options_.tolerance);
-    const bool found_any = found.take(around);
-    outermost = std::move(around);
+    outermost = !options_.clear || k == 0
+                    ? grown(copper_, {off(cutter).count + k * step(cutter).count}, options_.tolerance)
+                    : grown(thinned(std::move(outermost)), step(cutter), options_.tolerance);
+    const bool found_any = found.take(outermost);
     // Ground beside the board counts in the area: the loops reach the board's corners last.
     const double reached = static_cast<double>(off(cutter).count + k * step(cutter).count) / std::max(1.0, farthest);
     progress.update(options_.clear ? std::min(reached, (area_mm2(outermost) - copper_mm2) / ground_mm2)

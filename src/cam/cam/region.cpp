@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "region_strips.hpp"
 #include "ring_groups.hpp"
 #include <polyclipping/clipper.hpp>
 
@@ -34,23 +35,17 @@ clipper::Paths paths_of(const std::vector<DrawnRing>& rings) {
   return paths;
 }
 
-clipper::Paths paths_of(const std::vector<DrawnRing>& rings, const std::vector<std::size_t>& chosen) {
-  clipper::Paths paths;
-  paths.reserve(chosen.size());
-  for (const std::size_t i : chosen) paths.push_back(path_of(rings[i]));
-  return paths;
+DrawnRing ring_of(const clipper::Path& path) {
+  DrawnRing ring;
+  ring.reserve(path.size());
+  for (const clipper::IntPoint& point : path) ring.push_back({{bounded({point.X})}, {bounded({point.Y})}});
+  return ring;
 }
 
 std::vector<DrawnRing> rings_of(const clipper::Paths& paths) {
   std::vector<DrawnRing> rings;
   rings.reserve(paths.size());
-  for (const clipper::Path& path : paths) {
-    DrawnRing& ring = rings.emplace_back();
-    ring.reserve(path.size());
-    for (const clipper::IntPoint& point : path) {
-      ring.push_back({{bounded({point.X})}, {bounded({point.Y})}});
-    }
-  }
+  for (const clipper::Path& path : paths) rings.push_back(ring_of(path));
   return rings;
 }
 
@@ -84,15 +79,46 @@ Region by_groups(const clipper::Paths& paths, Nanometres reach, const Work& work
   return all;
 }
 
+constexpr std::size_t corners_of_strip = 4'000;
+
+// What `work` makes of rings, and of others, in strips if there are many. `reach`: how far beyond a strip the rings
+// matter in it.
+template <class Work>
+clipper::Paths in_strips(const std::vector<DrawnRing>& rings, const std::vector<DrawnRing>& others, Nanometres reach,
+                         const Work& work) {
+  std::vector<DrawnRing> all = rings;
+  all.insert(all.end(), others.begin(), others.end());
+  const std::vector<RegionStrip> strips = strips_of(all, corners_of_strip, {4 * reach.count});
+  if (strips.size() == 1) return work(paths_of(rings), paths_of(others));
+  const StripCutter of_rings(rings);
+  const StripCutter of_others(others);
+  std::vector<DrawnRing> found;
+  for (const RegionStrip& strip : strips) {
+    // The ends of the others lie elsewhere, so no edges coincide there.
+    const RegionStrip around{strip.low - reach, strip.high + reach};
+    const RegionStrip farther{strip.low - Nanometres{2 * reach.count}, strip.high + Nanometres{2 * reach.count}};
+    const clipper::Paths here = work(paths_of(of_rings.within(around)), paths_of(of_others.within(farther)));
+    std::ranges::move(StripCutter(rings_of(here)).within(strip), std::back_inserter(found));
+  }
+  return paths_of(joined_at_seams(std::move(found), strips));
+}
+
 Region combined(clipper::ClipType how, clipper::Paths a, clipper::Paths b) {
+  constexpr Nanometres reach{5'000};  // of what the ends of the parts in a strip can disturb
   const std::size_t of_a = a.size();
   std::ranges::move(b, std::back_inserter(a));
   return by_groups(a, {1}, [&](const std::vector<std::size_t>& group) {
-    clipper::Clipper clip;
-    for (const std::size_t i : group) clip.AddPath(a[i], i < of_a ? clipper::ptSubject : clipper::ptClip, true);
-    clipper::Paths found;
-    clip.Execute(how, found, clipper::pftNonZero, clipper::pftNonZero);
-    return found;
+    std::vector<DrawnRing> rings;
+    std::vector<DrawnRing> others;
+    for (const std::size_t i : group) (i < of_a ? rings : others).push_back(ring_of(a[i]));
+    return in_strips(rings, others, reach, [how](const clipper::Paths& subjects, const clipper::Paths& clips) {
+      clipper::Clipper clip;
+      clip.AddPaths(subjects, clipper::ptSubject, true);
+      clip.AddPaths(clips, clipper::ptClip, true);
+      clipper::Paths found;
+      clip.Execute(how, found, clipper::pftNonZero, clipper::pftNonZero);
+      return found;
+    });
   });
 }
 
@@ -111,11 +137,13 @@ class Growth {
 
   Region of(const std::vector<DrawnRing>& rings) const {
     const Nanometres reach{static_cast<std::int64_t>(2 * std::max(distance_, 0.0)) + 2};
+    const Nanometres beyond{static_cast<std::int64_t>(std::abs(distance_)) + 10'000};
     return by_groups(paths_of(rings), reach, [&](const std::vector<std::size_t>& group) {
-      std::size_t corners = 0;
-      for (const std::size_t i : group) corners += rings[i].size();
-      constexpr std::size_t many = 20'000;
-      return corners < many ? grown(paths_of(rings, group), clipper::etClosedPolygon) : of_many(rings, group);
+      std::vector<DrawnRing> near;
+      for (const std::size_t i : group) near.push_back(rings[i]);
+      return in_strips(near, {}, beyond, [this](const clipper::Paths& paths, const clipper::Paths&) {
+        return grown(paths, clipper::etClosedPolygon);
+      });
     });
   }
 
@@ -126,41 +154,6 @@ class Growth {
     growth.AddPaths(paths, clipper::jtRound, end);
     clipper::Paths found;
     growth.Execute(found, distance_);
-    return found;
-  }
-
-  // A sweep takes as long as its corners times the edges beside them. So rings whose edges are apart are grown on their
-  // own, even if one is around the other. What shrinks does not meet other parts.
-  clipper::Paths of_many(const std::vector<DrawnRing>& rings, const std::vector<std::size_t>& group) const {
-    std::vector<Region> parts(1);
-    for (const std::size_t i : group) parts.front().rings.push_back(rings[i]);
-    if (distance_ < 0) parts = parts_of(parts.front());
-    clipper::Paths all;
-    const Nanometres reach{static_cast<std::int64_t>(2 * std::abs(distance_)) + 4};
-    for (const Region& part : parts) {
-      for (const std::vector<std::size_t>& near : groups_of_edges_apart(part, reach)) {
-        clipper::Paths found = of_part(paths_of(part.rings, near), 2 * reach.count);
-        std::ranges::move(found, std::back_inserter(all));
-      }
-    }
-    return all;
-  }
-
-  // If these rings lie in another ring, a hole is leftmost of them: a frame stands for the other ring.
-  clipper::Paths of_part(clipper::Paths paths, clipper::cInt away) const {
-    const auto left = [](const clipper::Path& path) { return std::ranges::min(path, {}, &clipper::IntPoint::X).X; };
-    if (clipper::Orientation(*std::ranges::min_element(paths, {}, left))) return grown(paths, clipper::etClosedPolygon);
-    clipper::IntRect box = {paths[0][0].X, paths[0][0].Y, paths[0][0].X, paths[0][0].Y};
-    for (const clipper::Path& path : paths) {
-      for (const clipper::IntPoint& point : path) {
-        box = {std::min(box.left, point.X), std::min(box.top, point.Y), std::max(box.right, point.X),
-               std::max(box.bottom, point.Y)};
-      }
-    }
-    box = {box.left - away, box.top - away, box.right + away, box.bottom + away};
-    paths.push_back({{box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}});
-    clipper::Paths found = grown(paths, clipper::etClosedPolygon);
-    found.erase(std::ranges::min_element(found, {}, left));
     return found;
   }
 

@@ -1,10 +1,7 @@
 #include "ring_groups.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <numeric>
-
-#include "edge_grid.hpp"
 
 namespace passo {
 
@@ -48,34 +45,6 @@ bool join_near(const std::vector<DrawnBox>& boxes, Nanometres reach, IndexGroups
   return true;
 }
 
-// Joins rings whose edges are within reach. Where edges do not cross, one of them is nearest at its end, which is a
-// corner. False: given up, as before.
-bool join_near_edges(const Region& region, Nanometres reach, IndexGroups& groups) {
-  constexpr Nanometres least_cell{200'000};
-  constexpr std::uint64_t most_looks = 2'000;  // for each corner
-  const std::vector<DrawnRing>& rings = region.rings;
-  const DrawnBox all = bounds(region).value_or(DrawnBox{});
-  EdgeGrid grid(all, std::max(reach, least_cell));
-  for (std::size_t k = 0; k < rings.size(); ++k) grid.add(rings[k], static_cast<std::uint32_t>(k));
-  grid.finish();
-  const auto near = static_cast<double>(reach.count);
-  std::uint64_t looks = 0;
-  std::uint64_t allowed = 0;
-  for (std::size_t k = 0; k < rings.size(); ++k) {
-    for (const DrawnPoint& point : rings[k]) {
-      grid.for_near(point, point, near, [&](std::uint32_t index) {
-        ++looks;
-        const EdgeGrid::Edge& edge = grid.edge(index);
-        if (edge.owner == k || groups.of(edge.owner) == groups.of(k)) return;
-        if (EdgeGrid::to_edge(point, edge).distance_nm <= near) groups.join(k, edge.owner);
-      });
-      allowed += most_looks;
-      if (looks > allowed) return false;
-    }
-  }
-  return true;
-}
-
 // The groups as lists of indices, in the order of their first.
 std::vector<std::vector<std::size_t>> listed(IndexGroups& groups, std::size_t count, bool are_told) {
   std::vector<std::vector<std::size_t>> found;
@@ -97,13 +66,6 @@ std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& 
   IndexGroups groups(boxes.size());
   const bool are_told = join_near(boxes, reach, groups);
   return listed(groups, boxes.size(), are_told);
-}
-
-std::vector<std::vector<std::size_t>> groups_of_edges_apart(const Region& region, Nanometres reach) {
-  if (region.empty()) return {};
-  IndexGroups groups(region.rings.size());
-  const bool are_told = join_near_edges(region, reach, groups);
-  return listed(groups, region.rings.size(), are_told);
 }
 
 Region gathered(const std::vector<Region>& apart) {

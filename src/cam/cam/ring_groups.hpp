@@ -25,10 +25,6 @@ class IndexGroups {
 // groups are more than `reach` apart. If there are too many boxes to separate them quickly, all of them form one group.
 std::vector<std::vector<std::size_t>> groups_apart(const std::vector<DrawnBox>& boxes, Nanometres reach);
 
-// Does the same for non-crossing rings, by their edges: a ring around others is separate if its edges are far enough
-// away. Slower.
-std::vector<std::vector<std::size_t>> groups_of_edges_apart(const Region& region, Nanometres reach);
-
 // Returns all regions as one region. They must not touch each other.
 Region gathered(const std::vector<Region>& apart);
 

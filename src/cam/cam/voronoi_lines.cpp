@@ -8,45 +8,12 @@
 #include "flat_vector.hpp"
 #include "medial_axis.hpp"
 #include "stroke_walk.hpp"
+#include "thin_line.hpp"
 
 namespace passo {
 namespace {
 
 constexpr double chord_tolerance = 1'000;  // nm, of the axis, and again of what is left out of it
-
-// The points without those that are nearly on the line between those that stay (Ramer, Douglas and Peucker, 1972).
-DrawnRing thinned(const DrawnRing& points, double tolerance) {
-  std::vector<bool> stays(points.size());
-  stays.front() = stays.back() = true;
-  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
-  while (!open.empty()) {
-    const auto [first, last] = open.back();
-    open.pop_back();
-    const FlatVector way = from_to(points[first], points[last]);
-    const double length = std::hypot(way.x, way.y);
-    double farthest = tolerance;
-    std::size_t at = last;
-    for (std::size_t i = first + 1; i < last; ++i) {
-      const FlatVector off = from_to(points[first], points[i]);
-      const double along = length > 0 ? dot(off, way) / length : 0;
-      const bool is_beside = along >= 0 && along <= length && length > 0;
-      const double away = is_beside    ? std::abs(cross(off, way)) / length
-                          : along <= 0 ? std::hypot(off.x, off.y)
-                                       : distance_nm(points[i], points[last]);
-      if (away > farthest) at = i;
-      farthest = std::max(farthest, away);
-    }
-    if (at == last) continue;
-    stays[at] = true;
-    open.emplace_back(first, at);
-    open.emplace_back(at, last);
-  }
-  DrawnRing thin;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (stays[i]) thin.push_back(points[i]);
-  }
-  return thin;
-}
 
 // The ground around the islands, to the left of its rings, out to where it has no say within the box.
 Region ground_of(const std::vector<Region>& islands, const DrawnBox& box, std::vector<std::uint32_t>& owners) {

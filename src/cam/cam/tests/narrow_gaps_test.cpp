@@ -78,19 +78,6 @@ TEST(NarrowGaps, a_narrow_gap_is_milled_midway_and_both_sides_give) {
   EXPECT_EQ(less.gaps.size(), 1U);
 }
 
-// The way midway between these rounded ends passes the point where the copper that must stay on both sides is as far
-// from it as the cutter's edge, and just there the gap is too narrow.
-TEST(NarrowGaps, a_waist_that_is_too_narrow_is_not_milled) {
-  IsolationOptions options = with({0.2});
-  options.allowed_loss = wide(0.03);
-  const double away = 0.0635;  // half the gap
-  const Region copper = united(swept({{spot(0, 0.1016 + away), spot(0, 1)}}, wide(0.1016)),
-                               swept({{spot(0, -0.1016 - away), spot(0, -1)}}, wide(0.1016)));
-  const auto [plan, proof] = isolated(copper, options);
-  EXPECT_EQ(proof.damage_mm2, 0);
-  EXPECT_LE(proof.deepest, wide(0.031));
-}
-
 TEST(NarrowGaps, random_layouts_with_gaps_near_the_cutter_keep_what_must_stay) {
   std::mt19937 random(1);
   const auto between = [&random](double least, double most) {

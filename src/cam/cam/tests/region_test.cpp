@@ -93,6 +93,51 @@ TEST(Region, grows_rings_in_rings_as_if_each_were_alone) {
   }
 }
 
+// Discs in rows and columns, which overlap in different ways, with so many corners that the work is done in strips.
+Region many_discs(double radius_mm) {
+  std::vector<DrawnRing> middles;
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 8; ++k) middles.push_back({at_mm(i + 0.1 * (k % 3), k + 0.07 * (i % 5))});
+  }
+  return swept(middles, to_nanometres(Mm(radius_mm)), {500});
+}
+
+TEST(Region, is_the_same_in_strips) {
+  const Region discs = many_discs(0.6);
+  const Region others = grown(many_discs(0.45), {100'000}, {500});
+  const Region both = common(discs, others);
+  EXPECT_NEAR(area_mm2(united(discs, others)), area_mm2(discs) + area_mm2(others) - area_mm2(both), 1e-5);
+  EXPECT_NEAR(area_mm2(subtracted(discs, others)), area_mm2(discs) - area_mm2(both), 1e-5);
+  const Region larger = grown(discs, {50'000}, {500});
+  EXPECT_NEAR(area_mm2(common(larger, discs)), area_mm2(discs), 1e-5);
+  EXPECT_EQ(parts_of(discs).size(), 1U);
+
+  // Beside what is combined in a place on its own.
+  for (int i = 0; i < 40; i += 3) {
+    const Region window = filled({box_mm(i - 0.4, 1.2, i + 0.9, 3.1)});
+    Region near;
+    for (const Region* one : {&discs, &larger}) near = united(near, common(*one, window));
+    EXPECT_NEAR(area_mm2(near), area_mm2(common(larger, window)), 1e-5) << i;
+  }
+}
+
+// Cells of a hatched area, each on its own, on seams and between them.
+TEST(Region, holes_on_seams_stay_whole) {
+  std::vector<DrawnRing> bars;
+  for (int i = 0; i <= 60; ++i) {
+    bars.push_back(box_mm(0, i, 60.2, i + 0.2));
+    bars.push_back(box_mm(i, 0, i + 0.2, 60.2));
+  }
+  const Region hatch = filled(bars);
+  EXPECT_EQ(hatch.rings.size(), 3'601U);
+  EXPECT_NEAR(area_mm2(hatch), 60.2 * 60.2 - 3'600 * 0.8 * 0.8, 1e-6);
+  const Region narrow = grown(hatch, {-50'000});
+  EXPECT_EQ(narrow.rings.size(), 3'601U);
+  const Region cut = subtracted(hatch, filled({box_mm(-1, 30.1, 61, 30.15)}));
+  EXPECT_NEAR(area_mm2(cut), area_mm2(hatch) - 60.2 * 0.05, 1e-6);
+  EXPECT_EQ(parts_of(cut).size(), 2U);
+}
+
 TEST(Region, grows_holes_inwards) {
   const Region frame = subtracted(filled({box_mm(0, 0, 10, 10)}), filled({box_mm(2, 2, 8, 8)}));
   EXPECT_NEAR(area_mm2(grown(frame, one_mm)), 140 + std::numbers::pi - 16, 0.01);
