@@ -97,7 +97,7 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
                                               arguments.rest_removal, arguments),
                               .least = read.length("--rest-least", arguments.rest_least, least_length, Mm(10))};
   }
-  program.pencil = arguments.pencil;
+  program.rows.has_pencil = arguments.pencil;
   program.scallop = read.length("--scallop", arguments.scallop, Mm(0.0001), Mm(10));
   program.tolerance = read.length("--tolerance", arguments.tolerance, Mm(0), Mm(1));
   program.clearance = read.length("--clearance", arguments.clearance, Mm(0.1), Mm(1000));
@@ -148,7 +148,8 @@ namespace {
 Mm pitch_for(const ReliefProgramOptions& program) {
   const auto of_tool = [&program](const ReliefTool& tool) {
     const Cutter& cutter = tool.cutter;
-    const Mm fine = (cutter.corner.value() > 0 ? cutter.corner / 8 : cutter.radius / 16) / (program.pencil ? 2 : 1);
+    const Mm fine =
+        (cutter.corner.value() > 0 ? cutter.corner / 8 : cutter.radius / 16) / (program.rows.has_pencil ? 2 : 1);
     return tool.step_over.value() > 0 ? std::min(fine, tool.step_over) : fine;
   };
   Mm pitch = of_tool(program.finish);
