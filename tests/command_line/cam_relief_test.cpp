@@ -140,6 +140,40 @@ TEST_F(CamRelief, a_rib_thinner_than_a_cell_stays_and_one_that_was_cut_away_is_f
   EXPECT_THAT(bad.err, HasSubstr("[simulate.gouge]"));
 }
 
+// Each side is compared with the model as it lies there: nothing is cut into.
+TEST_F(CamRelief, both_sides_of_a_model_are_carved_with_dowel_holes_and_instructions) {
+  const std::vector<Block> top = {{{-10, -6, -6}, {10, 6, -2}}, {{-6, -3, -2}, {4, 3, 0}}};
+  const std::vector<Block> bottom = {{{-10, -6, -4}, {10, 6, 0}}, {{-4, -3, -6}, {6, 3, -4}}};
+  const std::string part = write("part.stl", stl_of(top));
+  const std::string job = path("job");
+  const std::string options = " --two-sided x --origin center --rough flat:4 --cutter ball:3 --pitch 0.1 -o " + job;
+  const Outcome made = relief(part + options);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(read(job + "/1-dowels.ngc"), HasSubstr("X-26."));
+  const std::string page = read(job + "/relief.html");
+  EXPECT_THAT(page, HasSubstr("Flip it from left to right, about the line X0."));
+  EXPECT_THAT(page, HasSubstr("The web is cut through except at 4 tabs"));
+  EXPECT_THAT(page, HasSubstr("data:image/png"));
+  EXPECT_THAT(read(job + "/3-flip.svg"), HasSubstr("<svg"));
+  EXPECT_TRUE(std::filesystem::exists(job + "/2-top.png"));
+  const std::string tools = " --tool 1=flat:4 --tool 2=ball:3 --cell 0.2 --stock X-20:20,Y-16:16,Z-6:0 --compare ";
+  const Outcome first = passo("simulate " + job + "/2-top.ngc" + tools + part);
+  EXPECT_EQ(first.code, 0) << first.err;
+  const Outcome second = passo("simulate " + job + "/3-bottom.ngc" + tools + write("b.stl", stl_of(bottom)));
+  EXPECT_EQ(second.code, 0) << second.err;
+
+  const auto refused = [&](const std::string& arguments, const char* words) {
+    const Outcome outcome = relief(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(words)) << arguments;
+  };
+  refused(part + " --two-sided y", "--two-sided: expected --output FOLDER");
+  refused(part + " --mirror" + options, "--two-sided: cannot be combined with --mirror");
+  refused(part + " --tab-height 5" + options, "a lower --tab-height");
+  refused(part + " --parting -0.5 --tab-height 1" + options, "only 0 tabs would hold the part");
+  refused(flower + options, "has no other side");
+}
+
 TEST_F(CamRelief, a_model_is_turned_and_has_a_unit) {
   const std::string part = write("part.stl", stl_of({{{0, 0, 0}, {4, 1, 2}}}));
   const std::string out = " --cutter flat:3 -o " + path("t.ngc");

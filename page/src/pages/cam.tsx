@@ -134,6 +134,11 @@ function Result() {
         </pre>
       )}
       <BoardSteps />
+      {now?.job !== 'board' && now?.page === true && (
+        <a href={`api/v1/cam/page?made=${madeCount.value}${secret}`} target="_blank" rel="noopener">
+          {say('cam.board.page')}
+        </a>
+      )}
       {now?.job !== 'board' && <div class="row">
         <Button kind="accent" icon="run" why={now?.program == null ? say('cam.none') : ''} onClick={() => goTo('files')}>
           {say('cam.open')}

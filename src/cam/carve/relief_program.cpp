@@ -153,7 +153,8 @@ void ReliefProgram::watch_stock() {
   const auto holds = [](const auto& part) { return part && part->tool.removal > 0; };
   const bool is_asked = !options_.area.is_all() || options_.rows.has_even_scallops ||
                         options_.rows.direction != RowDirection::there_and_back || options_.rows.angle.value != 0 ||
-                        options_.way == FinishStrategy::contours || options_.pencil || options_.finish.removal > 0 ||
+                        options_.way == FinishStrategy::contours || options_.rows.has_pencil ||
+                        options_.finish.removal > 0 ||
                         (options_.roughing && options_.roughing->way == RoughStrategy::offsets) ||
                         holds(options_.roughing) || holds(options_.rest);
   if (!is_asked) return;
@@ -174,7 +175,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
     report_.carved.heights.assign(surface_.heights.size(), 0.0F);
   }
   tools_ = 1 + (options_.roughing ? 1 : 0) + (options_.rest ? 1 : 0);
-  parts_ = tools_ + (options_.way == FinishStrategy::both ? 1 : 0) + (options_.pencil ? 1 : 0);
+  parts_ = tools_ + (options_.way == FinishStrategy::both ? 1 : 0) + (options_.rows.has_pencil ? 1 : 0);
   begin();
   watch_stock();
   const auto nodes_step = [&](const ReliefTool& tool, bool is_roughing, Mm pitch) {
@@ -200,7 +201,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
     record(tool, rest_overrun(options_), [&] { cut(finish_rest, surface_, false); });
     end_tool("rest finishing", tool, nodes_step(tool, false, surface_.pitch_y));
   }
-  if (options_.pencil) {
+  if (options_.rows.has_pencil) {
     const ReliefTool& tool = options_.rest ? options_.rest->tool : options_.finish;
     writer_.restore_plane();
     writer_.line("(pencil: along inner edges)");

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "passo/carve/relief_surface.hpp"
-
 namespace passo {
 namespace {
 
@@ -19,8 +17,12 @@ struct EdgePlace {
 
 class Splitter {
  public:
-  Splitter(const HeightGrid& top, const HeightGrid& bottom, const SplitOptions& options)
-      : top_(top), bottom_(bottom), options_(options), deep_(-floor_of(top)), web_(as_float(options.tab_height) / 2) {}
+  Splitter(const HeightGrid& top, const HeightGrid& bottom, Mm high, const SplitOptions& options)
+      : top_(top),
+        bottom_(bottom),
+        options_(options),
+        deep_(-grid_height(high * -1)),
+        web_(as_float(options.tab_height) / 2) {}
 
   SplitRelief split() {
     find_edge();
@@ -224,8 +226,8 @@ class Splitter {
 
 }  // namespace
 
-SplitRelief split_relief(const HeightGrid& top, const HeightGrid& bottom, const SplitOptions& options) {
-  return Splitter(top, bottom, options).split();
+SplitRelief split_relief(const HeightGrid& top, const HeightGrid& bottom, Mm high, const SplitOptions& options) {
+  return Splitter(top, bottom, high, options).split();
 }
 
 }  // namespace passo

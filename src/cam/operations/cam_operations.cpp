@@ -157,6 +157,8 @@ Examples:
                                                                    a photograph; its dark background is not carved
   passo cam relief face.3mf --within oval.svg --angle 45 --lowest-z -6 -o face.ngc
                                                                    rows at 45 degrees within a curve, at most 6 mm deep
+  passo cam relief duck.stl --two-sided x --rough flat:6 --cutter ball:3 -o duck
+                                                                   both sides of a model, with dowel holes and instructions
   passo cam relief map.png --origin center --margin 5 --margin-level top --spindle 18000 -o map.ngc
 
 All options, and what is guaranteed: docs/manual/relief.md.)";

@@ -175,6 +175,25 @@ std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
   };
 }
 
+std::vector<CamOption> two_sided_rows(CamReliefArguments& a) {
+  using enum CamKind;
+  return {
+      {"two-sided",
+       &a.two_sided,
+       choice,
+       "also carve the other side of a model: flip the stock x (left to right) or y (front to back); --output is a "
+       "folder",
+       {.choices = {"no", "x", "y"}, .is_of_job = true}},
+      {"tab-width", &a.tab_width, length, "two-sided: width of the tabs; 0: a web stays around the part", experts_only},
+      {"tab-height", &a.tab_height, length, "two-sided: thickness of the tabs", experts_only},
+      {"parting", &a.parting, length, "two-sided: Z of the tabs, a negative Z (default: where the part's edge is)",
+       experts_only},
+      {"pins", &a.pins, length, "two-sided: distance of the dowel holes from the milled area; 0: no holes",
+       experts_only},
+      {"align-drill", &a.align_drill, length, "two-sided: diameter of the dowel holes", experts_only},
+  };
+}
+
 }  // namespace
 
 std::vector<CamOption> cam_options_of(CamReliefArguments& a) {
@@ -196,6 +215,7 @@ std::vector<CamOption> cam_options_of(CamReliefArguments& a) {
       tool_rows(a),
       finishing_rows(a),
       roughing_rows(a),
+      two_sided_rows(a),
       {park_row(a.park)},
       program_rows(a),
   });

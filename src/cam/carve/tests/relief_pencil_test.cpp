@@ -72,7 +72,7 @@ double most_left(const std::string& program, const OracleCutter& cutter, const M
 ReliefProgramOptions pencil_options(bool has_pencil) {
   ReliefProgramOptions options = options_of("ball:3");
   options.tolerance = Mm(0.01);
-  options.pencil = has_pencil;
+  options.rows.has_pencil = has_pencil;
   return options;
 }
 
@@ -116,7 +116,7 @@ TEST(ReliefPencil, never_cuts_into_a_random_surface) {
   for (const OracleCutter& cutter : oracle_cutters()) {
     const HeightGrid grid = random_surface(random, 26, 22, Mm(0.2), Mm(0.25));
     ReliefProgramOptions options = options_of(cutter.text);
-    options.pencil = true;
+    options.rows.has_pencil = true;
     expect_no_gouge(grid, written(grid, options).text, {cutter}, 13);
   }
 }
@@ -132,7 +132,7 @@ TEST(ReliefPencil, uses_the_cutter_of_the_rest_pass) {
   const MiddleLine line{33};
   const HeightGrid grid = grid_of([&](double x, double y) { return std::min(0.0, -4 + std::abs(line.across(x, y))); });
   ReliefProgramOptions options = three_tools();
-  options.pencil = true;
+  options.rows.has_pencil = true;
   const Written program = written(grid, options);
   ASSERT_EQ(program.report.parts.size(), 4U);
   EXPECT_EQ(program.report.parts[3].what, "pencil");

@@ -67,7 +67,7 @@ SplitRelief split(const Faces& body, const SplitOptions& options) {
   const ReliefShape shape{.pitch = Mm(0.12)};
   const HeightGrid top = relief_of({.faces = body}, shape, "it", diagnostics);
   const HeightGrid bottom = relief_of({.faces = flipped(body, options.flip)}, shape, "it", diagnostics);
-  return split_relief(top, bottom, options);
+  return split_relief(top, bottom, Mm(high), options);
 }
 
 ReliefProgramOptions side_options(const SplitRelief& split) {

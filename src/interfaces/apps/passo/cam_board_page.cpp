@@ -12,7 +12,8 @@ namespace passo {
 namespace {
 
 constexpr const char* picture_style =
-    "figure { margin: 1rem 0; } figure svg { display: block; width: 100%; height: auto; background: var(--sheet); }";
+    "figure { margin: 1rem 0; } figure svg { display: block; width: 100%; height: auto; background: var(--sheet); } "
+    "figure img { max-width: 100%; height: auto; }";
 
 std::string list_of(const std::vector<std::string>& items, const char* kind) {
   std::string html = fmt::format("<{}>", kind);
@@ -25,8 +26,9 @@ std::string step_html(const BoardStep& step, std::size_t number) {
   html += list_of(step.words, "ol");
   // A letter for each step makes the ids of the pictures differ.
   const std::string name(1, static_cast<char>('a' + static_cast<char>(number % 26)));
-  const std::string figure =
+  std::string figure =
       step.picture.empty() ? "" : "<figure>" + inline_svg(step.picture, name, step.title) + "</figure>\n";
+  if (!step.photo.empty()) figure += "<figure>" + inline_png(step.photo, step.title) + "</figure>\n";
   if (step.program.empty()) return html + figure + "</section>\n";
   html += fmt::format("<dl><div><dt>Program</dt><dd>{}</dd></div>", html_text(step.program));
   for (std::size_t i = 0; i < step.tools.size(); ++i) {
@@ -85,9 +87,11 @@ std::string to_json(const BoardPage& page) {
 
 std::string to_html(const BoardPage& page) {
   const std::string name = html_text(page.name);
-  std::string html = html_page_begin(name + " \u2013 passo cam board", std::string(check_style) + picture_style);
+  std::string html =
+      html_page_begin(name + " \u2013 passo cam " + page.command, std::string(check_style) + picture_style);
   html += fmt::format("<header><h1>{}</h1>\n", name);
-  html += page.machine.empty()
+  html += !page.lead.empty() ? fmt::format("<p class=\"quiet\">{}</p></header>\n", html_text(page.lead))
+          : page.machine.empty()
               ? "<p class=\"quiet\">Without a machine file (-m) the times are unknown.</p></header>\n"
               : fmt::format("<p class=\"quiet\">The times are those on {}.</p></header>\n", html_text(page.machine));
   for (std::size_t i = 0; i < page.steps.size(); ++i) html += step_html(page.steps[i], i + 1);
@@ -95,7 +99,7 @@ std::string to_html(const BoardPage& page) {
   for (const BoardPageFile& file : page.files) files.push_back(words_for(file));
   html += "<section><h2>What was read</h2>\n" + list_of(files, "ul");
   if (!page.left_out.empty()) html += "<p>Ignored:</p>\n" + list_of(page.left_out, "ul");
-  return html + "</section>\n" + html_page_end("All options: docs/manual/circuit-boards.md.");
+  return html + "</section>\n" + html_page_end(fmt::format("All options: docs/manual/{}.md.", page.manual));
 }
 
 }  // namespace passo

@@ -1,4 +1,5 @@
-// BoardPage: the output of `passo cam board` as one HTML page with step-by-step instructions.
+// BoardPage: the output of `passo cam board` as one HTML page with step-by-step instructions. `passo cam relief
+// --two-sided` uses it for its instructions, too.
 //
 // The page is a single file: it needs no network and runs no script, and all text from files is escaped.
 #pragma once
@@ -24,6 +25,7 @@ struct BoardStep {
   std::string figures = {};             // statistics, one per line
   std::optional<Seconds> time = {};     // empty: unknown
   std::string picture = {};             // SVG; empty: none
+  std::string photo = {};               // PNG; empty: none
 };
 
 struct BoardPageFile {
@@ -57,6 +59,9 @@ struct BoardPage {
   std::optional<BoardRegistration> registration = {};  // empty: no holes
   const char* holes = "";                              // the two holes beside the board: "pins" or "probe"; empty: none
   std::vector<BoardStep> steps;
+  const char* command = "board";
+  const char* manual = "circuit-boards";
+  std::string lead = {};  // what stands below the name; empty: where the times are from
 };
 
 std::string to_html(const BoardPage& page);

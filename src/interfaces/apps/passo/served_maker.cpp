@@ -86,11 +86,16 @@ bool ServedMaker::begin(const CamOrder& order) {
     words.insert(words.end(), {option, name});
     return write_content(folder_.path(name), text);
   };
+  const auto is_two_sided = [](const std::string& option) {
+    return option.starts_with("--two-sided=") && option != "--two-sided=no";
+  };
+  makes_folder_ = order.job == board_job || std::ranges::any_of(order.options, is_two_sided);
+  if (makes_folder_) words.insert(words.end(), {"--output", made_folder});
   if (order.job == board_job) {
-    words.insert(words.end(), {"--output", made_folder, "--json"});
+    words.emplace_back("--json");
     if (!order.profile.empty() && !add_file("--profile", board_profile, order.profile)) return failed();
     if (!order.machine.empty() && !add_file("--machine", board_machine, order.machine)) return failed();
-  } else {
+  } else if (!makes_folder_) {
     result_.names = {stem_ + "-" + order.job + ".ngc"};
     made_ = {program_file(result_.names.front())};
     words.insert(words.end(), {"--output", made_.front(), "--picture", picture_file(order.job)});
@@ -111,23 +116,23 @@ const CamResult& ServedMaker::result() {
   const bool may_join = result_.job == board_job || result_.job == "isolate";
   const int code = WIFEXITED(*end) ? WEXITSTATUS(*end) : -1;
   bool good = code == exit_done || (code == exit_failed && may_join);
-  if (result_.job == board_job) poll_board();
+  if (makes_folder_) poll_folder();
   std::error_code none;
   good = good && !made_.empty() && fs::exists(folder_.path(made_.front()), none);
   result_.state = good ? CamResult::State::done : CamResult::State::failed;
   if (!good && result_.words.empty()) result_.words = words_of_end(*end);
   if (!good) result_.names.clear();
   if (good) result_.progress = 1;
-  result_.has_page = good && result_.job == board_job;
+  result_.has_page = good && makes_folder_;
   if (good && fs::exists(folder_.path(picture_file(result_.job)), none)) {
     result_.picture_type = picture_file(result_.job).ends_with(".png") ? "image/png" : "image/svg+xml";
   }
   return result_;
 }
 
-// A board's programs are numbered: "2-isolate-front.ngc".
-void ServedMaker::poll_board() {
-  result_.report = content_of(folder_.path(BackgroundProcess::printed_file));
+// The programs are numbered: "2-isolate-front.ngc".
+void ServedMaker::poll_folder() {
+  if (result_.job == board_job) result_.report = content_of(folder_.path(BackgroundProcess::printed_file));
   std::error_code none;
   std::vector<std::pair<int, std::string>> found;
   for (fs::directory_iterator at(folder_.path(made_folder), none), end; !none && at != end; at.increment(none)) {
@@ -152,7 +157,7 @@ std::string ServedMaker::picture(std::optional<std::size_t> number) const {
 }
 
 std::string ServedMaker::page() const {
-  return content_of(folder_.path(std::string(made_folder) + "/board.html"));
+  return content_of(folder_.path(std::string(made_folder) + "/" + result_.job + ".html"));
 }
 
 }  // namespace passo

@@ -26,7 +26,7 @@ class ServedMaker final : public CamService {
   std::string page() const override;
 
  private:
-  void poll_board();
+  void poll_folder();
 
   struct Kept {
     std::string name;
@@ -35,7 +35,8 @@ class ServedMaker final : public CamService {
 
   TemporaryFolder folder_;
   std::vector<Kept> kept_;
-  std::string stem_;  // base name of the programs
+  std::string stem_;           // base name of the programs
+  bool makes_folder_ = false;  // a board, or both sides of a model: several programs, and a page
   CamResult result_;
   std::vector<std::string> made_;  // the program files in the folder
   BackgroundProcess process_;

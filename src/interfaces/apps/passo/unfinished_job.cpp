@@ -17,11 +17,12 @@ namespace fs = std::filesystem;
 bool is_of_a_job(const fs::path& file) {
   const std::string stem = file.stem().string();
   const std::size_t dash = stem.find_first_not_of("0123456789");
-  if (dash == 0 || dash == std::string::npos || (file.extension() != ".ngc" && file.extension() != ".svg"))
-    return false;
-  constexpr std::array<std::string_view, 12> names = {
-      "-drill",      "-isolate-front", "-isolate-back", "-outline",   "-heights-front", "-heights-back",
-      "-find-holes", "-flip",          "-mask-front",   "-mask-back", "-stencil-front", "-stencil-back"};
+  const fs::path kind = file.extension();
+  if (dash == 0 || dash == std::string::npos || (kind != ".ngc" && kind != ".svg" && kind != ".png")) return false;
+  constexpr std::array<std::string_view, 15> names = {
+      "-dowels",       "-top",        "-bottom",        "-drill",         "-isolate-front",
+      "-isolate-back", "-outline",    "-heights-front", "-heights-back",  "-find-holes",
+      "-flip",         "-mask-front", "-mask-back",     "-stencil-front", "-stencil-back"};
   return std::ranges::find(names, std::string_view(stem).substr(dash)) != names.end();
 }
 

@@ -1,5 +1,5 @@
-// UnfinishedJob: the folder in which `passo cam board` generates a job before all of it is moved to its destination.
-// After a failure, the job's folder is unchanged.
+// UnfinishedJob: the folder in which `passo cam board`, or another command that makes several programs, generates a job
+// before all of it is moved to its destination. After a failure, the job's folder is unchanged.
 #pragma once
 
 #include <filesystem>

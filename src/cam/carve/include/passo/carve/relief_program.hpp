@@ -70,6 +70,7 @@ struct ReliefRows {
   // Adds rows on slopes, so that no scallop is higher than the scallop height. For cutters with a round tip or corner;
   // not for rows at an angle.
   bool has_even_scallops = false;
+  bool has_pencil = false;  // after all rows, the last cutter also cuts along inner edges
 };
 
 // The part of the surface that is cut. Not available for spirals.
@@ -100,7 +101,6 @@ struct ReliefProgramOptions {
   ReliefRows rows = {};
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
-  bool pencil = false;   // the last cutter also cuts along inner edges
   Mm scallop{0.02};      // scallop height between two rows on a flat area, if no stepover is given
   Mm tolerance{0.01};    // tolerance of lines, upward only
   Mm clearance{5};       // clearance height

@@ -45,7 +45,7 @@ struct SplitRelief {
 };
 
 // `top`, `bottom`: the part seen from both sides, with as many nodes, and with the height of its lowest point where
-// there is no part. The part must have a height of more than the web.
-SplitRelief split_relief(const HeightGrid& top, const HeightGrid& bottom, const SplitOptions& options);
+// there is no part. `high`: the height of the part, more than that of the web.
+SplitRelief split_relief(const HeightGrid& top, const HeightGrid& bottom, Mm high, const SplitOptions& options);
 
 }  // namespace passo

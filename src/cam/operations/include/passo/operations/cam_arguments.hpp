@@ -327,6 +327,12 @@ struct CamReliefArguments : CamProgramArguments, CamToolArguments {
   std::string rest_least = "0.05mm";
   std::string rest_feed;  // empty: as `feed`
   std::optional<double> rest_removal;
+  std::string two_sided = "no";  // or how the stock is flipped: x, left to right; y, front to back
+  std::string tab_width = "6mm";
+  std::string tab_height = "2mm";
+  std::string parting;        // a negative Z; empty: where the part's edge is
+  std::string pins = "10mm";  // distance of the dowel holes from the milled area; 0: none
+  std::string align_drill = "6mm";
   bool pencil = false;            // the last cutter also cuts along inner edges
   std::uint32_t spindle = 12000;  // rpm; 0: no spindle commands
   std::string units = "mm";       // unit of the program, and of lengths without a unit: mm or inch
