@@ -1,6 +1,7 @@
 #include "passo/toml/fit_for_parser.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -20,6 +21,30 @@ std::size_t dots_of(std::string_view line) {
   const bool has_quotes = line.find_first_of("\"'") != std::string_view::npos;
   const std::string_view relevant = has_quotes ? line : line.substr(0, line.find('#'));
   return static_cast<std::size_t>(std::ranges::count(relevant, '.'));
+}
+
+// The offset of the first byte outside of strings and comments that is not ASCII, or npos. TOML has none there. The
+// library is undefined for some of them (its test for spaces ends in TOML_UNREACHABLE), and accepts three as spaces.
+std::size_t bare_letter(std::string_view line) {
+  constexpr std::string_view spaces[] = {"\xC2\xA0", "\xE3\x80\x80", "\xEF\xBB\xBF"};
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote != 0) {
+      if (c == '\\' && quote == '"') ++i;
+      if (c == quote) quote = 0;
+    } else if (c == '#') {
+      break;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      const auto* const space =
+          std::ranges::find_if(spaces, [&](std::string_view one) { return line.substr(i).starts_with(one); });
+      if (space == std::end(spaces)) return i;
+      i += space->size() - 1;
+    }
+  }
+  return std::string_view::npos;
 }
 
 }  // namespace
@@ -45,6 +70,10 @@ bool is_fit_for_parser(const TomlReporter& reporter) {
     if (triple != std::string_view::npos) {
       return refuse("machine.syntax", triple, "a string over several lines",
                     "a string on one line, e.g. name = \"Router\"");
+    }
+    if (const std::size_t letter = bare_letter(line); letter != std::string_view::npos) {
+      return refuse("machine.syntax", letter, "a character outside of quotes that is not ASCII",
+                    "keys of plain letters; other characters only in a text, e.g. name = \"Fräse\"");
     }
     if (const std::size_t dots = dots_of(line); dots > most_dots) {
       return refuse("machine.too-deep", line.find('.'), fmt::format("a line with {} dots", dots),

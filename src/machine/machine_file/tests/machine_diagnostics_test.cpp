@@ -328,6 +328,7 @@ TEST(MachineDiagnostics, what_is_no_text_file_at_all_is_refused_by_name) {
   EXPECT_EQ(code_of(sound_machine + "# \xff\n"), "28 machine.syntax\n");
   EXPECT_EQ(code_of(std::string((1U << 20U) + 1, '#')), "0 machine.too-big\n");
   EXPECT_EQ(code_of("\n" + std::string(5000, '#')), "2 machine.long-line\n");
+  EXPECT_EQ(code_of(sound_machine + "# Fräse \"x\nname = 'Fräse' # é\nnote = \"\\\"é\" é\n"), "30 machine.syntax\n");
 }
 
 std::string repeated(const std::string& text, int times) {
