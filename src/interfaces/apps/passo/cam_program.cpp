@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "passo/diagnostics/file_bytes.hpp"
-#include "passo/post_processor/post_processor.hpp"
 
 namespace passo {
 namespace {
@@ -36,23 +35,6 @@ LengthUnit unit_of(ProgramUnits units) {
   return units == ProgramUnits::cm ? LengthUnit::cm : units == ProgramUnits::inch ? LengthUnit::inch : LengthUnit::mm;
 }
 
-bool is_plain_program(const CamProgramArguments& arguments) {
-  return controller_of(arguments).knows_all() && arguments.start_text.empty() && arguments.tool_change_text.empty() &&
-         arguments.end_text.empty();
-}
-
-// `units`: of the program that is written. `read_unit`: the unit in which it was made.
-PostProcessorOptions post_processor_options_of(const CamProgramArguments& arguments, const std::string& units,
-                                               LengthUnit read_unit) {
-  PostProcessorOptions options;
-  options.read_unit = read_unit;
-  options.written_unit = unit_of(program_units_of(units));
-  options.spindle_seconds = arguments.spindle_delay;
-  Diagnostics findings;  // program_words_are_good() has shown them
-  read_texts(arguments, options, findings);
-  return options;
-}
-
 int write_in_words(const CamProgramArguments& arguments, const std::string& output, const std::string& text,
                    PostProcessorOptions options) {
   std::string written;
@@ -72,6 +54,22 @@ void set_place(PostProcessorOptions& options, DrawnPoint park, Nanometres height
 }
 
 }  // namespace
+
+bool is_plain_program(const CamProgramArguments& arguments) {
+  return controller_of(arguments).knows_all() && arguments.start_text.empty() && arguments.tool_change_text.empty() &&
+         arguments.end_text.empty();
+}
+
+PostProcessorOptions post_processor_options_of(const CamProgramArguments& arguments, const std::string& units,
+                                               LengthUnit read_unit) {
+  PostProcessorOptions options;
+  options.read_unit = read_unit;
+  options.written_unit = unit_of(program_units_of(units));
+  options.spindle_seconds = arguments.spindle_delay;
+  Diagnostics findings;  // program_words_are_good() has shown them
+  read_texts(arguments, options, findings);
+  return options;
+}
 
 bool program_words_are_good(const CamProgramArguments& arguments, const std::string& units) {
   if (!controller_of(arguments).knows_all() && units == "cm") {

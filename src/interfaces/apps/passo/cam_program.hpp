@@ -11,12 +11,20 @@
 #include "passo/cam/drill_program.hpp"
 #include "passo/cam/mill_program.hpp"
 #include "passo/carve/relief_program.hpp"
+#include "passo/post_processor/post_processor.hpp"
 #include "passo/report/output_file.hpp"
 
 namespace passo {
 
 // Checks --for and the operator's texts before any work. Shows what is wrong. `units`: those of the program.
 bool program_words_are_good(const CamProgramArguments& arguments, const std::string& units);
+
+// Returns the options for a program in `units`. `read_unit`: the unit in which the program was written.
+PostProcessorOptions post_processor_options_of(const CamProgramArguments& arguments, const std::string& units,
+                                               LengthUnit read_unit);
+
+// Whether the program is to be written as it is.
+bool is_plain_program(const CamProgramArguments& arguments);
 
 SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments& lengths);
 
