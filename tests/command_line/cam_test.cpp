@@ -61,8 +61,7 @@ TEST_F(CamDrill, the_classic_chain_makes_a_program_in_centimetres) {
 }
 
 TEST_F(CamDrill, the_classic_chain_in_millimetres_runs_on_the_virtual_machine) {
-  const Outcome made =
-      drill(pads() + " --drill 0.075cm --clearance 0.2cm --depth -0.3cm -o " + path("fori.gc"));
+  const Outcome made = drill(pads() + " --drill 0.075cm --clearance 0.2cm --depth -0.3cm -o " + path("fori.gc"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("mm is assumed"));
   for (const char* name : {"forty-eight.toml", "pantograph.toml"}) {

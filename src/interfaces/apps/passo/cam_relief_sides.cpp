@@ -231,9 +231,9 @@ int SidesMaker::carve(const HeightGrid& grid, const char* name, BoardStep step, 
   Result<OutputFile, OutputError> file = OutputFile::open(path(step.program));
   if (!file) return fail(exit_failed, file.error().message);
   std::optional<std::string> refused;
-  const ReliefReport report = write_relief_in_words(
-      arguments_, program, *file, refused,
-      [&](const ReliefSink& sink) { return write_relief(grid, program, sink, progress, true); });
+  const ReliefReport report = write_relief_in_words(arguments_, program, *file, refused, [&](const ReliefSink& sink) {
+    return write_relief(grid, program, sink, progress, true);
+  });
   if (refused) return fail(exit_bad_program, fmt::format("--for {}: {}", arguments_.controller, *refused));
   if (const Status<OutputError> written = file->commit(); !written) return fail(exit_failed, written.error().message);
   for (const ReliefPart& part : report.parts) {

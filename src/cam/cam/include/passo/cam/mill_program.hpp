@@ -1,10 +1,10 @@
 // write_mill_program: writes a mill plan as G-code.
 //
-// For each run the cutter rapids to the XY position of the first point and down to 0.5 mm above the board, plunges at the
-// plunge feed, follows the run at the feeds of its paces, and retracts. A run that begins with a rapid is entered by this
-// rapid. Arcs are G2 and G3. The program begins with a rapid up to the change height, and reaches the first run from
-// there. Multiple tools are changed with M6 at the change height above the park position, with the spindle off, after a
-// message to the operator. The program ends there too, with M5 and M2.
+// For each run the cutter rapids to the XY position of the first point and down to 0.5 mm above the board, plunges at
+// the plunge feed, follows the run at the feeds of its paces, and retracts. A run that begins with a rapid is entered
+// by this rapid. Arcs are G2 and G3. The program begins with a rapid up to the change height, and reaches the first run
+// from there. Multiple tools are changed with M6 at the change height above the park position, with the spindle off,
+// after a message to the operator. The program ends there too, with M5 and M2.
 #pragma once
 
 #include <cstdint>
