@@ -166,6 +166,7 @@ void JerkWindow::pull() {
   const double rest = from + way_to_rest_ - length_;
   const double least = least_rest(segment->curve, start_.speed);
   const bool rests = rest < length + least;
+  const double to = rest < length - least ? rest : length;
   if (rests) way_to_rest_ = length_;
   const Segment* after = rests ? nullptr : path_.after(cut_);
   if (!started_) {
@@ -181,11 +182,11 @@ void JerkWindow::pull() {
     at_stops_.end_squared = end_squared_after(cut_, at_stops_.end_direction);
   }
   if (rests && stops_ != nullptr) {
-    at_stops_.end_squared = stops_->at_end(segment->curve.tangent(Mm(std::min(rest, length))));
+    at_stops_.end_squared = stops_->at_end(segment->curve.tangent(Mm(to)));
   }
   const double exit = after == nullptr ? at_stops_.end_squared : cutter_.joint_cap(*segment, *after);
   cutter_.begin(*segment, {.from = from,
-                           .to = rest < length - least ? rest : length,
+                           .to = to,
                            .entry_squared = estimate_,
                            .exit_squared = exit,
                            .feed = feeds_.speed_on(*segment)});
