@@ -161,7 +161,7 @@ TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_tells_what_differ
   EXPECT_EQ(passo("cam job " + job + " --check").code, 1) << "there is no program yet";
   ASSERT_EQ(passo("cam job " + job).code, 0);
   EXPECT_EQ(passo("cam job " + job + " --check").code, 0);
-  EXPECT_THAT(passo("cam job " + job).out, HasSubstr("changed: nothing since the last time\n"));
+  EXPECT_THAT(passo("cam job " + job).out, HasSubstr("changed: nothing since the last run\n"));
 
   small_job("<rect x='35' y='20' width='8' height='6'/>");
   const Outcome stale = passo("cam job " + job + " --check");
@@ -272,7 +272,7 @@ TEST_F(CamJob, a_job_of_a_stranger_reads_only_its_folder) {
   const std::string job = small_job("", "[[operation]]\nkind = \"pocket\"\ntool = 1\ndrawing = \"../other.svg\"\n");
   const Outcome made = passo("cam job small.toml --only-folder -o made.ngc", "cd " + path("") + " &&");
   EXPECT_EQ(made.code, 2);
-  EXPECT_THAT(made.err, HasSubstr("'../other.svg' is outside of the job's folder [job.outside]"));
+  EXPECT_THAT(made.err, HasSubstr("'../other.svg' is outside the job's folder [job.outside]"));
 }
 
 }  // namespace

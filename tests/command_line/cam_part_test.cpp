@@ -64,7 +64,7 @@ TEST_F(CamPart, walls_are_finished_and_told) {
   EXPECT_THAT(read(path("f.ngc")), HasSubstr(" F150\n"));
   expect_cuts_well(path("f.ngc"), "X5:115,Y0:80,Z-6:0");
   const Outcome left = passo(pocket + " --allowance 0.3 --conventional");
-  EXPECT_THAT(left.out, HasSubstr("allowance: 0.3 mm stay on the walls\nconventional milling\n"));
+  EXPECT_THAT(left.out, HasSubstr("allowance: 0.3 mm left on the walls\nconventional milling\n"));
   EXPECT_THAT(passo(pocket + " --allowance 1").err, HasSubstr("--allowance: expected 0 to a quarter"));
   EXPECT_THAT(passo(pocket + " --finish-pass --allowance 0").err, HasSubstr("needs an --allowance above 0"));
   EXPECT_THAT(passo(pocket + " --floor-allowance 3").err, HasSubstr("--floor-allowance: expected 0 to --step"));

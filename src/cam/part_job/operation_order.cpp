@@ -64,16 +64,17 @@ std::string OrderSearch::must_precede(std::size_t first, std::size_t then) const
   if (a.kind == PartKind::face && b.kind != PartKind::face) return "facing comes first";
   if (b.kind == PartKind::face) return "";
   if (frees_the_part(b) && !frees_the_part(a)) {
-    return is_inside(a) ? "what is inside is cut before what is outside" : "it frees the part, so it comes last";
+    return is_inside(a) ? "inside contours are cut before the profile around them"
+                        : "it frees the part, so it comes last";
   }
   if (frees_the_part(a)) return "";
   if (is_finish(b.kind) && !is_finish(a.kind) && (a.kind == PartKind::relief || share_layers(a, b))) {
-    return fmt::format("it comes after '{}', which cuts the same", a.title);
+    return fmt::format("it follows '{}', which cuts the same area", a.title);
   }
   if (a.kind == b.kind && a.kind == PartKind::pocket && share_layers(a, b) && width_of(a) > width_of(b)) {
     return "a wider cutter clears first";
   }
-  if (a.kind == PartKind::relief && is_inside(b)) return "what is inside is cut after the face above it";
+  if (a.kind == PartKind::relief && is_inside(b)) return "inside contours are cut after the relief above them";
   return "";
 }
 

@@ -206,7 +206,7 @@ void PartJobReader::read_clamp(const TomlTable& table, const std::string& path, 
   if (!from || !to || !height) return;
   if (from->low >= to->low || from->high >= to->high) {
     reader.error("job.bad-value", "to",
-                 fmt::format("{} ends at [{:g}, {:g}], before it begins", path, to->low, to->high),
+                 fmt::format("{0}.to is [{1:g}, {2:g}], not beyond {0}.from", path, to->low, to->high),
                  fmt::format("X above {:g} and Y above {:g}", from->low, from->high));
     return;
   }
@@ -246,7 +246,7 @@ void PartJobReader::read_tool(const TomlEntry& entry) {
   }
   reader.finish(document_.complete, {});
   if (const std::string flaw = flaw_of(tool.shape); !flaw.empty()) {
-    reporter_.error("job.tool", entry.place, fmt::format("tool.{} cannot exist", entry.key), flaw);
+    reporter_.error("job.tool", entry.place, fmt::format("tool.{} is not a valid tool", entry.key), flaw);
     return;
   }
   job_.tools.insert_or_assign(number, tool);

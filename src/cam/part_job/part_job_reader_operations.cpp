@@ -112,7 +112,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
   if (!kind) {
     if (word) {
       const std::string_view near = suggestion(*word, names_of_kinds);
-      reader.error("job.unknown-kind", "kind", fmt::format("there is no operation \"{}\"", *word),
+      reader.error("job.unknown-kind", "kind", fmt::format("there is no kind of operation \"{}\"", *word),
                    near.empty() ? fmt::format("{}", fmt::join(names_of_kinds, ", ")) : fmt::format("perhaps {}", near));
     } else {
       reporter_.error("job.missing-key", place,
@@ -137,7 +137,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
     const std::string expected = tool_expected(*kind, job_.tools.at(operation.tool).tool.shape);
     if (!expected.empty()) {
       reader.error("job.wrong-tool", "tool",
-                   fmt::format("{} is not for this: {}", name_of(*kind), describe(job_.tools.at(operation.tool).tool)),
+                   fmt::format("{} cannot use {}", name_of(*kind), describe(job_.tools.at(operation.tool).tool)),
                    expected);
     }
   }
@@ -156,7 +156,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
                     *kind == PartKind::relief ? "file = \"face.stl\"" : "drawing = \"plate.svg\", here or in [job]");
   }
   if (*kind == PartKind::face && !job_.stock) {
-    reporter_.error("job.missing-key", operation.place, "facing needs the size of the stock", "a table [stock]");
+    reporter_.error("job.missing-key", operation.place, "face needs the size of the stock", "a table [stock]");
   }
   if (*kind == PartKind::relief && job_.units == "cm") {
     reporter_.error("job.bad-value", operation.place, "a relief cannot be in cm", "units = \"mm\" or \"inch\"");

@@ -87,7 +87,7 @@ TEST(PartJob, a_clamp_ends_after_it_begins) {
   const std::string errors = errors_of(std::string(head) +
                                        "[[clamp]]\nfrom = [10, 0]\nto = [5, 20]\nheight = 10\n"
                                        "[[operation]]\nkind = \"pocket\"\ntool = 1\n");
-  EXPECT_NE(errors.find("plate.toml:12:6: error: clamp.1 ends at [5, 20], before it begins [job.bad-value]"),
+  EXPECT_NE(errors.find("plate.toml:12:6: error: clamp.1.to is [5, 20], not beyond clamp.1.from [job.bad-value]"),
             std::string::npos)
       << errors;
 }

@@ -206,7 +206,7 @@ void take_finish_feed(const CamFinishArguments& arguments, MillProgramOptions& p
 std::string finish_words(const CamFinishArguments& arguments, Nanometres allowance, std::size_t finished) {
   if (allowance.count <= 0 || (arguments.finish_pass && finished == 0)) return "";
   const double mm = to_mm(allowance).value();
-  if (!arguments.finish_pass) return fmt::format("allowance: {:.4g} mm stay on the walls\n", mm);
+  if (!arguments.finish_pass) return fmt::format("allowance: {:.4g} mm left on the walls\n", mm);
   const std::string springs =
       arguments.spring_passes == 0 ? "" : fmt::format(", and {} each", counted(arguments.spring_passes, "spring lap"));
   return fmt::format("finishing: {} of {:.4g} mm at full depth{}\n", counted(finished, "lap"), mm, springs);
@@ -234,7 +234,7 @@ void take_chamfer(const CamProfileArguments& arguments, OutlineOptions& cut, Len
   }
   const ChamferCut chamfer = chamfer_of(arguments, lengths);
   cut.cutter = {2 * chamfer.beside.count};
-  cut.words = fmt::format("V of {:g} degrees for a chamfer", arguments.angle);
+  cut.words = fmt::format("V-bit of {:g} degrees for a chamfer", arguments.angle);
   cut.depth = chamfer.depth;
   cut.step = {-chamfer.depth.count};
   cut.tabs = 0;
@@ -252,7 +252,7 @@ std::string milling_words(bool climb) {
 
 std::string unfinished_words(std::size_t count, const char* what) {
   if (count == 0) return "";
-  return fmt::format("{} without an allowance, for lack of room\n", counted(count, what));
+  return fmt::format("{} cut without an allowance, for lack of room\n", counted(count, what));
 }
 
 std::string tight_words(std::size_t count, Nanometres cutter) {

@@ -261,7 +261,7 @@ int SidesMaker::flip() {
       rectangle(x0_.value() - x, y0_.value() - y, (x0_ + width_).value() + x, (y0_ + length_).value() + y);
   const Region part = region_of(split_, x0_ - split_.beside_x, y0_ - split_.beside_y);
   if (pins_.value() > 0) {
-    step.words[0] += " Press dowels into the holes of the table, and put the stock onto them.";
+    step.words[0] += " Press dowels into the holes in the table, and place the stock on them.";
     step.words.push_back(
         fmt::format("Hole 1 is at X{:.6g} Y{:.6g}, hole 2 at X{:.6g} Y{:.6g} mm: after the flip, each "
                     "is where the other was.",
@@ -283,7 +283,7 @@ int SidesMaker::flip() {
     if (code != exit_done) return code;
     step.picture = content_of(file);
   } else {
-    step.words.push_back("Without dowels, align the stock with a stop: its middle must stay on that line.");
+    step.words.push_back("Without dowels, align the stock against a stop, so that its centre line stays on that line.");
   }
   page_.steps.push_back(std::move(step));
   return exit_done;
@@ -292,7 +292,7 @@ int SidesMaker::flip() {
 int SidesMaker::write_all(const WorkProgress& progress) {
   if (const int code = drill(progress.part(0, 0.05)); code != exit_done) return code;
   const std::string web =
-      fmt::format("A web of {:.4g} mm around the part is left, {:.4g} mm below the upper face.",
+      fmt::format("A web of {:.4g} mm remains around the part, {:.4g} mm below the upper face.",
                   options_.tab_height.value(), split_.parting.value() - options_.tab_height.value() / 2);
   int code = carve(
       split_.top, "top",
@@ -302,8 +302,8 @@ int SidesMaker::write_all(const WorkProgress& progress) {
   std::vector<std::string> words = {"Insert the cutter, and set Z0 on the upper face; run the program."};
   words.push_back(split_.tabs > 0
                       ? fmt::format("The web is cut through except at {} tabs, which hold the part.", split_.tabs)
-                      : std::string("The web around the part stays."));
-  words.emplace_back(split_.tabs > 0 ? "Saw the tabs off, and sand the places." : "Saw the part out of the web.");
+                      : std::string("The web around the part remains."));
+  words.emplace_back(split_.tabs > 0 ? "Saw off the tabs, and sand the stubs." : "Saw the part out of the web.");
   if (code == exit_done) {
     code = carve(split_.bottom, "bottom", {.kind = "back", .title = "Carve the bottom", .words = std::move(words)},
                  progress.part(0.5, 1));

@@ -231,7 +231,7 @@ std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperat
   if (code != exit_done) {
     if (messages.failures.empty()) {
       findings.add(
-          job.finding("job.operation", operation.place, fmt::format("'{}' cannot be made", operation.title), ""));
+          job.finding("job.operation", operation.place, fmt::format("'{}' cannot be generated", operation.title), ""));
     }
     return std::nullopt;
   }

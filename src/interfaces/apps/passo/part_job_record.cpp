@@ -202,7 +202,7 @@ std::string out_of_date(const Json& record, const std::string& fingerprint, cons
     return "the job file or a drawing has changed";
   }
   const Json& programs = list_of(record, "programs");
-  if (programs.empty()) return "the record names no program";
+  if (programs.empty()) return "the record lists no program";
   for (const Json& program : programs) {
     const std::string name = std::filesystem::path(value_of<std::string>(program, "file", "")).filename().string();
     const std::string file = (std::filesystem::path(output).parent_path() / name).string();
@@ -233,7 +233,7 @@ std::vector<std::string> changes_of(const Json& before, const Json& now) {
     }
     old.erase(found);
   }
-  for (const auto& [title, operation] : old) lines.push_back(fmt::format("'{}' is gone", title));
+  for (const auto& [title, operation] : old) lines.push_back(fmt::format("'{}' was removed", title));
   return lines;
 }
 

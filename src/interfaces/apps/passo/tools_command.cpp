@@ -106,7 +106,7 @@ void print_feeds(const CuttingTool& tool, WorkMaterial material, const CuttingFe
   row("plunge", feeds.plunge > MmPerSecond(0) ? fmt::format("{:g} mm/min", speed_per_minute(feeds.plunge)) : "none",
       "plunge");
   if (feeds.depth_per_pass > Mm(0))
-    row("depth", fmt::format("{:.3g} mm a pass", feeds.depth_per_pass.value()), "depth");
+    row("depth", fmt::format("{:.3g} mm per pass", feeds.depth_per_pass.value()), "depth");
   if (feeds.step_over > 0) row("stepover", fmt::format("{:g} %", feeds.step_over * 100), "stepover");
   if (feeds.chip_load < feeds.chip_range.least * 0.5) {
     note(
