@@ -143,7 +143,7 @@ TEST_F(CamJob, a_clamp_in_the_way_is_named_with_operation_and_line_and_nothing_i
   EXPECT_FALSE(std::filesystem::exists(path("small.job.json")));
 }
 
-TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_mends_it) {
+TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_solves_it) {
   // Between two pockets, where the cutter passes at the clearance.
   const std::string clamp = "[[clamp]]\nfrom = [33, 15]\nto = [35, 35]\nheight = 12\n";
   const Outcome low = passo("cam job " + small_job("<rect x='38' y='20' width='8' height='10'/>", clamp));
@@ -156,7 +156,7 @@ TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_mend
   EXPECT_EQ(passo("cam job " + path("small.toml")).code, 0);
 }
 
-TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_tells_what_differs) {
+TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_lists_the_differences) {
   const std::string job = small_job();
   EXPECT_EQ(passo("cam job " + job + " --check").code, 1) << "there is no program yet";
   ASSERT_EQ(passo("cam job " + job).code, 0);

@@ -53,7 +53,7 @@ TEST_F(CamPart, its_pocket_is_cleared_around_an_island) {
   expect_cuts_well(path("p.ngc"), "X5:115,Y0:80,Z-6:0");
 }
 
-TEST_F(CamPart, walls_are_finished_and_told) {
+TEST_F(CamPart, walls_are_finished_and_reported) {
   const std::string pocket =
       "cam pocket " + bracket + " --layer pocket --tool 3 --depth -6 --step 2 -o " + path("f.ngc");
   const Outcome made = passo(pocket + " --finish-pass --spring-passes 1 --finish-feed 150 --floor-allowance 0.2");

@@ -1,4 +1,4 @@
-// The operations of a job file: the options of their commands, and what their tools say.
+// The operations of a job file: the options of their commands, and the values of their tools.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,7 @@ bool is_set_by_job(const CamOption& option) {
          std::ranges::find(names, option.name) != names.end();
 }
 
-// The key of another tool of the operation, and the option that it stands for.
+// The key of the operation's second tool, and its option.
 struct FirstTool {
   std::string_view key;
   std::string_view option;
@@ -47,7 +47,7 @@ FirstTool first_tool_of(PartKind kind) {
   return {};
 }
 
-// Gives an option a value. Options that the operation does not have are passed over.
+// Gives an option a value. Options that the operation does not have are ignored.
 void give(const std::vector<CamOption>& options, std::string_view name, const std::string& value) {
   const auto found = std::ranges::find(options, name, &CamOption::name);
   if (found == options.end()) return;
@@ -62,7 +62,7 @@ double degrees_of(const Cutter& cutter) {
   return cutter.half_angle.value * 360 / std::numbers::pi;
 }
 
-// As parse_cutter() reads it.
+// In the format of parse_cutter().
 std::string cutter_words(const Cutter& cutter) {
   const std::string diameter = fmt::format("{}", 2 * cutter.radius.value());
   switch (cutter.kind()) {
@@ -76,7 +76,7 @@ std::string cutter_words(const Cutter& cutter) {
   return "flat:" + diameter;
 }
 
-// What kind of tool an operation needs. Empty: this one is good.
+// The kind of tool that an operation needs; empty: this one is suitable.
 std::string tool_expected(PartKind kind, CuttingShape shape) {
   if (kind == PartKind::drill) return "";
   if (kind == PartKind::relief) return shape != CuttingShape::drill ? "" : "a milling cutter";
@@ -202,7 +202,7 @@ void PartJobReader::read_options(const TomlTable& table, TableReader& reader, Pa
   operation.names = selected("name");
 }
 
-// What [job] says for all operations that have the option.
+// The options in [job] for all operations that have them.
 void PartJobReader::apply_defaults(PartOperation& operation) {
   for (const CamOption& option : cam_options_of(operation)) {
     const TomlEntry* const entry = find(defaults_, option.name);

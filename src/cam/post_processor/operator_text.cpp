@@ -70,7 +70,7 @@ void OperatorTextCheck::check(std::string_view line, std::uint32_t number, bool 
   const std::size_t before = findings_.errors();
   check_braces();
   check_characters();
-  // Each placeholder becomes a number of its own length, so that the columns of the words stay.
+  // Each placeholder becomes a number of its own length, so that the columns of the words do not change.
   const std::string sample =
       filled(line, [](std::string_view name, std::size_t) { return std::string(name.size() + 1, '0') + "1"; });
   const bool is_special = sample.starts_with('$') || sample.starts_with('#') || sample.starts_with('%') ||

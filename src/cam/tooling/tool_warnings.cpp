@@ -111,7 +111,7 @@ std::optional<ToolWarning> UseJudge::small_chip(const ToolUse& use) const {
   const ChipRange permitted = range(use);
   const double limit = permitted.least.value() * rubbing_share;
   if (found >= limit * (1 - slack)) return std::nullopt;
-  // The feed of the table, or what the machine can; where that is not enough, the spindle turns slower too.
+  // The feed of the table, up to the machine's limit; if that is too slow, the spindle turns more slowly, too.
   ToolUse advised = turning(use);
   const double wanted = std::ceil(feed_for(advised, permitted.least.value()));
   const double most = most_feed.value() * seconds_per_minute;
@@ -199,7 +199,7 @@ std::vector<ToolWarning> warnings_of(const CuttingTool& tool, const ToolUse& use
   const UseJudge judge{tool, material, spindle, most_feed};
   std::vector<ToolWarning> warnings = judge.all(use);
   for (ToolWarning& warning : warnings) {
-    // The advice is tried. Where it brings another warning, the advice of that one is added.
+    // The advice is checked. If it causes another warning, the advice of that one is added.
     constexpr int most_rounds = 4;
     for (int round = 0; round <= most_rounds; ++round) {
       const std::vector<ToolWarning> left = judge.all(warning.advised);

@@ -48,7 +48,7 @@ TEST(ToolWarnings, a_3_mm_cutter_rubs_in_wood_at_200_mm_per_minute) {
   EXPECT_EQ(hopeless.at(0).advice, "another tool: no feed rate and spindle speed of this machine suit this one");
 }
 
-TEST(ToolWarnings, tell_each_kind_with_its_numbers) {
+TEST(ToolWarnings, give_the_numbers_of_each_kind) {
   const auto only = [](const ToolUse& use, const CuttingTool& tool = cutter) {
     const auto warnings = warnings_of(tool, use, WorkMaterial::hardwood, {8000, 24000});
     EXPECT_EQ(warnings.size(), 1U) << codes_of(warnings);
@@ -79,7 +79,7 @@ TEST(ToolWarnings, tell_each_kind_with_its_numbers) {
             "tool.holder: the holder of T2 touches the material: the cut is 6 mm deep, and the tool sticks out 5 mm");
 }
 
-// The advice is what makes a warning useful, so it is followed: the warning goes, and no other comes.
+// Advice makes a warning useful. If it is followed, the warning disappears, and no other one appears.
 TEST(ToolWarnings, the_advice_helps_for_every_tool_and_use) {
   std::mt19937_64 random(test::seed());
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };

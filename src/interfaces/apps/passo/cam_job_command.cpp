@@ -33,7 +33,7 @@ struct JobRun {
   std::vector<TrialProgram> programs = {};
 };
 
-// A program that goes nowhere has no record beside it.
+// A program that is written to /dev/null has no record.
 bool keeps_record(const JobRun& run) {
   return run.output != "/dev/null";
 }
@@ -216,7 +216,7 @@ double number_of(const JobRun& run, const PartOperation& operation, std::string_
   return length ? length->value() : 0;
 }
 
-// How the tool is used, as the trial has seen it.
+// How the tool is used, as seen in the trial.
 ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOperation& tried) {
   ToolUse use;
   use.depth = Mm(tried.depth_mm);
@@ -235,7 +235,7 @@ ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOpe
   return use;
 }
 
-// Adds to the notes of each operation where its feeds come from, and what is wrong with them.
+// Adds the origin of the feeds, and warnings about them, to the notes of each operation.
 void note_tools(JobRun& run, const Trial& trial) {
   const auto material = run.job.stock ? run.job.stock->known_material : std::nullopt;
   for (std::size_t i = 0; i < run.job.operations.size(); ++i) {
@@ -277,7 +277,7 @@ bool is_outside(const std::string& file) {
   return path.is_absolute() || std::ranges::any_of(path, [](const auto& part) { return part == ".."; });
 }
 
-// A job file of a stranger must not show what other files of this computer hold.
+// An untrusted job file must not reveal the contents of other files of this computer.
 void check_folder(const JobRun& run, Diagnostics& findings) {
   const auto refuse = [&](const SourceLocation& place, const std::string& file) {
     findings.add(run.job.finding("job.outside", place, fmt::format("'{}' is outside the job's folder", file),
@@ -304,7 +304,7 @@ void check_folder(const JobRun& run, Diagnostics& findings) {
   }
 }
 
-// What is told after all is written.
+// The messages after everything is written.
 void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again) {
   if (run.arguments.json) {
     record["changes"] = changes;

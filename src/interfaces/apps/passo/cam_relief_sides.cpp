@@ -1,5 +1,5 @@
 // passo cam relief --two-sided: the programs for both sides of a model, the dowel holes about which the stock is
-// flipped, pictures, and a page that says what to do when.
+// flipped, pictures, and a page with step-by-step instructions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Options that have no meaning for a part with two sides, or another one.
+// Options that have no meaning, or a different one, for a part with two sides.
 std::string refused_for_sides(const CamReliefArguments& arguments) {
   const std::pair<bool, const char*> options[] = {{!arguments.within.empty(), "--within"},
                                                   {arguments.invert, "--invert"},
@@ -51,7 +51,7 @@ Mm trench_of(const ReliefProgramOptions& program) {
   return radius * 2.2 + stock * 2 + Mm(1);
 }
 
-// The part as a region of rectangles, for the picture of the flip. Coarse: it is only looked at.
+// The part as a region of rectangles, for the picture of the flip. Coarse, because it is only a picture.
 Region region_of(const SplitRelief& split, Mm x0, Mm y0) {
   constexpr std::size_t most = 160;
   const HeightGrid& grid = split.top;

@@ -60,7 +60,7 @@ std::string time_words(double seconds) {
                       : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-// A record may have been edited by anybody.
+// A record may have been edited by hand.
 template <class Value>
 Value value_of(const Json& json, const char* key, Value otherwise) {
   if (!json.is_object()) return otherwise;
@@ -103,7 +103,7 @@ std::string listed(const std::vector<std::string>& contours, const char* what) {
                      fmt::join(contours.begin(), contours.begin() + static_cast<std::ptrdiff_t>(shown), ", "), rest);
 }
 
-// What differs between two entries of the same operation. Empty: nothing.
+// The differences between two entries of the same operation. Empty: none.
 std::string changes_of_operation(const Json& before, const Json& now) {
   std::vector<std::string> changes;
   const auto number = [&](const char* key, const char* words, double least) {
