@@ -94,7 +94,7 @@ TEST_F(CamPart, a_hole_as_wide_as_the_cutter_is_cut) {
   const Outcome made = passo("cam profile " + svg + " --tool 3 --depth -2 --step 1 -o " + path("h.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
-  EXPECT_THAT(made.out, HasSubstr("1 cut as wide as the cutter, within 0.02 mm, along the middle line\n"));
+  EXPECT_THAT(made.out, HasSubstr("1 cut as wide as the cutter, within 0.02 mm, along the centre line\n"));
   EXPECT_THAT(read(path("h.ngc")), HasSubstr("G0 X12 Y15\nG0 Z0.5\nF60\nG1 Z0\nG1 Z-1\nG0 Z0\nG0 Z-0.8\nG1 Z-2\n"));
 }
 

@@ -331,7 +331,7 @@ std::optional<Helix> PocketPlanner::helix_in(const PocketRing& ring) const {
   return find_helix(*ring.core, margin, options_.cutter);
 }
 
-// Where the cutter cannot come from the loop before, it goes down along a helix, or along the loop.
+// Where no link leads from the previous loop, the cutter goes down along a helix or along the loop.
 std::vector<PocketPlanner::PocketLoop> PocketPlanner::loops_of(std::vector<PocketRing> rings) {
   std::vector<PocketLoop> loops;
   DrawnPoint at = rings.front().ring.front();
@@ -391,7 +391,7 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
   if (run.size() > 1) runs.push_back(std::move(run));
 }
 
-// What is exactly as wide as the cutter. Adaptive clearing leaves it: it is a slot.
+// Gaps exactly as wide as the cutter. Adaptive clearing leaves them, because they are slots.
 void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   if (options_.most_engagement > 0) return;
   const Region reach = finished_.empty() ? reach_ : united(reach_, reachable(finished_));

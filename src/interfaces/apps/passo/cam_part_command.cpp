@@ -212,7 +212,7 @@ std::string finish_words(const CamFinishArguments& arguments, Nanometres allowan
   return fmt::format("finishing: {} of {:.4g} mm at full depth{}\n", counted(finished, "lap"), mm, springs);
 }
 
-// The cutter of a chamfer: it goes deeper than the chamfer, and so much away from the edge that its tip is free.
+// The cutter of a chamfer: it goes deeper than the chamfer, far enough from the edge that its tip is clear of it.
 struct ChamferCut {
   Nanometres beside;  // from the edge to the cutter's centre
   Nanometres depth;
@@ -226,8 +226,8 @@ ChamferCut chamfer_of(const CamProfileArguments& arguments, LengthArguments& len
   return {{tip.count / 2 + below}, {-std::llround(static_cast<double>(width.count + below) / slope)}};
 }
 
-// Cuts along the contours with the flank of a V-bit, in one pass. It is the same distance from all contours, so it
-// takes no more than the chamfer of any.
+// Cuts along the contours with the flank of a V-bit, in one pass. It keeps the same distance from all contours, so it
+// cuts no more than the chamfer from any of them.
 void take_chamfer(const CamProfileArguments& arguments, OutlineOptions& cut, LengthArguments& lengths) {
   if (arguments.finish_pass || !arguments.allowance.empty() || arguments.side == "on" || arguments.dog_bones) {
     lengths.refuse("--chamfer cannot be combined with --allowance, --finish-pass, --dog-bones or --side on");
@@ -257,7 +257,7 @@ std::string unfinished_words(std::size_t count, const char* what) {
 
 std::string tight_words(std::size_t count, Nanometres cutter) {
   if (count == 0) return "";
-  return fmt::format("{} as wide as the cutter, within {:g} mm, along the middle line\n", counted(count, "cut"),
+  return fmt::format("{} as wide as the cutter, within {:g} mm, along the centre line\n", counted(count, "cut"),
                      to_mm(tight_cut_tolerance(cutter)).value());
 }
 
