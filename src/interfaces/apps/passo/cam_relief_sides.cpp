@@ -168,7 +168,7 @@ void SidesMaker::put_stock(const std::string& name) {
   page_.name = name;
   page_.command = "relief";
   page_.manual = "relief";
-  page_.lead = "The times are those at the programmed feeds, without rapids and accelerations.";
+  page_.lead = "The times assume the programmed feed rates, without rapids and acceleration.";
   page_.files = {{.name = name, .short_name = name, .layer = words_, .told_by = "content", .is_drill_file = false}};
   page_.steps.push_back(
       {.kind = "blank",
@@ -177,7 +177,7 @@ void SidesMaker::put_stock(const std::string& name) {
            fmt::format("The stock must be {:.4g} mm thick, as high as the model, with two parallel faces.", high_),
            fmt::format("It must be at least {:.4g} x {:.4g} mm in X and Y.", is_x_ ? along : other,
                        is_x_ ? other : along),
-           fmt::format("The part reaches from X{:.6g} to X{:.6g} and from Y{:.6g} to Y{:.6g} mm.", x0_.value(),
+           fmt::format("The part extends from X{:.6g} to X{:.6g} and from Y{:.6g} to Y{:.6g} mm.", x0_.value(),
                        (x0_ + width_).value(), y0_.value(), (y0_ + length_).value()),
            "Z0 is the upper face of the stock."}});
 }
@@ -263,7 +263,7 @@ int SidesMaker::flip() {
   if (pins_.value() > 0) {
     step.words[0] += " Press dowels into the holes in the table, and place the stock on them.";
     step.words.push_back(
-        fmt::format("Hole 1 is at X{:.6g} Y{:.6g}, hole 2 at X{:.6g} Y{:.6g} mm: after the flip, each "
+        fmt::format("Hole 1 is at X{:.6g} Y{:.6g}, hole 2 at X{:.6g} Y{:.6g} mm; after the flip, each "
                     "is where the other was.",
                     holes_[0].first, holes_[0].second, holes_[1].first, holes_[1].second));
     const auto hole = [](const std::pair<double, double>& at) {
@@ -296,10 +296,10 @@ int SidesMaker::write_all(const WorkProgress& progress) {
                   options_.tab_height.value(), split_.parting.value() - options_.tab_height.value() / 2);
   int code = carve(
       split_.top, "top",
-      {.kind = "front", .title = "Carve the top", .words = {"Insert the cutter, and set Z0; run the program.", web}},
+      {.kind = "front", .title = "Carve the top", .words = {"Insert the cutter, set Z0, and run the program.", web}},
       progress.part(0.05, 0.5));
   if (code == exit_done) code = flip();
-  std::vector<std::string> words = {"Insert the cutter, and set Z0 on the upper face; run the program."};
+  std::vector<std::string> words = {"Insert the cutter, set Z0 on the upper face, and run the program."};
   words.push_back(split_.tabs > 0
                       ? fmt::format("The web is cut through except at {} tabs, which hold the part.", split_.tabs)
                       : std::string("The web around the part remains."));
@@ -331,7 +331,7 @@ int SidesMaker::make(ReliefReading& reading, const WorkProgress& progress) {
   if (split_.hidden > much) {
     note(fmt::format(
         "the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters may "
-        "not reach all of the part, and a tab cannot hold it",
+        "not reach all of the part, and no tab can hold it",
         split_.parting.value(), split_.hidden * 100));
   }
   int code = unfinished_.begin();
