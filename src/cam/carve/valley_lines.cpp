@@ -98,7 +98,7 @@ class ValleyNodes {
            most >= sharpness({node.column + best.column, node.row + best.row}, best);
   }
 
-  // Adds nodes at the end, always the one that lies nearest and straight ahead. Other nodes next to the chain are used up.
+  // Adds nodes at the end, always the nearest one straight ahead. Other nodes next to the chain are used up.
   void extend(std::vector<NodePlace>& chain) {
     while (const std::optional<NodePlace> next = next_of(chain)) {
       const NodePlace& last = chain.back();

@@ -56,8 +56,8 @@ constexpr const char* engrave_examples =
 "\n" in the text begins a new line. All options: docs/manual/engraving.md.)";
 
 constexpr const char* job_examples =
-    R"(A job file describes all operations on a part: drawings, stock, clamps, tools with feeds, and a table [[operation]]
-for each pocket, profile, hole, engraving, chamfer or relief, with the options of its command.
+    R"(A job file describes all operations on a part: drawings, stock, clamps, tools with feeds, and a table
+[[operation]] for each pocket, profile, hole, engraving, chamfer or relief, with the options of its command.
 
 Examples:
   passo cam job plate.toml                       writes the program that the job file names, and a report
