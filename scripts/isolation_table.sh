@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # scripts/isolation_table.sh [LAYER...]: isolates copper layers with a cutter of 0.2 mm, then as the report advises, and
-# prints a row for each: the nets, how many stay joined, the advice, how many stay joined with it, what an oracle in
-# pixels (scripts/isolation_oracle.py) says of that program, and the seconds of both commands.
+# prints a row for each: the nets, how many stay joined, the advice, how many stay joined with it, the result of a check
+# in pixels (scripts/isolation_oracle.py) of that program, and the seconds of both commands.
 #
-# Without LAYER: examples/boards, a board of some 800 islands made here, the boards of ../shared/peers/boards where they
-# are at hand, and those of gerbv's examples where they are installed. Where gerbv, or numpy, scipy or Pillow for Python,
-# is missing (for $PYTHON, or python3), the oracle is silent. The exit code is 1 if an advice failed.
+# Without LAYER: examples/boards, a generated board with some 800 islands, the boards of ../shared/peers/boards if they
+# exist, and those of gerbv's examples if they are installed. The check is skipped if gerbv, or numpy, scipy or Pillow
+# for Python ($PYTHON, or python3), is missing. The exit code is 1 if the advice fails for any layer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1-} == -* ]]; then

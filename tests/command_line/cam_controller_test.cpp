@@ -1,5 +1,5 @@
-// passo cam --for CONTROLLER: every operation for every controller, judged by checks that share nothing with the
-// post-processor; and by LinuxCNC's own interpreter, where it is installed.
+// passo cam --for CONTROLLER: every operation for every controller, checked by code that shares nothing with the
+// post-processor, and by LinuxCNC's own interpreter, where it is installed.
 #include <cstdlib>
 #include <filesystem>
 
@@ -96,7 +96,7 @@ TEST_F(CamController, the_heights_and_the_delay_can_be_chosen) {
               HasSubstr("\nG0 Z40\nM3"));
 }
 
-TEST_F(CamController, texts_of_the_operator_stand_where_they_belong) {
+TEST_F(CamController, texts_of_the_operator_are_written_in_the_right_places) {
   const std::string start = write("start.txt", "M8 (coolant for {tool_name}, {diameter} {units})\n");
   const std::string change = write("change.txt", "(fetch tool {tool} of {program}, {rpm} rpm)\nG53 G0 Z0\nM0\n");
   const std::string end = write("end.txt", "M9\nG53 G0 Z0\nM30\n");
@@ -138,7 +138,7 @@ TEST_F(CamController, a_wrong_text_is_refused_with_its_place) {
   EXPECT_THAT(refused("M9\nM30\nG0 X0\n", "mach3", "--end-text"), HasSubstr("t.txt:2:1: "));
 }
 
-TEST_F(CamController, what_a_controller_cannot_do_is_refused) {
+TEST_F(CamController, programs_that_a_controller_cannot_run_are_refused) {
   const std::string wire =
       "cam wire examples/foam/naca2412.dat examples/foam/naca0010.dat --chord 100,60 --span 400 --width 300 -o " +
       path("w.nc");
@@ -152,7 +152,7 @@ TEST_F(CamController, what_a_controller_cannot_do_is_refused) {
 }
 
 // rs274 of the package linuxcnc-uspace prints the canonical calls, or an error.
-TEST_F(CamController, linuxcnc_itself_takes_the_programs) {
+TEST_F(CamController, linuxcnc_itself_accepts_the_programs) {
   if (std::system("rs274 -g /dev/null >/dev/null 2>&1; test $? -ne 127") != 0) {
     GTEST_SKIP() << "rs274 is not installed (linuxcnc-uspace)";
   }

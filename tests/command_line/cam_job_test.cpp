@@ -143,7 +143,7 @@ TEST_F(CamJob, a_clamp_in_the_way_is_named_with_operation_and_line_and_nothing_i
   EXPECT_FALSE(std::filesystem::exists(path("small.job.json")));
 }
 
-TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_mends_it) {
+TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_solves_it) {
   // Between two pockets, where the cutter passes at the clearance.
   const std::string clamp = "[[clamp]]\nfrom = [33, 15]\nto = [35, 35]\nheight = 12\n";
   const Outcome low = passo("cam job " + small_job("<rect x='38' y='20' width='8' height='10'/>", clamp));
@@ -156,12 +156,12 @@ TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_mend
   EXPECT_EQ(passo("cam job " + path("small.toml")).code, 0);
 }
 
-TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_tells_what_differs) {
+TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_lists_the_differences) {
   const std::string job = small_job();
   EXPECT_EQ(passo("cam job " + job + " --check").code, 1) << "there is no program yet";
   ASSERT_EQ(passo("cam job " + job).code, 0);
   EXPECT_EQ(passo("cam job " + job + " --check").code, 0);
-  EXPECT_THAT(passo("cam job " + job).out, HasSubstr("changed: nothing since the last time\n"));
+  EXPECT_THAT(passo("cam job " + job).out, HasSubstr("changed: nothing since the last run\n"));
 
   small_job("<rect x='35' y='20' width='8' height='6'/>");
   const Outcome stale = passo("cam job " + job + " --check");
@@ -272,7 +272,7 @@ TEST_F(CamJob, a_job_of_a_stranger_reads_only_its_folder) {
   const std::string job = small_job("", "[[operation]]\nkind = \"pocket\"\ntool = 1\ndrawing = \"../other.svg\"\n");
   const Outcome made = passo("cam job small.toml --only-folder -o made.ngc", "cd " + path("") + " &&");
   EXPECT_EQ(made.code, 2);
-  EXPECT_THAT(made.err, HasSubstr("'../other.svg' is outside of the job's folder [job.outside]"));
+  EXPECT_THAT(made.err, HasSubstr("'../other.svg' is outside the job's folder [job.outside]"));
 }
 
 }  // namespace

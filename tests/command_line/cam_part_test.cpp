@@ -53,7 +53,7 @@ TEST_F(CamPart, its_pocket_is_cleared_around_an_island) {
   expect_cuts_well(path("p.ngc"), "X5:115,Y0:80,Z-6:0");
 }
 
-TEST_F(CamPart, walls_are_finished_and_told) {
+TEST_F(CamPart, walls_are_finished_and_reported) {
   const std::string pocket =
       "cam pocket " + bracket + " --layer pocket --tool 3 --depth -6 --step 2 -o " + path("f.ngc");
   const Outcome made = passo(pocket + " --finish-pass --spring-passes 1 --finish-feed 150 --floor-allowance 0.2");
@@ -64,7 +64,7 @@ TEST_F(CamPart, walls_are_finished_and_told) {
   EXPECT_THAT(read(path("f.ngc")), HasSubstr(" F150\n"));
   expect_cuts_well(path("f.ngc"), "X5:115,Y0:80,Z-6:0");
   const Outcome left = passo(pocket + " --allowance 0.3 --conventional");
-  EXPECT_THAT(left.out, HasSubstr("allowance: 0.3 mm stay on the walls\nconventional milling\n"));
+  EXPECT_THAT(left.out, HasSubstr("allowance: 0.3 mm left on the walls\nconventional milling\n"));
   EXPECT_THAT(passo(pocket + " --allowance 1").err, HasSubstr("--allowance: expected 0 to a quarter"));
   EXPECT_THAT(passo(pocket + " --finish-pass --allowance 0").err, HasSubstr("needs an --allowance above 0"));
   EXPECT_THAT(passo(pocket + " --floor-allowance 3").err, HasSubstr("--floor-allowance: expected 0 to --step"));
@@ -94,7 +94,7 @@ TEST_F(CamPart, a_hole_as_wide_as_the_cutter_is_cut) {
   const Outcome made = passo("cam profile " + svg + " --tool 3 --depth -2 --step 1 -o " + path("h.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
-  EXPECT_THAT(made.out, HasSubstr("1 cut as wide as the cutter, within 0.02 mm, along the middle line\n"));
+  EXPECT_THAT(made.out, HasSubstr("1 cut as wide as the cutter, within 0.02 mm, along the centre line\n"));
   EXPECT_THAT(read(path("h.ngc")), HasSubstr("G0 X12 Y15\nG0 Z0.5\nF60\nG1 Z0\nG1 Z-1\nG0 Z0\nG0 Z-0.8\nG1 Z-2\n"));
 }
 

@@ -167,7 +167,7 @@ TEST_F(FirstMachine, engraves_letters_and_carves_a_relief_for_their_first_second
   std::vector<Outcome> letters;
   if (!run_section("Engrave letters", letters)) GTEST_SKIP() << letters.back().err;
   expect_true("letters.json", 1'000);
-  EXPECT_THAT(letters[1].out, HasSubstr("0:03:54 in motion, 0:00:02 of dwells"));
+  EXPECT_THAT(letters[1].out, HasSubstr("0:03:51 in motion, 0:00:02 of dwells"));
   std::vector<Outcome> relief;
   ASSERT_TRUE(run_section("Carve a relief", relief));
   expect_true("relief.json", 1'000);

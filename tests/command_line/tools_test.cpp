@@ -1,4 +1,4 @@
-// passo tools, and the cutters of a library in passo cam, as a user gives them.
+// passo tools, and the cutters of a library in passo cam, from the command line.
 #include <algorithm>
 
 #include "kit/command_line.hpp"

@@ -1,6 +1,6 @@
 // Checks programs of `passo cam` for other controllers: their words and numbers, arcs, and the order in which they
-// move, start the spindle and change tools. The lists are typed from the controllers' manuals, and nothing of Passo is
-// used.
+// move, start the spindle and change tools. The lists are copied from the controllers' manuals; no code of
+// Passo is used.
 #pragma once
 
 #include <array>
@@ -44,9 +44,8 @@ inline std::vector<ControllerRules> controller_rules() {
        .m = {"2", "3", "5", "6"},
        .letters = "FGHIJKMPQRSTUVXYZ",
        .longest_line = 255},
-      // gnea/grbl, doc/markdown/commands.md and interface.md: no cycles, no M6, no %; one line is 80 characters. '!',
-      // '?'
-      // and '~' and all bytes from 0x80 are commands.
+      // gnea/grbl, doc/markdown/commands.md and interface.md: no cycles, no M6, no %; a line has at most
+      // 80 characters. '!', '?' and '~' and all bytes from 0x80 are commands.
       {.name = "grbl",
        .g = with({"91.1", "93"}),
        .m = {"0", "2", "3", "5"},
@@ -54,7 +53,7 @@ inline std::vector<ControllerRules> controller_rules() {
        .longest_line = 79,
        .bad_characters = "!?~%",
        .most_radius = 1000},
-      // grblHAL/core, README: cycles and M6, which waits for a change by hand.
+      // grblHAL/core, README: cycles and M6, which waits for a manual change.
       {.name = "grblhal",
        .g = with({"81", "83", "91.1", "93", "98", "99"}),
        .m = {"2", "3", "5", "6"},

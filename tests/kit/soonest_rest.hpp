@@ -1,11 +1,11 @@
-// The soonest rest that a search finds on the path, within the limits of all axes together: the machine could come to
+// The earliest stop that a search finds on the path, within the limits of all axes together: the machine could come to
 // rest in that time. test::least_rest_after() is below the least possible time, this is above it. Shares no code with
 // the planner.
 //
-// The search goes by even steps of time. In each step the acceleration along the path changes evenly, to one of a few
-// values between the least and the greatest that the limits allow. Of the motions that are at nearly the same place
-// with nearly the same speed and acceleration, one goes on, and of all those the ones that look soonest at rest. A
-// motion is at rest after an even rise of its acceleration to 0.
+// The search uses equal time steps. In each step the acceleration along the path changes linearly, to one of a few
+// values between the least and the greatest that the limits allow. Of the motions at nearly the same position with
+// nearly the same speed and acceleration, one is kept, and of these, the ones that seem likely to stop first. A motion
+// is at rest after a linear rise of its acceleration to 0.
 #pragma once
 
 #include <algorithm>

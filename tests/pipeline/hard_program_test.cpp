@@ -336,12 +336,12 @@ TEST(HardPrograms, need_few_cells_for_ramps_of_microseconds) {
   }
 }
 
-// What keeps limits of jerk is allowed without them, too. So on the same path no machine is slower without them, except
-// for its cells: they have an even acceleration and a velocity limit each, and a wide corner has 24 of them, where the
-// jerk law has hundreds of phases. In number 99183 (mixed) this costs 0.44 %. On the path that is smoothed for it, none
-// of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799), but number 551247 (as drawn)
-// takes 1.0606 times as long: its own path, which does not swing wide where an axis reverses, takes 1.11 times as long
-// as the other.
+// A motion within jerk limits is also allowed without them. So on the same path no machine is slower without them,
+// except for its cells: they have an even acceleration and a velocity limit each, and a wide corner has 24 of them,
+// where the jerk law has hundreds of phases. In number 99183 (mixed) this costs 0.44 %. On the path that is smoothed
+// for it, none of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799), but number 551247 (as
+// drawn) takes 1.0606 times as long: its own path, which does not swing wide where an axis reverses, takes 1.11 times
+// as long as the other.
 TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {
   int compared = 0;
   double worst = 0;

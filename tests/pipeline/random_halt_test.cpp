@@ -222,7 +222,7 @@ struct HaltedRun {
   std::vector<std::string> faults;
 };
 
-// Searches for a rest that is sooner by a fifth, where the least time leaves room for one.
+// Searches for a stop that is a fifth earlier, if the least time leaves room for one.
 void search_sooner_rests(std::vector<Halt>& halts, const MachineDescription& machine, const test::LaidPath& path) {
   for (Halt& halt : halts) {
     const double took = halt.rested - halt.from;

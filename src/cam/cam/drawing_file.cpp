@@ -26,7 +26,7 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
   }
   const bool is_svg = looks_like_svg(*bytes) && !looks_like_dxf(*bytes) && !looks_like_design_board(*bytes);
   if (!is_svg && (!options.svg.colors.empty() || !options.svg.names.empty())) {
-    diagnostics.add(of_file("drawing.no-colours", path, "this drawing cannot be selected by colours or names",
+    diagnostics.add(of_file("drawing.no-colours", path, "shapes of this drawing cannot be selected by colour or name",
                             "an SVG drawing, or --layer"));
     return nothing;
   }

@@ -16,7 +16,7 @@ struct Helix {
 };
 
 // Returns the widest helix in `ground`, a single part of the area of the cutter centre: 80 % of the cutter's diameter
-// wide, or as wide as there is room; nothing if less than 50 % fit. `margin_nm`: by how much the ground may be left.
+// wide, or as wide as there is room; nothing if 50 % do not fit. `margin_nm`: how far it may leave `ground`.
 std::optional<Helix> find_helix(const Region& ground, double margin_nm, Nanometres cutter);
 
 // Returns the circle, beginning at its point nearest to `towards`.

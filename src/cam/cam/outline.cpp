@@ -108,7 +108,7 @@ EdgeGrid OutlinePlanner::grid_of(const Region& region) {
   return grid;
 }
 
-// A closed gap around a part stays: it would need tabs.
+// A closed gap around a part is not cut, because it would need tabs.
 void OutlinePlanner::find_tight_gaps() {
   tight_ = find_tight_ways_beside(board_, ways_, options_.cutter);
   std::erase_if(tight_, [](const TightWay& way) { return way.is_closed; });

@@ -28,7 +28,7 @@ void add_level(const MillRun& piece, Nanometres z, MillRun& run) {
 
 }  // namespace
 
-// Rims lie on one another often. So they are swept a few at a time, with longer chords; the walls are not.
+// Rims often coincide, so they are swept a few at a time, with longer chords; the walls are not.
 Region swept_rims(const PeelWay& way, Nanometres radius, std::vector<DrawnRing>& laps) {
   constexpr Nanometres rim_chords{20'000};
   constexpr std::size_t at_once = 256;  // chords
@@ -102,7 +102,7 @@ std::vector<MillRun> peel_runs(const PeelWay& way, const PeelLayers& layers) {
         run.pop_back();
       } else {
         run.clear();
-        // It begins with a link where this layer is cut already.
+        // It begins with a link where this layer has already been cut.
         enter_above(run, piece.front().at, piece.front().pace == MillPace::link ? next : z);
       }
       add_level(piece, next, run);

@@ -94,13 +94,13 @@ class PocketPlanner {
   void tell(std::string code, Severity severity, std::string message, std::string expected);
   void tell_narrow_parts();
   void find_offsets();
-  // A ring that the cutter follows. Of an innermost one: the part of the ground that it lies around.
+  // A ring that the cutter follows, and for an innermost ring, the part of the ground inside it.
   struct PocketRing {
     DrawnRing ring;
     const Region* core = nullptr;
     std::size_t layer = 0;
   };
-  // A loop, and whether the cutter goes down along it; otherwise it comes from the end of the loop before.
+  // A loop, and whether the cutter goes down along it; otherwise it comes from the end of the previous loop.
   struct PocketLoop {
     ClosedToolpath track;
     bool goes_down;
@@ -310,14 +310,14 @@ ClosedToolpath PocketPlanner::track_of(DrawnRing ring, DrawnPoint near) const {
   return ClosedToolpath(points);
 }
 
-// Whether the cutter may go straight from a loop to another: near walls never, through ground that nobody has cut no
-// farther than its width.
+// Whether the cutter may move straight from one loop to another: never near walls, and through uncut material at most
+// as far as its width.
 bool PocketPlanner::may_go_on(DrawnPoint from, DrawnPoint to, bool is_free) const {
   if (!is_free && distance_nm(from, to) > static_cast<double>(options_.cutter.count)) return false;
   return !walls_.is_crossed(from, to);
 }
 
-// The length of the descent by one layer. A loop that is tiny beside the cutter is no ramp.
+// The length of the descent by one layer. A loop that is tiny compared with the cutter cannot be a ramp.
 double PocketPlanner::ramp_along(const ClosedToolpath& track) const {
   const bool is_tiny = track.length() < static_cast<double>(options_.cutter.count) / 4;
   if (options_.ramp_degrees <= 0 || is_tiny) return 0;
@@ -331,7 +331,7 @@ std::optional<Helix> PocketPlanner::helix_in(const PocketRing& ring) const {
   return find_helix(*ring.core, margin, options_.cutter);
 }
 
-// Where the cutter cannot come from the loop before, it goes down along a helix, or along the loop.
+// Where no link leads from the previous loop, the cutter goes down along a helix or along the loop.
 std::vector<PocketPlanner::PocketLoop> PocketPlanner::loops_of(std::vector<PocketRing> rings) {
   std::vector<PocketLoop> loops;
   DrawnPoint at = rings.front().ring.front();
@@ -359,7 +359,7 @@ std::vector<PocketPlanner::PocketLoop> PocketPlanner::loops_of(std::vector<Pocke
   return loops;
 }
 
-// Layer by layer all loops of a pocket. A run ends where the cutter has to lift.
+// All loops of a pocket, layer by layer. A run ends where the cutter must lift.
 void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<MillRun>& runs) {
   MillRun run;
   Nanometres z{};
@@ -372,7 +372,7 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
       if (!loop.goes_down) {
         run.push_back({start, 0, next});
       } else {
-        // The layer before is free.
+        // The previous layer is cleared.
         const bool goes_on = is_first && !run.empty() && may_go_on(run.back().at, start, true);
         if (!goes_on && run.size() > 1) runs.push_back(std::exchange(run, {}));
         goes_on ? link_to(run, start) : enter_above(run, start, z);
@@ -391,7 +391,7 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
   if (run.size() > 1) runs.push_back(std::move(run));
 }
 
-// What is exactly as wide as the cutter. Adaptive clearing leaves it: it is a slot.
+// Gaps exactly as wide as the cutter. Adaptive clearing leaves them, because they are slots.
 void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   if (options_.most_engagement > 0) return;
   const Region reach = finished_.empty() ? reach_ : united(reach_, reachable(finished_));
@@ -407,7 +407,7 @@ void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   for (MillRun& run : tight_runs(ways, cut, from, options_.park)) runs.push_back(std::move(run));
 }
 
-// The cutter that finishes the walls meets little stock: nowhere more than a quarter of its width.
+// The cutter that finishes the walls meets little stock: at most a quarter of its width.
 bool PocketPlanner::may_be_finished(const Region& part, const Region& rough) const {
   const Region whole = reachable(part);
   if (whole.empty()) return false;

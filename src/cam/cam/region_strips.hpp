@@ -1,8 +1,8 @@
 // Strips: divides work on large regions into vertical strips. Private to cam/.
 //
-// A sweep over edges takes as long as their corners times the edges beside each. In strips, both are fewer. The work of
-// a strip gets the rings as far as some distance beyond it. Its results are cut off at the seams and joined there:
-// equal edges that lie on a seam in opposite directions cancel out, and the rest is linked to rings.
+// The time of a sweep over edges is proportional to the corners times the edges next to each. In strips, both are
+// fewer. The work of a strip gets the rings up to some distance beyond it. Its results are cut off at the seams and
+// joined there: equal edges in opposite directions on a seam cancel out, and the rest is linked to rings.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct RegionStrip {
   Nanometres high = {};
 };
 
-// Returns strips with about `corners` corners each, at least `narrowest` wide. One: it is not worth while.
+// Returns strips with about `corners` corners each, at least `narrowest` wide. One strip: dividing is not worthwhile.
 std::vector<RegionStrip> strips_of(const std::vector<DrawnRing>& rings, std::size_t corners, Nanometres narrowest);
 
 class StripCutter {

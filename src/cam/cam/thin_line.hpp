@@ -5,8 +5,8 @@
 
 namespace passo {
 
-// Returns the points without those that are at most `tolerance_nm` from the line between those that stay (Ramer,
-// Douglas and Peucker, 1972). The first and the last stay.
+// Removes the points that are at most `tolerance_nm` from the line between the remaining ones (Ramer, Douglas and
+// Peucker, 1972). The first and the last point remain.
 DrawnRing thinned(const DrawnRing& points, double tolerance_nm);
 
 // The same for a closed line.

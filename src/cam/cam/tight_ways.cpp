@@ -151,7 +151,7 @@ ClosedToolpath track_of(const TightWay& way) {
 std::vector<TightWay> find_tight_ways(const Region& free, const Region& reach, Nanometres cutter) {
   const Nanometres radius{(cutter.count + 1) / 2};
   const Region room = grown(free, {tight_cut_tolerance(cutter).count / 2 - radius.count}, tight_chords);
-  // Sharp corners of what is cut anyway leave slivers that are no gaps.
+  // Sharp corners of cleared areas leave slivers that are not gaps.
   constexpr Nanometres beside{50'000};
   const Region gaps = reach.empty() ? room : subtracted(room, grown(reach, beside, tight_chords));
   if (gaps.empty()) return {};

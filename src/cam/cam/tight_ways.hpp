@@ -1,7 +1,7 @@
-// find_tight_ways: the middle lines of holes, slots and necks that are exactly as wide as the cutter. Private to cam/.
+// find_tight_ways: the centre lines of holes, slots and necks that are exactly as wide as the cutter. Private to cam/.
 //
 // Such a gap leaves the cutter no room beside its centre line, so no loop at half the cutter's width from the walls
-// exists. It is cut by a plunge or by one pass along its middle line. A gap counts as exactly as wide if the cutter
+// exists. It is cut by a plunge or by one pass along its centre line. A gap counts as exactly as wide if the cutter
 // cuts into each wall by at most half of `tight_cut_tolerance()`.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The pencil pass: along the inner edges of a relief, where the last cutter touches two faces at once. Rows and
-// contours leave the most there, because two passes are nowhere farther from the surface than on both sides of an edge.
+// contours leave the most material there, because passes on both sides of an edge are farthest from the surface.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace passo {
 namespace {
 
-// The line that begins or ends nearest to where the tool is, in the direction in which it begins there.
+// The line with an end nearest to the tool's position, in the direction that begins at this end.
 LevelLine take_nearest(std::vector<LevelLine>& lines, const FlatPlace& from) {
   std::size_t best = 0;
   double least = 1e9;

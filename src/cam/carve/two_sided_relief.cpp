@@ -53,7 +53,7 @@ class Splitter {
     return {-deep_ - bottom_.heights[under(column, row)], top_.at(column, row)};
   }
 
-  // Walls are some nodes wider on the grid than on the part, so the edge is looked at some nodes farther inside.
+  // Walls are some nodes wider on the grid than on the part, so the edge is measured some nodes farther inside.
   void find_edge() {
     const auto columns = static_cast<std::ptrdiff_t>(top_.columns);
     const auto rows = static_cast<std::ptrdiff_t>(top_.rows);
@@ -138,7 +138,7 @@ class Splitter {
   static constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
   std::size_t before_part(const Way& way, std::size_t across, float middle) const {
     const std::size_t count = way.is_along_x ? top_.columns : top_.rows;
-    // A node of the bottom lies under the node of the top with the mirrored place, and the other way round.
+    // A node of the bottom lies under the node of the top at the mirrored position, and vice versa.
     const auto place = [&](std::size_t i) {
       const std::size_t at = way.is_from_high ? count - 1 - i : i;
       const std::size_t node = way.is_along_x ? under(at, across) : under(across, at);

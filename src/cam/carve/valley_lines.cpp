@@ -73,8 +73,8 @@ class ValleyNodes {
     return std::atan((after - here) / way) - std::atan((here - before) / way);
   }
 
-  // How sharp the valley is; 0 if there is none. The slopes over a single node tell the foot of a wall from the node
-  // beside it; those over two nodes find a valley between two nodes.
+  // How sharp the valley is; 0 if there is none. The slopes over a single node distinguish the foot of a wall from the
+  // node next to it; those over two nodes find a valley between two nodes.
   double sharpness(const NodePlace& node, const NodePlace& across) const {
     const double length =
         std::hypot(static_cast<double>(across.column) * pitch_x_, static_cast<double>(across.row) * pitch_y_);
@@ -98,7 +98,7 @@ class ValleyNodes {
            most >= sharpness({node.column + best.column, node.row + best.row}, best);
   }
 
-  // Adds nodes at the end, always the one that lies nearest and straight ahead. Others beside the chain are used up.
+  // Adds nodes at the end, always the nearest one straight ahead. Other nodes next to the chain are used up.
   void extend(std::vector<NodePlace>& chain) {
     while (const std::optional<NodePlace> next = next_of(chain)) {
       const NodePlace& last = chain.back();
@@ -221,7 +221,7 @@ class ValleyLine {
     points_ = std::move(centred);
   }
 
-  // Where the way from one point to the next climbs, both give way downhill.
+  // If the line climbs from one point to the next, both are moved downhill.
   void keep_off_walls() {
     constexpr double most_climb = 0.003;  // mm
     constexpr int tries = 8;

@@ -22,7 +22,7 @@ Examples:
   passo cam profile sheet.svg --layer cut --zero lower-left -p sheet.png -o sheet.ngc
   passo cam profile bracket.dxf --depth -6 --tool-table tools.toml --tool T1 --material plywood -o bracket.ngc
                                                            feeds, spindle speed and depth of a pass from a tool library
-  passo cam profile sheet.svg --for linuxcnc -o sheet.ngc  in the words of another controller
+  passo cam profile sheet.svg --for linuxcnc -o sheet.ngc  for another controller
 
 All options: docs/manual/parts.md.)";
 
@@ -56,12 +56,12 @@ constexpr const char* engrave_examples =
 "\n" in the text begins a new line. All options: docs/manual/engraving.md.)";
 
 constexpr const char* job_examples =
-    R"(A job file lists the operations of a part: drawings, stock, clamps, tools with feeds, and a table [[operation]] for
-each pocket, profile, hole, engraving, chamfer or relief, with the options of its command.
+    R"(A job file describes all operations on a part: drawings, stock, clamps, tools with feeds, and a table
+[[operation]] for each pocket, profile, hole, engraving, chamfer or relief, with the options of its command.
 
 Examples:
   passo cam job plate.toml                       writes the program that the job file names, and a report
-  passo cam job plate.toml -p plate.png          and a picture of all operations
+  passo cam job plate.toml -p plate.png          also draws a picture of all operations
   passo cam job plate.toml --check               exits with 1 if the program on disk is out of date
   passo cam job plate.toml -o out/plate.ngc --json
 
@@ -71,7 +71,7 @@ Examples:
   layer = "pockets"
   depth = -4
 
-Nothing is written unless all operations are good and no move enters a clamp. All keys: docs/manual/jobs.md.)";
+The program is written only if all operations succeed and no move enters a clamp. All keys: docs/manual/jobs.md.)";
 
 constexpr const char* drill_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 2mm, 0.2cm, 30mil, 1/32in.
@@ -238,7 +238,7 @@ constexpr std::array operations = {
                  .options = options_with_defaults<CamReliefArguments>,
                  .picture_ending = ".png"},
     CamOperation{.name = "job",
-                 .purpose = "make a part by several operations with several tools, as a job file lists them",
+                 .purpose = "make a program for several operations with several tools from a job file",
                  .accepts = ".toml",
                  .examples = job_examples,
                  .options = options_with_defaults<CamJobArguments>},

@@ -13,18 +13,18 @@ std::vector<CamOption> all_of(std::initializer_list<std::vector<CamOption>> part
 std::vector<CamOption> tool_rows(CamToolArguments& a) {
   using enum CamKind;
   return {
-      {"tool-table", &a.tool_table, file, "tool library (TOML): cutters are then given by their numbers, e.g. T3",
+      {"tool-table", &a.tool_table, file, "tool library (TOML); cutters can then be given by their numbers, e.g. T3",
        of_one_job},
       {"material",
        &a.material,
        choice,
-       "material that is cut: feeds, spindle speed, depth of a pass and stepover follow from it and the tool",
+       "material to cut; it and the tool determine feeds, spindle speed, depth of a pass and stepover",
        {.choices = {"softwood", "hardwood", "plywood", "mdf", "acrylic", "hdpe", "fr4", "foam", "aluminium", "brass"},
         .is_of_job = true}},
       {"limits",
        &a.limits,
        file,
-       "machine file, whose highest feed rates and spindle speed limit those of --material",
+       "machine file; its highest feed rates and spindle speed limit those from --material",
        {.matters_to = cli, .is_of_job = true}},
   };
 }
@@ -49,12 +49,12 @@ std::vector<CamOption> controller_rows(CamProgramArguments& a) {
       {"start-text",
        &a.start_text,
        file,
-       "file with lines for the start of the program; may contain {placeholders}",
+       "file with lines for the start of the program; {placeholders} are replaced",
        {.matters_to = cli}},
       {"tool-change-text",
        &a.tool_change_text,
        file,
-       "file with lines that replace the words of a tool change, e.g. T{tool} M6",
+       "file with lines that replace those of a tool change, e.g. T{tool} M6",
        {.matters_to = cli}},
       {"end-text", &a.end_text, file, "file with lines for the end of the program, before M2", {.matters_to = cli}},
   };
@@ -103,7 +103,7 @@ CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor m
 
 CamOption color_row(std::vector<std::string>& colors) {
   return {"color", &colors, CamKind::text,
-          "SVG: colour of the lines (without lines: of the areas) to read, e.g. red or #f00; can be repeated",
+          "SVG: stroke colour (without a stroke, fill colour) of shapes to read, e.g. red or #f00; can be repeated",
           experts_of_one_job};
 }
 

@@ -18,14 +18,15 @@ std::vector<CamOption> finish_rows(CamFinishArguments& a) {
   using enum CamKind;
   return {
       {"allowance", &a.allowance, length,
-       "stock that roughing leaves on walls (default: 0; with --finish-pass 5 % of the cutter's diameter)",
+       "stock that roughing leaves on walls (default: 0; with --finish-pass, 5 % of the cutter's diameter)",
        experts_only},
-      {"finish-pass", &a.finish_pass, flag, "finish the walls in one lap at full depth; arcs lead in and out"},
+      {"finish-pass", &a.finish_pass, flag,
+       "finish the walls in one lap at full depth, with arcs as lead-in and lead-out"},
       {"finish-feed", &a.finish_feed, feed, "feed rate of finishing, per minute (default: --feed)", experts_only},
       {"spring-passes",
        &a.spring_passes,
        number,
-       "further laps of the finishing pass, without stock",
+       "additional laps on the line of the finishing pass",
        {.range = CamRange{0, 10}, .matters_to = experts}},
   };
 }
@@ -34,7 +35,7 @@ std::vector<CamOption> chamfer_rows(CamProfileArguments& a) {
   using enum CamKind;
   return {
       {"chamfer", &a.chamfer, length,
-       "width of a chamfer that a V-shaped cutter mills along the contours, instead of cutting them out"},
+       "chamfer width: mill a chamfer along the contours with a V-shaped cutter, instead of cutting parts out"},
       {"angle",
        &a.angle,
        degrees,
@@ -87,7 +88,7 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
         "radius of the arcs into and out of a finishing pass (default: a quarter of the cutter's diameter)",
         experts_only},
        {"link-feed", &a.link_feed, feed,
-        "feed rate across cleared ground, per minute (default: four times --feed, at least 1500 mm)", experts_only}},
+        "feed rate across cleared areas, per minute (default: four times --feed, at least 1500 mm)", experts_only}},
       mill_rows(a, CamFor::everyone),
       {sheet_row(a.sheet)},
   });
@@ -155,7 +156,7 @@ std::vector<CamOption> carving_rows(CamEngraveArguments& a) {
       {"angle", &a.angle, degrees, "included angle of the V-shaped cutter, degrees", {.range = CamRange{5, 170}}},
       {"tip", &a.tip, length, "tip width of the V-shaped cutter"},
       {"tool", &a.tool, length,
-       "diameter of the V-shaped cutter, the widest groove that it can carve; or its number in --tool-table"},
+       "diameter of the V-shaped cutter (the widest groove that it can carve), or its number in --tool-table"},
       {"depth", &a.depth, length,
        "lowest Z, negative (default: as deep as the cutter's width allows; along lines -0.3mm)"},
       {"step", &a.step, length, "depth of a layer (default: full depth in one pass)", experts_only},
@@ -198,7 +199,7 @@ std::vector<CamOption> cam_options_of(CamJobArguments& a) {
       {"output",
        &a.output,
        file,
-       "file for the program (default: as the job file states, or its name with .ngc)",
+       "file for the program (default: output of the job file, or the job file's name with .ngc)",
        {.matters_to = cli, .is_of_job = true, .letter = "o"}},
       picture_row(a.picture, "picture of all operations, each in its colour (FILE.svg or FILE.png)"),
       {"check",

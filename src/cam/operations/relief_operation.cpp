@@ -143,7 +143,7 @@ std::vector<CamOption> finishing_rows(CamReliefArguments& a) {
 std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
   using enum CamKind;
   return {
-      {"rough", &a.rough, text, "roughing cutter, which works level by level; or its number"},
+      {"rough", &a.rough, text, "roughing cutter, which works level by level, or its number in --tool-table"},
       {"rough-way",
        &a.rough_strategy,
        choice,
@@ -161,7 +161,7 @@ std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
        "target removal rate of this cutter, mm3/min",
        {.range = any_removal, .matters_to = experts}},
       {"rest", &a.rest, text,
-       "rest-machining cutter, for areas that the finishing cutter is too large for; or its number"},
+       "rest-machining cutter, for areas that the finishing cutter cannot reach, or its number in --tool-table"},
       {"rest-step", &a.rest_step, length, "stepover of rest machining (default: from --scallop)", experts_only},
       {"rest-least", &a.rest_least, length,
        "material that the finishing cutter may leave; areas with more get rest machining", experts_only},
@@ -171,7 +171,7 @@ std::vector<CamOption> roughing_rows(CamReliefArguments& a) {
        removal,
        "target removal rate of this cutter, mm3/min",
        {.range = any_removal, .matters_to = experts}},
-      {"pencil", &a.pencil, flag, "also cut along inner edges, with the last cutter"},
+      {"pencil", &a.pencil, flag, "also cut along inner edges with the last cutter (pencil pass)"},
   };
 }
 
@@ -181,14 +181,14 @@ std::vector<CamOption> two_sided_rows(CamReliefArguments& a) {
       {"two-sided",
        &a.two_sided,
        choice,
-       "also carve the other side of a model: flip the stock x (left to right) or y (front to back); --output is a "
-       "folder",
+       "carve both sides of a model; flip the stock from left to right (x) or from front to back (y); --output is "
+       "a folder",
        {.choices = {"no", "x", "y"}, .is_of_job = true}},
-      {"tab-width", &a.tab_width, length, "two-sided: width of the tabs; 0: a web stays around the part", experts_only},
-      {"tab-height", &a.tab_height, length, "two-sided: thickness of the tabs", experts_only},
-      {"parting", &a.parting, length, "two-sided: Z of the tabs, a negative Z (default: where the part's edge is)",
+      {"tab-width", &a.tab_width, length, "two-sided: width of the tabs (0: the whole web remains)", experts_only},
+      {"tab-height", &a.tab_height, length, "two-sided: thickness of the web and the tabs", experts_only},
+      {"parting", &a.parting, length, "two-sided: Z of the middle of the web, negative (default: from the part's edge)",
        experts_only},
-      {"pins", &a.pins, length, "two-sided: distance of the dowel holes from the milled area; 0: no holes",
+      {"pins", &a.pins, length, "two-sided: distance of the dowel holes from the milled area (0: no holes)",
        experts_only},
       {"align-drill", &a.align_drill, length, "two-sided: diameter of the dowel holes", experts_only},
   };

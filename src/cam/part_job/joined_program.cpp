@@ -8,7 +8,7 @@
 namespace passo {
 namespace {
 
-// The lines of an operation's program, and what they are in the joined program.
+// The lines of an operation's program, as they appear in the joined program.
 class OperationLines {
  public:
   explicit OperationLines(std::string_view program) : rest_(program) {}
@@ -86,7 +86,7 @@ void JoinedProgram::add(const JoinedOperation& operation) {
     has_begun = has_begun || (!text.empty() && !is_comment(text));
     if (!has_begun || text.empty() || text.starts_with("(MSG, tool") || text.starts_with("(tool ")) continue;
     if (text == "M2" || text == "M5") continue;
-    // The end of the program, or the way to a tool change.
+    // The end of the program, or the move to a tool change.
     const bool is_before_end = text == "G0 " + operation.park && (lines.peek() == "M2" || is_comment(lines.peek()));
     if (is_before_end) continue;
     if (const std::size_t number = changed_tool(text); number > 0) {

@@ -15,7 +15,7 @@ class OrderSearch {
   std::vector<OrderedOperation> find();
 
  private:
-  // Why `first` comes before `then`. Empty: it need not.
+  // The reason why `first` must come before `then`; empty: there is none.
   std::string must_precede(std::size_t first, std::size_t then) const;
   bool is_ready(std::size_t index) const;
   std::size_t best_of_ready() const;
@@ -31,7 +31,7 @@ class OrderSearch {
   std::optional<std::int32_t> tool_;
 };
 
-// A profile whose scrap, or whose part, is loose afterwards.
+// A profile after which the part or its scrap is loose.
 bool is_inside(const PartOperation& operation) {
   const auto* profile = std::get_if<CamProfileArguments>(&operation.arguments);
   return profile != nullptr && profile->side == "inside";
@@ -64,16 +64,17 @@ std::string OrderSearch::must_precede(std::size_t first, std::size_t then) const
   if (a.kind == PartKind::face && b.kind != PartKind::face) return "facing comes first";
   if (b.kind == PartKind::face) return "";
   if (frees_the_part(b) && !frees_the_part(a)) {
-    return is_inside(a) ? "what is inside is cut before what is outside" : "it frees the part, so it comes last";
+    return is_inside(a) ? "inside contours are cut before the profile around them"
+                        : "it frees the part, so it comes last";
   }
   if (frees_the_part(a)) return "";
   if (is_finish(b.kind) && !is_finish(a.kind) && (a.kind == PartKind::relief || share_layers(a, b))) {
-    return fmt::format("it comes after '{}', which cuts the same", a.title);
+    return fmt::format("it follows '{}', which cuts the same area", a.title);
   }
   if (a.kind == b.kind && a.kind == PartKind::pocket && share_layers(a, b) && width_of(a) > width_of(b)) {
     return "a wider cutter clears first";
   }
-  if (a.kind == PartKind::relief && is_inside(b)) return "what is inside is cut after the face above it";
+  if (a.kind == PartKind::relief && is_inside(b)) return "inside contours are cut after the relief above them";
   return "";
 }
 
@@ -103,8 +104,8 @@ std::size_t OrderSearch::best_of_ready() const {
   return first_at_once ? *first_at_once : *first;
 }
 
-// An operation is explained if one that was written after it must come before it, or if it comes before one that was
-// written before it, and need not. What only moves up because another one must wait is not explained.
+// An operation gets a reason if a later one of the file must come before it, or if it was moved before an earlier one
+// without need. An operation that only moves up because another one must wait gets none.
 void OrderSearch::give_reasons(std::vector<OrderedOperation>& order) const {
   for (std::size_t at = 0; at < order.size(); ++at) {
     OrderedOperation& one = order[at];

@@ -52,7 +52,7 @@ std::string set(const CamOption& option, std::string& member, const TomlValue& v
   return "";
 }
 
-// A list of numbers is one value: tab = [10, 0]. A list of lists or of texts is several: tab = [[10, 0], [40, 0]].
+// A list of numbers is one value: tab = [10, 0]. A list of lists or texts is several: tab = [[10, 0], [40, 0]].
 std::string set(const CamOption& option, std::vector<std::string>& member, const TomlValue& value) {
   const auto* list = std::get_if<TomlArray>(&value.content);
   const bool is_one = list == nullptr || (!list->empty() && std::holds_alternative<double>(list->front().content));

@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// Returns what was expected; empty: the value is stored. Lengths and feeds are checked by the operation alone.
+// Returns the expected form; empty: the value is stored. Lengths and feeds are checked only by the operation.
 std::string set_option(const CamOption& option, const TomlValue& value);
 
 }  // namespace passo

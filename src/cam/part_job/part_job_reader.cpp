@@ -28,7 +28,7 @@ void PartJobReader::read() {
   TableReader top(document_.root, "", {}, reporter_);
   for (const std::string_view name : job_tables) top.know(name);
   const auto entry = [&](std::string_view key) { return find(document_.root, key); };
-  // Operations need what the tables before them say.
+  // Operations need the contents of the tables before them.
   if (const TomlEntry* job = top.table("job", "a table [job]", Need::optional)) read_job(*job);
   if (const TomlEntry* stock = top.table("stock", "a table [stock]", Need::optional)) read_stock(*stock);
   const Need own_tools = job_.tools.empty() ? Need::required : Need::optional;
@@ -156,7 +156,7 @@ void PartJobReader::read_job(const TomlEntry& entry) {
   reader.finish(document_.complete, {});
 }
 
-// A job has one controller, whatever its operations are.
+// A job has one controller for all operations.
 void PartJobReader::read_program_words(const TomlTable& table, TableReader& reader) {
   CamPocketArguments arguments;
   for (const CamOption& option : cam_options_of(arguments)) {
@@ -206,7 +206,7 @@ void PartJobReader::read_clamp(const TomlTable& table, const std::string& path, 
   if (!from || !to || !height) return;
   if (from->low >= to->low || from->high >= to->high) {
     reader.error("job.bad-value", "to",
-                 fmt::format("{} ends at [{:g}, {:g}], before it begins", path, to->low, to->high),
+                 fmt::format("{0}.to is [{1:g}, {2:g}], not beyond {0}.from", path, to->low, to->high),
                  fmt::format("X above {:g} and Y above {:g}", from->low, from->high));
     return;
   }
@@ -246,13 +246,13 @@ void PartJobReader::read_tool(const TomlEntry& entry) {
   }
   reader.finish(document_.complete, {});
   if (const std::string flaw = flaw_of(tool.shape); !flaw.empty()) {
-    reporter_.error("job.tool", entry.place, fmt::format("tool.{} cannot exist", entry.key), flaw);
+    reporter_.error("job.tool", entry.place, fmt::format("tool.{} is not a valid tool", entry.key), flaw);
     return;
   }
   job_.tools.insert_or_assign(number, tool);
 }
 
-// A tool of the job takes the place of the library's tool of the same number.
+// A tool of the job replaces the library's tool with the same number.
 void PartJobReader::read_library(const std::string& path, const SourceLocation& place) {
   Diagnostics found;
   const auto library = ToolLibrary::read(path, found);
@@ -267,7 +267,7 @@ void PartJobReader::read_library(const std::string& path, const SourceLocation& 
   }
 }
 
-// What the file does not say follows from the material.
+// Values that the file does not give follow from the material.
 void PartJobReader::find_feeds(PartTool& tool) {
   if (!job_.stock || !job_.stock->known_material || (tool.feed && tool.spindle)) return;
   FeedRequest request{.material = *job_.stock->known_material};

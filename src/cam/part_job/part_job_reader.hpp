@@ -14,7 +14,7 @@ namespace passo {
 std::optional<PartKind> part_kind_of(std::string_view name);
 std::vector<std::string_view> names_of_part_kinds();
 
-// Options that are of the whole program, not of an operation: --for and the operator's texts.
+// Options of the whole program, not of an operation: --for and the operator's texts.
 inline bool is_of_program(std::string_view option) {
   return option == "for" || option == "start-text" || option == "tool-change-text" || option == "end-text";
 }
@@ -56,7 +56,7 @@ class PartJobReader {
   const TomlReporter& reporter_;
   PartJob& job_;
   double unit_mm_ = 1;
-  TomlTable defaults_;  // the options that [job] has for all operations
+  TomlTable defaults_;  // options in [job] for all operations
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The operations of a job file: the options of their commands, and what their tools say.
+// The operations of a job file: the options of their commands, and the values of their tools.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,7 @@ bool is_set_by_job(const CamOption& option) {
          std::ranges::find(names, option.name) != names.end();
 }
 
-// The key of another tool of the operation, and the option that it stands for.
+// The key of the operation's second tool, and its option.
 struct FirstTool {
   std::string_view key;
   std::string_view option;
@@ -47,7 +47,7 @@ FirstTool first_tool_of(PartKind kind) {
   return {};
 }
 
-// Gives an option a value. Options that the operation does not have are passed over.
+// Gives an option a value. Options that the operation does not have are ignored.
 void give(const std::vector<CamOption>& options, std::string_view name, const std::string& value) {
   const auto found = std::ranges::find(options, name, &CamOption::name);
   if (found == options.end()) return;
@@ -62,7 +62,7 @@ double degrees_of(const Cutter& cutter) {
   return cutter.half_angle.value * 360 / std::numbers::pi;
 }
 
-// As parse_cutter() reads it.
+// In the format of parse_cutter().
 std::string cutter_words(const Cutter& cutter) {
   const std::string diameter = fmt::format("{}", 2 * cutter.radius.value());
   switch (cutter.kind()) {
@@ -76,7 +76,7 @@ std::string cutter_words(const Cutter& cutter) {
   return "flat:" + diameter;
 }
 
-// What kind of tool an operation needs. Empty: this one is good.
+// The kind of tool that an operation needs; empty: this one is suitable.
 std::string tool_expected(PartKind kind, CuttingShape shape) {
   if (kind == PartKind::drill) return "";
   if (kind == PartKind::relief) return shape != CuttingShape::drill ? "" : "a milling cutter";
@@ -112,7 +112,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
   if (!kind) {
     if (word) {
       const std::string_view near = suggestion(*word, names_of_kinds);
-      reader.error("job.unknown-kind", "kind", fmt::format("there is no operation \"{}\"", *word),
+      reader.error("job.unknown-kind", "kind", fmt::format("there is no kind of operation \"{}\"", *word),
                    near.empty() ? fmt::format("{}", fmt::join(names_of_kinds, ", ")) : fmt::format("perhaps {}", near));
     } else {
       reporter_.error("job.missing-key", place,
@@ -137,7 +137,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
     const std::string expected = tool_expected(*kind, job_.tools.at(operation.tool).tool.shape);
     if (!expected.empty()) {
       reader.error("job.wrong-tool", "tool",
-                   fmt::format("{} is not for this: {}", name_of(*kind), describe(job_.tools.at(operation.tool).tool)),
+                   fmt::format("{} cannot use {}", name_of(*kind), describe(job_.tools.at(operation.tool).tool)),
                    expected);
     }
   }
@@ -156,7 +156,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
                     *kind == PartKind::relief ? "file = \"face.stl\"" : "drawing = \"plate.svg\", here or in [job]");
   }
   if (*kind == PartKind::face && !job_.stock) {
-    reporter_.error("job.missing-key", operation.place, "facing needs the size of the stock", "a table [stock]");
+    reporter_.error("job.missing-key", operation.place, "face needs the size of the stock", "a table [stock]");
   }
   if (*kind == PartKind::relief && job_.units == "cm") {
     reporter_.error("job.bad-value", operation.place, "a relief cannot be in cm", "units = \"mm\" or \"inch\"");
@@ -202,7 +202,7 @@ void PartJobReader::read_options(const TomlTable& table, TableReader& reader, Pa
   operation.names = selected("name");
 }
 
-// What [job] says for all operations that have the option.
+// The options in [job] for all operations that have them.
 void PartJobReader::apply_defaults(PartOperation& operation) {
   for (const CamOption& option : cam_options_of(operation)) {
     const TomlEntry* const entry = find(defaults_, option.name);

@@ -33,7 +33,7 @@ constexpr ControllerWords linuxcnc{
     .comments = {.longest_line = 255}};
 
 // Positions are single floats, whose digits end at 0.1 um near 1 m. M6 and canned cycles are errors. Bytes from 0x80
-// are commands: a letter with an accent in a comment can change the feed override.
+// are commands: an accented letter in a comment can change the feed override.
 constexpr ControllerWords grbl{
     .name = "grbl",
     .title = "Grbl 1.1",
@@ -74,7 +74,7 @@ constexpr ControllerWords mach3{
     .form = {.end = "M30", .path_mode = "G64"},
     .comments = {.is_ascii = true, .longest_line = 255}};
 
-// Series 0i and its likes: the words that are the same in all of them.
+// Series 0i and similar controllers: the words that are the same in all of them.
 constexpr ControllerWords fanuc_like{
     .name = "fanuc-like",
     .title = "Fanuc-like",

@@ -70,7 +70,7 @@ void OperatorTextCheck::check(std::string_view line, std::uint32_t number, bool 
   const std::size_t before = findings_.errors();
   check_braces();
   check_characters();
-  // Each placeholder becomes a number of its own length, so that the columns of the words stay.
+  // Each placeholder becomes a number of its own length, so that the columns of the words do not change.
   const std::string sample =
       filled(line, [](std::string_view name, std::size_t) { return std::string(name.size() + 1, '0') + "1"; });
   const bool is_special = sample.starts_with('$') || sample.starts_with('#') || sample.starts_with('%') ||
@@ -99,13 +99,13 @@ void OperatorTextCheck::check_braces() {
                       meant.empty() ? std::string() : fmt::format("; did you mean {{{}}}?", meant)),
           fmt::format("{{{}}}", fmt::join(names, "}, {")));
     } else if (c == '{' || c == '}') {
-      add("post.open-placeholder", i + 1, 1, fmt::format("a '{}' without its partner", c),
+      add("post.open-placeholder", i + 1, 1, fmt::format("'{}' without its counterpart", c),
           "a placeholder such as {tool}");
       return;
     }
   }
   if (is_open) {
-    add("post.open-placeholder", open + 1, 1, "a '{' without its partner", "a placeholder such as {tool}");
+    add("post.open-placeholder", open + 1, 1, "'{' without its counterpart", "a placeholder such as {tool}");
   }
 }
 
@@ -118,14 +118,14 @@ void OperatorTextCheck::check_characters() {
     add("post.bad-character", i + 1, 1,
         acts ? fmt::format("{} acts on '{}' at once, also in a comment", controller_.title, line_[i])
              : "this character is not allowed",
-        "letters, digits and signs of ASCII");
+        "ASCII letters, digits and signs");
     return;
   }
 }
 
 void OperatorTextCheck::check_words(const ProgramWords& words) {
   if (words.bad_column > 0) {
-    add("post.bad-word", words.bad_column, 1, "this is not a word of G-code", "a letter with a number, or a comment");
+    add("post.bad-word", words.bad_column, 1, "this is not a G-code word", "a letter with a number, or a comment");
     return;
   }
   for (const ProgramWord& word : words.words) {
@@ -173,7 +173,7 @@ OperatorText OperatorText::read(std::string_view text, const std::string& file, 
     findings.add({.code = "post.too-long",
                   .file = file,
                   .place = {static_cast<std::uint32_t>(most_lines + 1), 1},
-                  .message = fmt::format("the text has {} lines", read.lines_.size()),
+                  .message = fmt::format("the file has {} lines", read.lines_.size()),
                   .expected = fmt::format("at most {}", most_lines),
                   .text = {}});
     return read;

@@ -109,7 +109,7 @@ std::string PostProcessor::Lines::clean(std::string_view comment) const {
   for (std::size_t i = 0; i < comment.size(); ++i) {
     auto byte = static_cast<unsigned char>(comment[i]);
     const bool is_follow_up = byte >= 0x80 && byte < 0xC0;
-    if (form.is_ascii && is_follow_up) continue;  // of a letter that has been replaced
+    if (form.is_ascii && is_follow_up) continue;  // of a letter that was replaced
     if (form.is_ascii && byte >= 0x80) byte = '_';
     char c = static_cast<char>(byte);
     if (form.realtime.find(c) != std::string_view::npos || c == ';') c = '_';
@@ -149,7 +149,7 @@ void PostProcessor::Lines::begin() {
   text_ += fmt::format("%\nO0001 ({})\n", clean(options_.program));
 }
 
-// A comment that is longer than a line goes on in the next one.
+// A comment that is longer than a line continues in the next one.
 void PostProcessor::Lines::write_comment(std::string_view comment) {
   std::string text = clean(comment);
   if (text.starts_with("MSG,") && !controller_.comments.has_messages)
@@ -175,7 +175,7 @@ void PostProcessor::Lines::add_code(char letter, double value) {
   add_word(letter, number);
 }
 
-// A word that the writer repeats stays: people start programs in the middle.
+// Repeated words are kept, because operators start programs in the middle.
 void PostProcessor::Lines::add_motion(int code) {
   if (written_motion_ == code && !words_.has('G', code)) return;
   written_motion_ = code;
@@ -376,7 +376,7 @@ void PostProcessor::Lines::read(std::string_view line) {
   }
 }
 
-// A line without a place is no move, whatever the mode is.
+// A line without a position is not a move in any mode.
 void PostProcessor::Lines::move() {
   const bool has_centre = words_.find('I') != nullptr || words_.find('J') != nullptr || words_.find('K') != nullptr;
   if (has_centre) {

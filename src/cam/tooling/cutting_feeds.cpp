@@ -94,18 +94,18 @@ void FeedFinder::find_pass() {
   if (!(pass > Mm(0))) {
     pass = tool_.diameter * table_.pass_share;
     tell("depth",
-         table_.pass_share == 1 ? std::string("as deep as the diameter, for which the chart holds")
+         table_.pass_share == 1 ? std::string("the diameter of the tool, as the chart assumes")
                                 : fmt::format("{:g} of the diameter, a light cut", table_.pass_share),
          table_.pass_source);
     const bool is_cone = tool_.shape == CuttingShape::vee || tool_.shape == CuttingShape::taper;
     const Mm half = shape_of(tool_).cutter.height(tool_.diameter / 4);
     if (is_cone && half > Mm(0) && pass > half) {
       pass = half;
-      tell("depth", "not deeper than where the cone is half as wide as the tool");
+      tell("depth", "at most the depth at which the cone is half as wide as the tool");
     }
     if (tool_.flute_length > Mm(0) && pass > tool_.flute_length) {
       pass = tool_.flute_length;
-      tell("depth", fmt::format("the flutes are {:g} mm long", pass.value()));
+      tell("depth", fmt::format("at most the flute length, {:g} mm", pass.value()));
     }
   }
   feeds_.depth_per_pass = pass;
@@ -135,7 +135,7 @@ void FeedFinder::find_load() {
     const double share = share_for_depth(tool_, feeds_.depth_per_pass);
     if (share < 1) {
       tell("chip load",
-           fmt::format("times {:.2g}, because the pass is {:.2g} diameters deep", share,
+           fmt::format("multiplied by {:.2g}, because the pass is {:.2g} diameters deep", share,
                        feeds_.depth_per_pass / tool_.diameter),
            chips::ast);
     }
@@ -158,12 +158,12 @@ double FeedFinder::most_rpm() const {
 
 const char* FeedFinder::limit_in_words() const {
   if (tool_.most_rpm && *tool_.most_rpm <= most_rpm()) return "the limit of the tool";
-  return request_.spindle.most_rpm > 0 ? "the limit of the spindle" : "as fast as the usual spindles of routers";
+  return request_.spindle.most_rpm > 0 ? "the limit of the spindle" : "the usual limit of router spindles";
 }
 
 void FeedFinder::find_rpm() {
   double rpm = table_.usual_rpm > 0 ? table_.usual_rpm : most_rpm();
-  std::string why = fmt::format("{:g} rpm, {}", rpm, table_.usual_rpm > 0 ? "as routers turn" : limit_in_words());
+  std::string why = fmt::format("{:g} rpm, {}", rpm, table_.usual_rpm > 0 ? "usual for routers" : limit_in_words());
   std::string_view source = table_.usual_rpm > 0 ? chips::yeti : std::string_view();
   if (table_.surface_speed > 0) {
     const bool is_hss = tool_.material == ToolMaterial::hss;
@@ -173,12 +173,12 @@ void FeedFinder::find_rpm() {
       rpm = limit;
       why = fmt::format("{:g} m/min at {:g} mm", speed, tool_.diameter.value());
       source = table_.speed_source;
-      if (is_hss) tell("spindle", "half the surface speed of carbide, because the tool is of HSS", chips::hss_speeds);
+      if (is_hss) tell("spindle", "half the surface speed of carbide, because the tool is HSS", chips::hss_speeds);
     }
   }
   if (request_.rpm) {
     rpm = *request_.rpm;
-    why = fmt::format("{:g} rpm were chosen", rpm);
+    why = fmt::format("{:g} rpm, as chosen", rpm);
     source = {};
   }
   tell("spindle", why, source);
@@ -220,7 +220,7 @@ void FeedFinder::find_feed() {
 void FeedFinder::find_plunge() {
   if (is_drill_) {
     feeds_.plunge = feeds_.feed;
-    tell("plunge", "the feed of the drill");
+    tell("plunge", "the feed rate of the drill");
     return;
   }
   if (!tool_.centre_cutting) {
@@ -229,7 +229,7 @@ void FeedFinder::find_plunge() {
   }
   constexpr double share = 0.25;
   double plunge = feeds_.feed.value() * seconds_per_minute * share;
-  tell("plunge", "a quarter of the feed", chips::shopbot);
+  tell("plunge", "a quarter of the feed rate", chips::shopbot);
   const double most = request_.most_plunge.value() * seconds_per_minute;
   if (most > 0 && plunge > most) {
     plunge = most;

@@ -92,7 +92,7 @@ void read_name(TableReader& reader, CuttingTool& tool) {
     return;
   }
   reader.error("machine.name", name_key,
-               fmt::format("{} cannot stand in a comment of a program", reader.full_name(name_key)),
+               fmt::format("{} cannot be part of a comment in a program", reader.full_name(name_key)),
                fmt::format("at most {} bytes in one line, without parentheses", longest_name));
 }
 
@@ -102,10 +102,9 @@ void read_shank(TableReader& reader, CuttingTool& tool) {
   tool.holder_diameter = Mm(reader.number(holder_key, Need::optional).value_or(0));
   const bool has_old_name = reader.has(holder_from_key.name);
   if (has_old_name && reader.has(stick_out_key.name)) {
-    reader.error(
-        "machine.both-given", stick_out_key.name,
-        fmt::format("{} and {} are the same length", reader.full_name(holder_from_key.name), stick_out_key.name),
-        "one of them");
+    reader.error("machine.both-given", stick_out_key.name,
+                 fmt::format("{} and {} are the same key", reader.full_name(holder_from_key.name), stick_out_key.name),
+                 "one of them");
   }
   const bool is_needed = tool.holder_diameter > Mm(0) && !has_old_name;
   const auto stick_out = reader.number(stick_out_key, is_needed ? Need::required : Need::optional);

@@ -83,10 +83,10 @@ std::optional<ToolWarning> UseJudge::holder(const ToolUse& use) const {
   const Mm depth(safe > 0 ? safe : most / 2);
   return ToolWarning{
       .code = "tool.holder",
-      .message = fmt::format("the holder of {} comes down to the material: {:g} mm deep, and the tool "
+      .message = fmt::format("the holder of {} touches the material: the cut is {:g} mm deep, and the tool "
                              "sticks out {:g} mm",
                              named(), use.depth.value(), most),
-      .advice = fmt::format("a depth of at most {:g} mm, or a tool that sticks out farther", depth.value()),
+      .advice = fmt::format("a depth of at most {:g} mm, or a tool with a longer stick-out", depth.value()),
       .found = use.depth.value(),
       .limit = most,
       .advised = no_deeper(use, depth)};
@@ -111,7 +111,7 @@ std::optional<ToolWarning> UseJudge::small_chip(const ToolUse& use) const {
   const ChipRange permitted = range(use);
   const double limit = permitted.least.value() * rubbing_share;
   if (found >= limit * (1 - slack)) return std::nullopt;
-  // The feed of the table, or what the machine can; where that is not enough, the spindle turns slower too.
+  // The feed of the table, up to the machine's limit; if that is too slow, the spindle turns more slowly, too.
   ToolUse advised = turning(use);
   const double wanted = std::ceil(feed_for(advised, permitted.least.value()));
   const double most = most_feed.value() * seconds_per_minute;
@@ -140,8 +140,8 @@ std::optional<ToolWarning> UseJudge::large_chip(const ToolUse& use) const {
   const double wanted = feed_for(advised, limit);
   advised.feed = MmPerSecond((wanted >= 2 ? std::floor(wanted) : wanted) / seconds_per_minute);
   return ToolWarning{.code = "tool.chip-large",
-                     .message = fmt::format("{} cuts {:.3g} mm per tooth in {}: the tables permit {:.3g} mm", named(),
-                                            found, name_of(*material), limit),
+                     .message = fmt::format("{} cuts {:.3g} mm per tooth in {}: the tables permit at most {:.3g} mm",
+                                            named(), found, name_of(*material), limit),
                      .advice = feed_words("a feed of at most", use, advised),
                      .found = found,
                      .limit = limit,
@@ -199,7 +199,7 @@ std::vector<ToolWarning> warnings_of(const CuttingTool& tool, const ToolUse& use
   const UseJudge judge{tool, material, spindle, most_feed};
   std::vector<ToolWarning> warnings = judge.all(use);
   for (ToolWarning& warning : warnings) {
-    // The advice is tried. Where it brings another warning, the advice of that one is added.
+    // The advice is checked. If it causes another warning, the advice of that one is added.
     constexpr int most_rounds = 4;
     for (int round = 0; round <= most_rounds; ++round) {
       const std::vector<ToolWarning> left = judge.all(warning.advised);
@@ -207,7 +207,7 @@ std::vector<ToolWarning> warnings_of(const CuttingTool& tool, const ToolUse& use
           left, [&](const ToolWarning& one) { return one.code == warning.code || !has(warnings, one.code); });
       if (fresh == left.end()) break;
       if (fresh->code == warning.code || round == most_rounds) {
-        warning.advice = "another tool: no feed and speed of this machine suit this one";
+        warning.advice = "another tool: no feed rate and spindle speed of this machine suit this one";
         warning.advised = use;
         break;
       }

@@ -294,8 +294,8 @@ ChordFitter::Fit ChordFitter::best_fit() {
   return best;
 }
 
-// In the middle of a curve, where it bends too much for one cubic through the least number of chords. A chord that
-// stays there is a corner.
+// In the middle of a curve that bends too much for one cubic through the least number of chords. A chord that is left
+// there forms a corner at each end.
 ChordFitter::Fit ChordFitter::fit_of_fewest() {
   for (std::uint64_t count = least_fitted - 1; count >= fewest_fitted; --count) {
     add_chords(1);
@@ -306,7 +306,7 @@ ChordFitter::Fit ChordFitter::fit_of_fewest() {
   return {};
 }
 
-// Adds chords until there are so many, and as long as that. Returns whether the curve goes on after them.
+// Adds chords until there are so many, and as long as that. Returns whether the curve continues after them.
 bool ChordFitter::extend_to(std::uint64_t count, double length) {
   const std::uint64_t first = ahead_.first();
   bool goes_on = goes_on_after(first + vertices_.size() - 1);

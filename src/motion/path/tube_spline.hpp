@@ -11,9 +11,8 @@
 // one after the other, to the minimum of a sum over the knots (a Gauss-Seidel step). A control point moves only as far
 // as the deviation from the path stays within the tube, at the knots and in the middles between them.
 //
-//   least bending:   6 sweeps for |p''|² times the knots' weight and distance, then 4 for the fourth power of each
-//   axis'
-//                   p'' instead of |p''|²
+//   least bending:  6 sweeps for |p''|² times the knots' weight and distance, then 4 for the fourth powers of each
+//                   axis' p'' instead of |p''|²
 //   slow bending:   12 sweeps for |p''|², then 9 for |p'''|². Every third of these slides along the tube where the tube
 //                   stops a control point.
 //

@@ -11,7 +11,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int halvings_of_ramp = 100;
 constexpr double precise = 1e-13;
 
-// The speed at which the room that is left becomes 0: at `low` there is some, at `high` none.
+// The speed at which the remaining distance becomes 0: at `low` some remains, at `high` none.
 template <class Room>
 double last_that_fits(double low, double high, const Room& room) {
   for (int i = 0; i < halvings_of_ramp && high - low > precise * high; ++i) {

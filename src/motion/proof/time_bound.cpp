@@ -304,8 +304,8 @@ double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
   return cap;
 }
 
-// The largest x with which a path can begin or end at a rest in this place. Each axis jumps to its velocity, and an
-// axis with a limit of jerk has no acceleration there: as in turning_at(), with those accelerations.
+// The largest x with which a path can begin or end at a stop at this position. Each axis jumps to its velocity, and an
+// axis with a jerk limit has the acceleration 0 there: as in turning_at(), with those accelerations.
 double TimeBound::rest_cap(const Place& place) const {
   if (!any_jumps_) return 0;
   double cap = fastest;

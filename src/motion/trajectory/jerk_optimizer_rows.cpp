@@ -55,7 +55,7 @@ void JerkOptimizer::add_row(Row row) {
   add_tied_row(row);
 }
 
-// Slacks and prices of a row stay when it is made again.
+// Slacks and prices of a row are kept when it is computed again.
 void JerkOptimizer::add_tied_row(const Row& row) {
   if (rows_made_ == rows_.size()) rows_.emplace_back();
   Row& to = rows_[rows_made_++];
@@ -243,8 +243,8 @@ void JerkOptimizer::add_rows(const Stretch& stretch, std::size_t cell, bool is_f
   }
 }
 
-// Where a cell bends, its rows have factors that hold for speeds near the present ones, so they are made again during a
-// lift: the same rows in the same order.
+// Where a cell bends, its rows have factors that hold for speeds near the present ones, so they are computed again
+// during a lift: the same rows in the same order.
 void JerkOptimizer::make_rows(const Stretch& stretch, std::size_t first, std::size_t last) {
   cells_.clear();
   rows_made_ = 0;

@@ -16,7 +16,7 @@ JoinedOperation operation(std::string title, std::string body, std::int32_t tool
           .park = "X0 Y0"};
 }
 
-TEST(JoinedProgram, the_same_tool_goes_on_with_a_running_spindle) {
+TEST(JoinedProgram, the_same_tool_continues_with_a_running_spindle) {
   JoinedProgram joined({"plate.ngc, by passo cam job"});
   joined.add(operation("first", "G1 X1\n", 3));
   joined.add(operation("second", "G1 X2\n", 3));
@@ -26,7 +26,7 @@ TEST(JoinedProgram, the_same_tool_goes_on_with_a_running_spindle) {
             "G0 Z5\nG1 X2\n\nM5\nG0 X0 Y0\nM2\n");
 }
 
-TEST(JoinedProgram, another_speed_is_said) {
+TEST(JoinedProgram, a_new_speed_is_written) {
   JoinedProgram joined({});
   joined.add(operation("first", "G1 X1\n", 3));
   joined.add(operation("second", "G1 X2\n", 3, "8000"));
@@ -60,7 +60,7 @@ TEST(JoinedProgram, an_operation_of_two_tools_has_the_numbers_of_the_job) {
   EXPECT_EQ(text.find("T2 M6"), std::string::npos);
 }
 
-TEST(JoinedProgram, lines_tell_their_operation) {
+TEST(JoinedProgram, lines_belong_to_operations) {
   JoinedProgram joined({"head"});
   joined.add(operation("first", "G1 X1\n", 3));
   joined.add(operation("second", "G1 X2\n", 3));

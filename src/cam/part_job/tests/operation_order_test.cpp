@@ -77,7 +77,7 @@ TEST(OperationOrder, what_was_moved_has_a_reason_and_the_rest_has_none) {
   EXPECT_EQ(order[1].reason, "it frees the part, so it comes last");
 }
 
-TEST(OperationOrder, an_operation_that_is_drawn_forward_for_its_tool_says_so) {
+TEST(OperationOrder, an_operation_that_is_moved_up_for_its_tool_has_a_reason) {
   const PartJob job =
       ordered_job(operation("profile", "out", 1) + operation("pocket", "pocket", 1) + operation("drill", "holes", 2));
   EXPECT_EQ(titles(job), "holes pocket out");
@@ -100,7 +100,7 @@ TEST(OperationOrder, as_written_means_as_written) {
   EXPECT_EQ(titles(job), "out pocket");
 }
 
-// Every permutation of these comes to an order in which nothing comes before what must precede it.
+// Every permutation of these results in an order that keeps all rules.
 TEST(OperationOrder, the_order_does_not_depend_on_how_the_operations_were_written) {
   std::vector<std::string> operations = {operation("face", "face", 1, "depth = -1"), operation("pocket", "pocket", 2),
                                          operation("chamfer", "edge", 3, "depth = -1"), operation("profile", "out", 1)};

@@ -42,8 +42,8 @@ TEST(PartJob, an_operation_has_the_options_of_its_command_and_its_tool) {
   EXPECT_EQ(job.output, "shop/plate.ngc");
 }
 
-// Every option of a command that is not set by the job can stand in an operation's table.
-TEST(PartJob, what_the_operation_says_goes_before_its_tool_and_the_job) {
+// Every option of a command that the job does not set is a key of an operation's table.
+TEST(PartJob, an_operation_takes_precedence_over_its_tool_and_the_job) {
   const PartJob job =
       job_of(std::string(head) +
              "[[operation]]\nkind = \"profile\"\ntool = 1\nfeed = 400\nclearance = \"1cm\"\ntab = [[1, 2], [3, 4]]\n");
@@ -53,13 +53,13 @@ TEST(PartJob, what_the_operation_says_goes_before_its_tool_and_the_job) {
   EXPECT_EQ(profile.tab_places, (std::vector<std::string>{"1,2", "3,4"}));
 }
 
-TEST(PartJob, a_misspelt_key_is_shown_with_its_place_and_what_was_meant) {
+TEST(PartJob, a_misspelt_key_is_shown_with_its_position_and_the_nearest_key) {
   EXPECT_EQ(errors_of(std::string(head) + "[[operation]]\nkind = \"pocket\"\ntool = 1\ndeph = -4\n"),
             "shop/plate.toml:13:1: error: a job file has no key operation.1.deph [job.unknown-key]\n"
             "   13 | deph = -4\n      | ^~~~\n      = expected: perhaps depth\n1 error\n");
 }
 
-TEST(PartJob, a_wrong_value_names_what_the_option_takes) {
+TEST(PartJob, a_wrong_value_is_shown_with_the_values_that_the_option_accepts) {
   const std::string errors =
       errors_of(std::string(head) + "[[operation]]\nkind = \"profile\"\ntool = 1\nside = \"middle\"\n");
   EXPECT_NE(errors.find("plate.toml:13:8: error: operation.1.side is the text \"middle\" [job.bad-value]"),
@@ -87,7 +87,7 @@ TEST(PartJob, a_clamp_ends_after_it_begins) {
   const std::string errors = errors_of(std::string(head) +
                                        "[[clamp]]\nfrom = [10, 0]\nto = [5, 20]\nheight = 10\n"
                                        "[[operation]]\nkind = \"pocket\"\ntool = 1\n");
-  EXPECT_NE(errors.find("plate.toml:12:6: error: clamp.1 ends at [5, 20], before it begins [job.bad-value]"),
+  EXPECT_NE(errors.find("plate.toml:12:6: error: clamp.1.to is [5, 20], not beyond clamp.1.from [job.bad-value]"),
             std::string::npos)
       << errors;
 }
@@ -101,7 +101,7 @@ TEST(PartJob, lengths_of_stock_and_clamps_are_in_the_units_of_the_job) {
   EXPECT_EQ(std::get<CamPocketArguments>(job.operations[0].arguments).units, "inch");
 }
 
-TEST(PartJob, a_file_without_operations_or_tools_says_what_is_missing) {
+TEST(PartJob, a_missing_operation_or_tool_is_reported) {
   const std::string errors = errors_of("[job]\ndrawing = \"a.svg\"\n");
   EXPECT_NE(errors.find("[job.missing-key]"), std::string::npos) << errors;
   EXPECT_NE(errors.find("operation"), std::string::npos) << errors;

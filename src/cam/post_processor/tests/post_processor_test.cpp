@@ -1,4 +1,4 @@
-// The post-processor on single lines, and on random arcs: the path stays what it was, whatever is split or rounded.
+// The post-processor on single lines, and on random arcs: splitting and rounding leave the path unchanged.
 #include "passo/post_processor/post_processor.hpp"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST(PostProcessor, converts_lengths_but_no_times) {
             "G17 G20 G40 G80 G90 G91.1 G94\nG64 P0.00039\nG1 X1 F10\nG93\nG1 X2 F2\nG4 P3\n");
 }
 
-// Follows a program by its own means: every position, and points on arcs.
+// Follows a program without Passo's code: every position, and points on arcs.
 using Place = std::array<double, 3>;
 std::vector<Place> places_of(const std::string& program) {
   std::vector<Place> places{{0, 0, 0}};

@@ -79,7 +79,7 @@ TEST(CuttingFeeds, are_clipped_by_spindle_tool_and_machine_with_the_reason) {
   EXPECT_EQ(by_tool.rpm, 9000);
   EXPECT_TRUE(has_reason(by_tool, "the limit of the tool"));
 
-  // The machine is too slow: the spindle turns slower, and the chip keeps its thickness.
+  // The machine is too slow: the spindle turns more slowly, and the chip keeps its thickness.
   tool.most_rpm.reset();
   const FeedRequest slow{.material = WorkMaterial::plywood, .most_feed = MmPerSecond(2000.0 / 60)};
   const CuttingFeeds kept = feeds_of(tool, slow);
@@ -87,14 +87,14 @@ TEST(CuttingFeeds, are_clipped_by_spindle_tool_and_machine_with_the_reason) {
   EXPECT_LT(kept.rpm, 8000);
   EXPECT_GE(kept.chip_load, kept.chip_range.least * 0.999);
   EXPECT_TRUE(has_reason(kept, "the limit of the machine"));
-  // The spindle cannot turn so slowly: the chip becomes thinner.
+  // The spindle cannot turn that slowly: the chip becomes thinner.
   FeedRequest router = slow;
   router.spindle = {10000, 25000};
   EXPECT_EQ(feeds_of(tool, router).rpm, 10000);
   EXPECT_LT(feeds_of(tool, router).chip_load, kept.chip_range.least);
 }
 
-TEST(CuttingFeeds, are_raised_in_narrow_cuts_until_the_chip_is_as_thick_as_the_table_has_it) {
+TEST(CuttingFeeds, are_raised_in_narrow_cuts_until_the_chip_has_the_thickness_of_the_table) {
   const CuttingTool tool = tool_of(CuttingShape::flat, 6);
   const FeedRequest wide{.material = WorkMaterial::hdpe};
   FeedRequest narrow = wide;
@@ -104,7 +104,7 @@ TEST(CuttingFeeds, are_raised_in_narrow_cuts_until_the_chip_is_as_thick_as_the_t
   EXPECT_NEAR(feeds_of(tool, narrow).chip_load / feeds_of(tool, wide).chip_load, 1, 0.01);
 }
 
-TEST(CuttingFeeds, of_a_tool_with_own_chip_load_use_it) {
+TEST(CuttingFeeds, use_the_chip_load_of_the_tool) {
   CuttingTool tool = tool_of(CuttingShape::flat, 3);
   tool.chip_loads[WorkMaterial::brass] = Mm(0.01);
   const CuttingFeeds feeds = feeds_of(tool, {.material = WorkMaterial::brass, .spindle = {0, 10000}});

@@ -88,7 +88,7 @@ TEST(ToolLibrary, knows_more_than_the_shape) {
   EXPECT_TRUE(library->find(1)->centre_cutting);
 }
 
-TEST(ToolLibrary, tells_how_wide_a_tool_cuts_at_a_depth) {
+TEST(ToolLibrary, gives_the_width_of_the_cut_at_a_depth) {
   Diagnostics diagnostics;
   const auto library = ToolLibrary::parse(workshop, "tools.toml", diagnostics);
   ASSERT_TRUE(library.has_value());
@@ -99,7 +99,7 @@ TEST(ToolLibrary, tells_how_wide_a_tool_cuts_at_a_depth) {
   EXPECT_EQ(diameter_at(*library->find(3), Mm(1.5)), Mm(3));
 }
 
-TEST(ToolLibrary, refuses_what_is_no_tool) {
+TEST(ToolLibrary, refuses_invalid_tools) {
   const auto first_of = [](std::string_view text) {
     Diagnostics diagnostics;
     EXPECT_FALSE(ToolLibrary::parse(text, "tools.toml", diagnostics)) << text;

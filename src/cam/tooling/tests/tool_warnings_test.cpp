@@ -45,10 +45,10 @@ TEST(ToolWarnings, a_3_mm_cutter_rubs_in_wood_at_200_mm_per_minute) {
   const auto slow = warnings_of(cutter, use, WorkMaterial::hardwood, {5000, 24000}, mm_per_minute(600));
   EXPECT_EQ(slow.at(0).advice, "a feed of 600 mm/min and a spindle speed of 6250 rpm");
   const auto hopeless = warnings_of(cutter, use, WorkMaterial::hardwood, {12000, 24000}, mm_per_minute(250));
-  EXPECT_EQ(hopeless.at(0).advice, "another tool: no feed and speed of this machine suit this one");
+  EXPECT_EQ(hopeless.at(0).advice, "another tool: no feed rate and spindle speed of this machine suit this one");
 }
 
-TEST(ToolWarnings, tell_each_kind_with_its_numbers) {
+TEST(ToolWarnings, give_the_numbers_of_each_kind) {
   const auto only = [](const ToolUse& use, const CuttingTool& tool = cutter) {
     const auto warnings = warnings_of(tool, use, WorkMaterial::hardwood, {8000, 24000});
     EXPECT_EQ(warnings.size(), 1U) << codes_of(warnings);
@@ -76,10 +76,10 @@ TEST(ToolWarnings, tell_each_kind_with_its_numbers) {
   short_one.flute_length = Mm(0);
   short_one.stick_out = Mm(5);
   EXPECT_EQ(only(good, short_one),
-            "tool.holder: the holder of T2 comes down to the material: 6 mm deep, and the tool sticks out 5 mm");
+            "tool.holder: the holder of T2 touches the material: the cut is 6 mm deep, and the tool sticks out 5 mm");
 }
 
-// The advice is what makes a warning useful, so it is followed: the warning goes, and no other comes.
+// Advice makes a warning useful. If it is followed, the warning disappears, and no other one appears.
 TEST(ToolWarnings, the_advice_helps_for_every_tool_and_use) {
   std::mt19937_64 random(test::seed());
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };

@@ -33,7 +33,7 @@ struct JobRun {
   std::vector<TrialProgram> programs = {};
 };
 
-// A program that goes nowhere has no record beside it.
+// A program that is written to /dev/null has no record.
 bool keeps_record(const JobRun& run) {
   return run.output != "/dev/null";
 }
@@ -117,7 +117,7 @@ bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& pro
   if (!zero) return false;
   TemporaryFolder folder;
   if (!folder.make()) {
-    findings.add(of_file("job.operation", run.job.file, "a temporary folder cannot be made", "room in TMPDIR"));
+    findings.add(of_file("job.operation", run.job.file, "a temporary folder cannot be created", "space in TMPDIR"));
     return false;
   }
   run.made.resize(run.job.operations.size());
@@ -154,7 +154,7 @@ bool rewrite_programs(JobRun& run, Diagnostics& findings) {
     processor.add(program.text);
     if (const auto why = processor.finish()) {
       findings.add(of_file("job.controller", program.file,
-                           fmt::format("{} cannot run it: {}", job.program.controller, *why),
+                           fmt::format("{} cannot run the program: {}", job.program.controller, *why),
                            "another controller in job.for"));
       return false;
     }
@@ -216,7 +216,7 @@ double number_of(const JobRun& run, const PartOperation& operation, std::string_
   return length ? length->value() : 0;
 }
 
-// How the tool is used, as the trial has seen it.
+// How the tool is used, as seen in the trial.
 ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOperation& tried) {
   ToolUse use;
   use.depth = Mm(tried.depth_mm);
@@ -235,7 +235,7 @@ ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOpe
   return use;
 }
 
-// Adds to the notes of each operation where its feeds come from, and what is wrong with them.
+// Adds the origin of the feeds, and warnings about them, to the notes of each operation.
 void note_tools(JobRun& run, const Trial& trial) {
   const auto material = run.job.stock ? run.job.stock->known_material : std::nullopt;
   for (std::size_t i = 0; i < run.job.operations.size(); ++i) {
@@ -277,15 +277,15 @@ bool is_outside(const std::string& file) {
   return path.is_absolute() || std::ranges::any_of(path, [](const auto& part) { return part == ".."; });
 }
 
-// A job file of a stranger must not show what other files of this computer hold.
+// An untrusted job file must not reveal the contents of other files of this computer.
 void check_folder(const JobRun& run, Diagnostics& findings) {
   const auto refuse = [&](const SourceLocation& place, const std::string& file) {
-    findings.add(run.job.finding("job.outside", place, fmt::format("'{}' is outside of the job's folder", file),
-                                 "the name of a file beside the job file"));
+    findings.add(run.job.finding("job.outside", place, fmt::format("'{}' is outside the job's folder", file),
+                                 "a file in the folder of the job file"));
   };
   if (is_outside(run.job.library)) refuse({}, run.job.library);
   if (!run.job.one_program) {
-    findings.add(run.job.finding("job.outside", {}, "there can only be one program here", "programs = \"one\""));
+    findings.add(run.job.finding("job.outside", {}, "only one program is possible here", "programs = \"one\""));
   }
   for (const std::string& file :
        {run.job.program.start_text, run.job.program.tool_change_text, run.job.program.end_text}) {
@@ -304,7 +304,7 @@ void check_folder(const JobRun& run, Diagnostics& findings) {
   }
 }
 
-// What is told after all is written.
+// The messages after everything is written.
 void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again) {
   if (run.arguments.json) {
     record["changes"] = changes;
@@ -318,7 +318,7 @@ void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<
     }
   }
   for (const std::string& change : changes) text += "changed: " + change + "\n";
-  if (is_again && changes.empty()) text += "changed: nothing since the last time\n";
+  if (is_again && changes.empty()) text += "changed: nothing since the last run\n";
   for (const TrialProgram& program : run.programs) text += fmt::format("written: {}\n", program.file);
   say(text);
 }
@@ -374,7 +374,7 @@ int cam_job_file(const CamJobArguments& arguments, const WorkProgress& progress)
   JobRun run{.arguments = arguments, .job = std::move(*job), .text = *text};
   run.output = arguments.output.empty() ? run.job.output : arguments.output;
   if (run.output == "-")
-    return fail(exit_bad_program, "--output: expected a file: the job's record is written beside it");
+    return fail(exit_bad_program, "--output: expected a file, because the record of the job is written next to it");
   if (!names_are_apart(run)) return exit_bad_program;
   if (!program_words_are_good(run.job.program, run.job.units)) return exit_bad_program;
   run.fingerprint = fingerprint_of_inputs(run.job, run.text);

@@ -46,7 +46,7 @@ std::string board_words(const Region& board, const OutlinePlan& plan, const Edge
   std::string text = fmt::format("{} and {} around {} mm² of board, {}; {:g} mm² of it lost\n",
                                  counted(plan.outsides, "outline"), counted(plan.openings, "opening"),
                                  sensible_number(area_mm2(board), 4), counted(plan.tabs.size(), "tab"), plan.lost_mm2);
-  if (plan.tight > 0) text += counted(plan.tight, "opening") + " as wide as the cutter, along the middle line\n";
+  if (plan.tight > 0) text += counted(plan.tight, "opening") + " as wide as the cutter, along the centre line\n";
   if (plan.slots > 0)
     text += fmt::format("{} as wide as the cutter, along single lines of the drawing\n", counted(plan.slots, "slot"));
   if (loops.joined > 0) {

@@ -206,13 +206,13 @@ void take_finish_feed(const CamFinishArguments& arguments, MillProgramOptions& p
 std::string finish_words(const CamFinishArguments& arguments, Nanometres allowance, std::size_t finished) {
   if (allowance.count <= 0 || (arguments.finish_pass && finished == 0)) return "";
   const double mm = to_mm(allowance).value();
-  if (!arguments.finish_pass) return fmt::format("allowance: {:.4g} mm stay on the walls\n", mm);
+  if (!arguments.finish_pass) return fmt::format("allowance: {:.4g} mm left on the walls\n", mm);
   const std::string springs =
       arguments.spring_passes == 0 ? "" : fmt::format(", and {} each", counted(arguments.spring_passes, "spring lap"));
   return fmt::format("finishing: {} of {:.4g} mm at full depth{}\n", counted(finished, "lap"), mm, springs);
 }
 
-// The cutter of a chamfer: it goes deeper than the chamfer, and so much away from the edge that its tip is free.
+// The cutter of a chamfer: it goes deeper than the chamfer, far enough from the edge that its tip is clear of it.
 struct ChamferCut {
   Nanometres beside;  // from the edge to the cutter's centre
   Nanometres depth;
@@ -226,15 +226,15 @@ ChamferCut chamfer_of(const CamProfileArguments& arguments, LengthArguments& len
   return {{tip.count / 2 + below}, {-std::llround(static_cast<double>(width.count + below) / slope)}};
 }
 
-// Cuts along the contours with the flank of a V-bit, in one pass. It is the same distance from all contours, so it
-// takes no more than the chamfer of any.
+// Cuts along the contours with the flank of a V-bit, in one pass. It keeps the same distance from all contours, so it
+// cuts no more than the chamfer from any of them.
 void take_chamfer(const CamProfileArguments& arguments, OutlineOptions& cut, LengthArguments& lengths) {
   if (arguments.finish_pass || !arguments.allowance.empty() || arguments.side == "on" || arguments.dog_bones) {
     lengths.refuse("--chamfer cannot be combined with --allowance, --finish-pass, --dog-bones or --side on");
   }
   const ChamferCut chamfer = chamfer_of(arguments, lengths);
   cut.cutter = {2 * chamfer.beside.count};
-  cut.words = fmt::format("V of {:g} degrees for a chamfer", arguments.angle);
+  cut.words = fmt::format("V-bit of {:g} degrees for a chamfer", arguments.angle);
   cut.depth = chamfer.depth;
   cut.step = {-chamfer.depth.count};
   cut.tabs = 0;
@@ -252,12 +252,12 @@ std::string milling_words(bool climb) {
 
 std::string unfinished_words(std::size_t count, const char* what) {
   if (count == 0) return "";
-  return fmt::format("{} without an allowance, for lack of room\n", counted(count, what));
+  return fmt::format("{} cut without an allowance, for lack of room\n", counted(count, what));
 }
 
 std::string tight_words(std::size_t count, Nanometres cutter) {
   if (count == 0) return "";
-  return fmt::format("{} as wide as the cutter, within {:g} mm, along the middle line\n", counted(count, "cut"),
+  return fmt::format("{} as wide as the cutter, within {:g} mm, along the centre line\n", counted(count, "cut"),
                      to_mm(tight_cut_tolerance(cutter)).value());
 }
 

@@ -16,7 +16,7 @@
 
 namespace passo {
 
-// Checks --for and the operator's texts before any work. Shows what is wrong. `units`: those of the program.
+// Checks --for and the operator's texts before any work. Shows the errors. `units`: those of the program.
 bool program_words_are_good(const CamProgramArguments& arguments, const std::string& units);
 
 // Returns the options for a program in `units`. `read_unit`: the unit in which the program was written.
@@ -34,7 +34,7 @@ int write_program(const CamDrillArguments& arguments, const DrillPlan& plan, con
 // A program without tools, e.g. for a pen.
 int write_program(const CamMillArguments& arguments, const std::string& text, const std::string& name, DrawnPoint park);
 
-// Writes a relief while it is made. `refused`: why the controller cannot run it; empty if it can.
+// Writes a relief while it is generated. `refused`: why the controller cannot run it; empty if it can.
 ReliefReport write_relief_in_words(const CamReliefArguments& arguments, const ReliefProgramOptions& program,
                                    OutputFile& file, std::optional<std::string>& refused,
                                    const std::function<ReliefReport(const ReliefSink&)>& make);

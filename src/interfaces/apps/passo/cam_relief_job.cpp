@@ -147,7 +147,7 @@ bool read_curves(const std::string& path, std::vector<std::vector<ReliefPoint>>&
 
 namespace {
 
-// A node must not be far apart for what the finest cutter can do.
+// The grid spacing must be fine enough for the smallest cutter.
 Mm pitch_for(const ReliefProgramOptions& program) {
   const auto of_tool = [&program](const ReliefTool& tool) {
     const Cutter& cutter = tool.cutter;
@@ -208,7 +208,7 @@ double size_of(const std::vector<SurfaceTriangle>& faces, double SurfacePoint::*
   return high - low;
 }
 
-// A model that is far too small was drawn in another unit.
+// A model that is far too small was probably drawn in another unit.
 bool is_plausible(const CamReliefArguments& arguments, const std::vector<SurfaceTriangle>& faces,
                   Diagnostics& findings) {
   if (!arguments.width.empty() || !arguments.length.empty()) return true;

@@ -1,5 +1,5 @@
 // passo cam relief --two-sided: the programs for both sides of a model, the dowel holes about which the stock is
-// flipped, pictures, and a page that says what to do when.
+// flipped, pictures, and a page with step-by-step instructions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Options that have no meaning for a part with two sides, or another one.
+// Options that have no meaning, or a different one, for a part with two sides.
 std::string refused_for_sides(const CamReliefArguments& arguments) {
   const std::pair<bool, const char*> options[] = {{!arguments.within.empty(), "--within"},
                                                   {arguments.invert, "--invert"},
@@ -51,7 +51,7 @@ Mm trench_of(const ReliefProgramOptions& program) {
   return radius * 2.2 + stock * 2 + Mm(1);
 }
 
-// The part as a region of rectangles, for the picture of the flip. Coarse: it is only looked at.
+// The part as a region of rectangles, for the picture of the flip. Coarse, because it is only a picture.
 Region region_of(const SplitRelief& split, Mm x0, Mm y0) {
   constexpr std::size_t most = 160;
   const HeightGrid& grid = split.top;
@@ -168,7 +168,7 @@ void SidesMaker::put_stock(const std::string& name) {
   page_.name = name;
   page_.command = "relief";
   page_.manual = "relief";
-  page_.lead = "The times are those at the programmed feeds, without rapids and accelerations.";
+  page_.lead = "The times assume the programmed feed rates, without rapids and acceleration.";
   page_.files = {{.name = name, .short_name = name, .layer = words_, .told_by = "content", .is_drill_file = false}};
   page_.steps.push_back(
       {.kind = "blank",
@@ -177,7 +177,7 @@ void SidesMaker::put_stock(const std::string& name) {
            fmt::format("The stock must be {:.4g} mm thick, as high as the model, with two parallel faces.", high_),
            fmt::format("It must be at least {:.4g} x {:.4g} mm in X and Y.", is_x_ ? along : other,
                        is_x_ ? other : along),
-           fmt::format("The part reaches from X{:.6g} to X{:.6g} and from Y{:.6g} to Y{:.6g} mm.", x0_.value(),
+           fmt::format("The part extends from X{:.6g} to X{:.6g} and from Y{:.6g} to Y{:.6g} mm.", x0_.value(),
                        (x0_ + width_).value(), y0_.value(), (y0_ + length_).value()),
            "Z0 is the upper face of the stock."}});
 }
@@ -261,9 +261,9 @@ int SidesMaker::flip() {
       rectangle(x0_.value() - x, y0_.value() - y, (x0_ + width_).value() + x, (y0_ + length_).value() + y);
   const Region part = region_of(split_, x0_ - split_.beside_x, y0_ - split_.beside_y);
   if (pins_.value() > 0) {
-    step.words[0] += " Press dowels into the holes of the table, and put the stock onto them.";
+    step.words[0] += " Press dowels into the holes in the table, and place the stock on them.";
     step.words.push_back(
-        fmt::format("Hole 1 is at X{:.6g} Y{:.6g}, hole 2 at X{:.6g} Y{:.6g} mm: after the flip, each "
+        fmt::format("Hole 1 is at X{:.6g} Y{:.6g}, hole 2 at X{:.6g} Y{:.6g} mm; after the flip, each "
                     "is where the other was.",
                     holes_[0].first, holes_[0].second, holes_[1].first, holes_[1].second));
     const auto hole = [](const std::pair<double, double>& at) {
@@ -283,7 +283,7 @@ int SidesMaker::flip() {
     if (code != exit_done) return code;
     step.picture = content_of(file);
   } else {
-    step.words.push_back("Without dowels, align the stock with a stop: its middle must stay on that line.");
+    step.words.push_back("Without dowels, align the stock against a stop, so that its centre line stays on that line.");
   }
   page_.steps.push_back(std::move(step));
   return exit_done;
@@ -292,18 +292,18 @@ int SidesMaker::flip() {
 int SidesMaker::write_all(const WorkProgress& progress) {
   if (const int code = drill(progress.part(0, 0.05)); code != exit_done) return code;
   const std::string web =
-      fmt::format("A web of {:.4g} mm around the part is left, {:.4g} mm below the upper face.",
+      fmt::format("A web of {:.4g} mm remains around the part, {:.4g} mm below the upper face.",
                   options_.tab_height.value(), split_.parting.value() - options_.tab_height.value() / 2);
   int code = carve(
       split_.top, "top",
-      {.kind = "front", .title = "Carve the top", .words = {"Insert the cutter, and set Z0; run the program.", web}},
+      {.kind = "front", .title = "Carve the top", .words = {"Insert the cutter, set Z0, and run the program.", web}},
       progress.part(0.05, 0.5));
   if (code == exit_done) code = flip();
-  std::vector<std::string> words = {"Insert the cutter, and set Z0 on the upper face; run the program."};
+  std::vector<std::string> words = {"Insert the cutter, set Z0 on the upper face, and run the program."};
   words.push_back(split_.tabs > 0
                       ? fmt::format("The web is cut through except at {} tabs, which hold the part.", split_.tabs)
-                      : std::string("The web around the part stays."));
-  words.emplace_back(split_.tabs > 0 ? "Saw the tabs off, and sand the places." : "Saw the part out of the web.");
+                      : std::string("The web around the part remains."));
+  words.emplace_back(split_.tabs > 0 ? "Saw off the tabs, and sand the stubs." : "Saw the part out of the web.");
   if (code == exit_done) {
     code = carve(split_.bottom, "bottom", {.kind = "back", .title = "Carve the bottom", .words = std::move(words)},
                  progress.part(0.5, 1));
@@ -331,7 +331,7 @@ int SidesMaker::make(ReliefReading& reading, const WorkProgress& progress) {
   if (split_.hidden > much) {
     note(fmt::format(
         "the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters may "
-        "not reach all of the part, and a tab cannot hold it",
+        "not reach all of the part, and no tab can hold it",
         split_.parting.value(), split_.hidden * 100));
   }
   int code = unfinished_.begin();

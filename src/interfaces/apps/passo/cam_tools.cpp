@@ -42,15 +42,15 @@ class ToolShelf {
   int open(bool wants_tool);
   bool is_open() const { return library_.has_value(); }
 
-  // Returns the tool that an option names by its number. Null: it names none; or there is no such tool, and code()
-  // tells.
+  // Returns the tool that an option names by its number. Null: it names none, or there is no such tool: see
+  // code().
   const CuttingTool* find(const char* option, const std::string& text);
   // Like find(), and the tool must have one of the shapes.
   const CuttingTool* find(const char* option, const std::string& text, std::initializer_list<CuttingShape> shapes);
   // Returns nothing if the material is unknown.
   std::optional<CuttingFeeds> feeds(const CuttingTool& tool, FeedRequest request = {}) const;
 
-  // Adds what the head of the program says of the tool.
+  // Adds the tool to the head of the program.
   void remark(const char* option, const CuttingTool& tool, const ToolUse& use);
   // Shows the warnings about the use.
   void judge(const CuttingTool& tool, const ToolUse& use);
@@ -58,7 +58,7 @@ class ToolShelf {
   int finish();
 
   int code() const { return code_; }
-  // A length in mm; 0 if it is none, which the command itself refuses later.
+  // A length in mm; 0 if it is invalid, which the command itself refuses later.
   double mm(const char* option, const std::string& text) const {
     const Result<Mm, std::string> length = parse_length(option, text, unit_mm_);
     return length ? length->value() : 0;
@@ -332,7 +332,7 @@ int use_tools(CamDrillArguments& a, const IsGiven& is_given) {
     ToolUse use = use_of(shelf, a);
     use.depth = depth;
     use.plunges = true;
-    if (drill->shape != CuttingShape::drill) use.rpm = 0;  // chip loads of milling say nothing about a plunge
+    if (drill->shape != CuttingShape::drill) use.rpm = 0;  // chip loads of milling do not apply to a plunge
     shelf.remark("drill", *drill, use);
     shelf.judge(*drill, use);
   }

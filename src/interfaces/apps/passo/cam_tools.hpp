@@ -1,6 +1,6 @@
 // Tools of a library for the operations of `passo cam`: with --tool-table, an option for a cutter takes its number
 // (T3), and with --material the feeds, the spindle speed, the depth of a pass and the stepover follow from the tool.
-// Options of the command line win.
+// Options of the command line take precedence.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace passo {
 // Returns whether the user has given the option, e.g. "--feed".
 using IsGiven = std::function<bool(const char* option)>;
 
-// Replace tool numbers in the arguments by what the library says of the tools, fill in what follows from the material,
+// Replace tool numbers in the arguments by the tools of the library, fill in the values that follow from the material,
 // and show warnings. They return an exit code, after a message.
 int use_tools(CamProfileArguments& arguments, const IsGiven& is_given);
 int use_tools(CamPocketArguments& arguments, const IsGiven& is_given);
@@ -21,7 +21,7 @@ int use_tools(CamEngraveArguments& arguments, const IsGiven& is_given);
 int use_tools(CamDrillArguments& arguments, const IsGiven& is_given);
 int use_tools(CamReliefArguments& arguments, const IsGiven& is_given);
 
-// Adds the warnings to a summary, as its member "warnings". Without a tool of a library the summary stays as it is.
+// Adds the warnings to a summary, as its member "warnings". Without a tool of a library the summary is unchanged.
 std::string with_tool_warnings(const std::string& json, const CamToolArguments& arguments);
 
 }  // namespace passo

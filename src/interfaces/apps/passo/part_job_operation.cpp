@@ -169,7 +169,7 @@ Diagnostic finding_of(const PartJob& job, const PartOperation& operation, const 
   return job.finding("job.operation", operation.place, fmt::format("'{}': {}", operation.title, failure), "");
 }
 
-// A job selects layers, and says what is a bore: notes for drawings of boards are none here.
+// A job selects layers and states which circles are bores, so notes about board drawings do not apply.
 bool is_news(const std::string& note) {
   return note.find("on other layers") == std::string::npos && note.find("the scale may be off") == std::string::npos;
 }
@@ -231,7 +231,7 @@ std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperat
   if (code != exit_done) {
     if (messages.failures.empty()) {
       findings.add(
-          job.finding("job.operation", operation.place, fmt::format("'{}' cannot be made", operation.title), ""));
+          job.finding("job.operation", operation.place, fmt::format("'{}' cannot be generated", operation.title), ""));
     }
     return std::nullopt;
   }

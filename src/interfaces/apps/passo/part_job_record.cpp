@@ -60,7 +60,7 @@ std::string time_words(double seconds) {
                       : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-// A record may have been edited by anybody.
+// A record may have been edited by hand.
 template <class Value>
 Value value_of(const Json& json, const char* key, Value otherwise) {
   if (!json.is_object()) return otherwise;
@@ -103,7 +103,7 @@ std::string listed(const std::vector<std::string>& contours, const char* what) {
                      fmt::join(contours.begin(), contours.begin() + static_cast<std::ptrdiff_t>(shown), ", "), rest);
 }
 
-// What differs between two entries of the same operation. Empty: nothing.
+// The differences between two entries of the same operation. Empty: none.
 std::string changes_of_operation(const Json& before, const Json& now) {
   std::vector<std::string> changes;
   const auto number = [&](const char* key, const char* words, double least) {
@@ -202,7 +202,7 @@ std::string out_of_date(const Json& record, const std::string& fingerprint, cons
     return "the job file or a drawing has changed";
   }
   const Json& programs = list_of(record, "programs");
-  if (programs.empty()) return "the record names no program";
+  if (programs.empty()) return "the record lists no program";
   for (const Json& program : programs) {
     const std::string name = std::filesystem::path(value_of<std::string>(program, "file", "")).filename().string();
     const std::string file = (std::filesystem::path(output).parent_path() / name).string();
@@ -233,7 +233,7 @@ std::vector<std::string> changes_of(const Json& before, const Json& now) {
     }
     old.erase(found);
   }
-  for (const auto& [title, operation] : old) lines.push_back(fmt::format("'{}' is gone", title));
+  for (const auto& [title, operation] : old) lines.push_back(fmt::format("'{}' was removed", title));
   return lines;
 }
 

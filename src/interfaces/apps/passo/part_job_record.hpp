@@ -1,5 +1,5 @@
-// The record of a job: what was made, as JSON, beside its programs. It tells whether the programs are out of date, and
-// what has changed when they are made again.
+// The record of a job: a report as JSON, next to its programs. It shows whether the programs are out of date, and what
+// has changed when they are generated again.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace passo {
 // The record's name: plate.job.json of plate.ngc.
 std::string record_file_of(const std::string& output);
 
-// Of the job file, its drawings and the other files that it names. Empty: one of them cannot be read.
+// The fingerprint of the job file, its drawings and its other files. Empty: one of them cannot be read.
 std::string fingerprint_of_inputs(const PartJob& job, const std::string& job_text);
 std::string fingerprint_of_text(std::string_view text);
 
@@ -34,11 +34,11 @@ nlohmann::ordered_json record_of(const MadeJob& made);
 // Empty: there is none, or it cannot be read.
 std::optional<nlohmann::ordered_json> read_job_record(const std::string& output);
 
-// Why the programs on disk are not those of the inputs. Empty: they are.
+// Why the programs on disk are out of date. Empty: they are up to date.
 std::string out_of_date(const nlohmann::ordered_json& record, const std::string& fingerprint,
                         const std::string& output);
 
-// What differs, one line for each operation. Empty: nothing.
+// The differences, one line for each operation. Empty: none.
 std::vector<std::string> changes_of(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now);
 
 // The table of operations, the total and the changes of order.

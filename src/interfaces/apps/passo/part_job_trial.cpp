@@ -117,7 +117,7 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
            clamp == nullptr ? "no clamp in the way"
            : cut.move.rapid ? fmt::format("a clearance above {:g}, the top of '{}', or a clamp elsewhere",
                                           clamp->height, clamp->name)
-                            : fmt::format("'{}' further away from what is cut", clamp->name));
+                            : fmt::format("'{}' farther away from the cut", clamp->name));
   }
   if (cut.move.rapid && cut.depth > least_depth) {
     report("job.rapid-in-stock", cut, operation,
@@ -127,7 +127,7 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
   if (cut.holder > least_depth) {
     report("job.holder", cut, operation,
            fmt::format("the holder goes {:.2f} mm into the stock at {}", cut.holder, place_words(cut.holder_place)),
-           "a tool that sticks out further (holder_from_mm), or less depth");
+           "a tool with a longer stick-out (stick_out_mm), or less depth");
   }
 }
 
@@ -142,7 +142,7 @@ void ProgramTrial::judge_depth(const Vector3& low, const Vector3& high, std::uin
   const MoveCut cut{.move = {.line = line, .tool = tool}};
   report("job.below", cut, job_.operations[operation_at(line)],
          fmt::format("the tip goes {:.2f} mm below the stock at {}", below, place_words(low)),
-         fmt::format("at most {:g} mm; stock.below allows more", stock.margin_below));
+         fmt::format("at most {:g} mm, or a larger stock.below", stock.margin_below));
 }
 
 void ProgramTrial::record(const MoveCut& cut) {
@@ -190,7 +190,7 @@ bool ProgramTrial::clamps_are_small() {
   for (std::size_t i = 0; i < wanted.clamps.size(); ++i) {
     if (HeightField::create(wanted.clamps[i], Mm(trial_.field->cell()))) continue;
     findings_.add(of_file("job.clamp-size", job_.file, fmt::format("'{}' is too large", job_.clamps[i].name),
-                          "the part of it that the tools can reach"));
+                          "a clamp only as large as the part of it that the tools can reach"));
     are_small = false;
   }
   return are_small;

@@ -106,11 +106,11 @@ void print_feeds(const CuttingTool& tool, WorkMaterial material, const CuttingFe
   row("plunge", feeds.plunge > MmPerSecond(0) ? fmt::format("{:g} mm/min", speed_per_minute(feeds.plunge)) : "none",
       "plunge");
   if (feeds.depth_per_pass > Mm(0))
-    row("depth", fmt::format("{:.3g} mm a pass", feeds.depth_per_pass.value()), "depth");
+    row("depth", fmt::format("{:.3g} mm per pass", feeds.depth_per_pass.value()), "depth");
   if (feeds.step_over > 0) row("stepover", fmt::format("{:g} %", feeds.step_over * 100), "stepover");
   if (feeds.chip_load < feeds.chip_range.least * 0.5) {
     note(
-        fmt::format("{:.3g} mm per tooth is less than half of {:.3g} mm: the teeth rub. Use fewer flutes, a smaller "
+        fmt::format("{:.3g} mm per tooth is less than half of {:.3g} mm, so the teeth rub. Use fewer flutes, a smaller "
                     "tool, or a slower spindle [tool.chip-small]",
                     feeds.chip_load.value(), feeds.chip_range.least.value()));
   }

@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// How fast the cutter moves: it cuts, it finishes walls or floors, it links two cuts through cleared ground, or it
-// moves straight up or down in the air.
+// How fast the cutter moves: it cuts, finishes walls or floors, links two cuts through a cleared area, or moves
+// straight up or down in the air.
 enum class MillPace : std::uint8_t { cut, finish, link, rapid };
 
 // A position of the cutter centre. The bulge defines the connection to the next point, as in PathPoint; the height
@@ -19,19 +19,19 @@ struct MillPoint {
   DrawnPoint at = {};
   double bulge = 0;
   Nanometres z = {};
-  MillPace pace = MillPace::cut;  // of the way to the next point
+  MillPace pace = MillPace::cut;  // of the move to the next point
 };
 
 using MillRun = std::vector<MillPoint>;  // at least two points
 
-// Begins a run above a floor that has been cut: the cutter rapids down to just above it. `floor`: its Z; where it is
-// not clearly below Z0, nothing is added.
+// Begins a run above a floor that has been cut: a rapid leads down to just above it. `floor`: its Z; nothing is added
+// if it is not clearly below Z0.
 void enter_above(MillRun& run, DrawnPoint at, Nanometres floor);
-// Goes on to a point at the Z of the run's end, through cleared ground: slightly lifted where the way is long enough.
+// Continues to a point at the Z of the run's end, through a cleared area; slightly lifted if the link is long enough.
 void link_to(MillRun& run, DrawnPoint to);
 
-// A gap is cut along its middle line, as exactly as wide as the cutter, if it is narrower by at most this: 0.02 mm, and
-// 1 % of the cutter's diameter.
+// A gap counts as exactly as wide as the cutter, and is cut along its centre line, if it is narrower by at most this:
+// 0.02 mm, and 1 % of the cutter's diameter.
 constexpr Nanometres tight_cut_tolerance(Nanometres cutter) {
   return {cutter.count < 2'000'000 ? cutter.count / 100 : 20'000};
 }
@@ -50,7 +50,7 @@ struct MillPlan {
 struct MillLengths {
   std::size_t runs = 0;  // number of runs; equals the number of plunges
   double milled_nm = 0;
-  double links_nm = 0;   // through cleared ground
+  double links_nm = 0;   // through cleared areas
   double rapids_nm = 0;  // rapid distance at clearance height, from the park position and back, for each tool
 };
 

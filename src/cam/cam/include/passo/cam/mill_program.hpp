@@ -27,7 +27,7 @@ struct MillProgramOptions {
   Nanometres clearance{2'000'000};             // clearance height above the board
   Nanometres feed{200'000'000};                // cutting feed, nm/min
   std::optional<Nanometres> finish_feed = {};  // feed of finishing passes; empty: `feed`
-  std::optional<Nanometres> link_feed = {};    // feed of links through cleared ground; empty: usual_link_feed()
+  std::optional<Nanometres> link_feed = {};    // feed of links through cleared areas; empty: usual_link_feed()
   Nanometres plunge_feed{60'000'000};          // plunge feed, nm/min; descents along the way are no faster
   std::optional<std::uint32_t> spindle = {};   // rpm; empty: no spindle commands
   DrawnPoint park = {};                        // tool position at tool changes and at the end

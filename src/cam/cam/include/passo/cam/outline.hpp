@@ -9,7 +9,7 @@
 // an opening they hold the slug; a slug narrower than `least_slug` is milled away instead. Tabs given by position are
 // placed at the nearest point of any cut.
 //
-// Gaps exactly as wide as the cutter are cut along their middle line, by one pass or, if it is a hole, by a plunge.
+// Gaps exactly as wide as the cutter are cut along their centre line in one pass; holes by a plunge.
 //
 // With an allowance each contour is roughed at a distance, and then finished by one lap at full depth, which begins and
 // ends within the slot that roughing cut.
@@ -40,9 +40,9 @@ struct OutlineOptions {
   double ramp_degrees = 0;            // ramp angle of the descent along the toolpath; 0: straight down
   Nanometres lead{};                  // radius of the lead-in arc; 0: none
   bool dog_bones = false;             // overcuts inner corners so that a sharp corner fits in
-  Nanometres allowance{};             // stock that roughing leaves beside the contour
+  Nanometres allowance{};             // stock that roughing leaves on the contour
   bool finishes = false;              // cuts the allowance in one lap at full depth
-  std::uint32_t spring_passes = 0;    // further laps of that
+  std::uint32_t spring_passes = 0;    // additional laps without stock
   bool climb = true;                  // climb milling, for a clockwise spindle; otherwise conventional
   bool openings_only = false;         // cuts no outer contours
   std::vector<DrawnRing> slots = {};  // lines on which the middle of the cutter makes slots as wide as it is
@@ -57,7 +57,7 @@ struct OutlinePlan {
   std::size_t slots = 0;
   std::size_t tight = 0;              // number of cuts exactly as wide as the cutter
   std::size_t finished = 0;           // number of contours with a finishing pass
-  std::size_t unfinished = 0;         // number of contours without room for an allowance: cut without one
+  std::size_t unfinished = 0;         // number of contours cut without an allowance, for lack of room
   std::vector<DrawnPoint> tabs = {};  // tab centres on the path of the cutter centre
   std::vector<DrawnRing> ways = {};   // paths of the cutter centre as chords, each once
   double lost_mm2 = 0;                // board area lost according to a sweep of the cutter; dog-bones cause a small

@@ -10,12 +10,12 @@
 // cut a slot are left and counted as `unreached`. If the engagement limit cannot be kept, the plan fails with
 // "pocket.engagement".
 //
-// Necks, holes and slots exactly as wide as the cutter are cut along their middle line, without a limit of the
-// engagement only.
+// Necks, holes and slots exactly as wide as the cutter are cut along their centre line, but only if the engagement is
+// not limited.
 //
-// With an allowance, walls and floor keep some stock. With `finishes` it is removed: the floor by the loops once more,
-// each wall in one lap at full depth, which arcs lead into and out of. A pocket whose walls leave no room for this is
-// cut without an allowance, and counted as `unfinished`.
+// With an allowance, walls and floor keep some stock. With `finishes` it is removed: from the floor by the loops once
+// more, from each wall in one lap at full depth with arcs as lead-in and lead-out. A pocket whose walls leave no room
+// for this is cut without an allowance, and counted as `unfinished`.
 //
 // Areas that the cutter cannot reach, in inner corners and between narrow walls, are reported as `unreached`: nothing
 // is omitted silently. A part of the region that the cutter does not fit into at all causes a warning "pocket.narrow".
@@ -43,7 +43,7 @@ struct PocketOptions {
   Nanometres allowance{};           // stock that roughing leaves on walls
   Nanometres floor_allowance{};     // stock that roughing leaves on the floor; less than the depth
   bool finishes = false;            // cuts the allowances
-  std::uint32_t spring_passes = 0;  // further laps along a finished wall
+  std::uint32_t spring_passes = 0;  // additional laps along a finished wall
   Nanometres lead{};                // radius of the arcs into and out of finished walls, where there is room
   bool climb = true;                // climb milling, for a clockwise spindle; otherwise conventional
   DrawnPoint park = {};
@@ -58,7 +58,7 @@ struct PocketPlan {
   std::size_t tight = 0;       // number of cuts exactly as wide as the cutter
   double engagement = 0;  // maximum engagement in a layer, degrees, if a limit was set; computed from the toolpaths
                           // alone
-  Region unreached = {};  // apart from an allowance that stays
+  Region unreached = {};  // without a remaining allowance
   double unreached_mm2 = 0;
   double lost_mm2 = 0;  // area lost from the part, according to a sweep of the cutter
 };

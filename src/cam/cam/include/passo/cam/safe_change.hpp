@@ -6,7 +6,7 @@
 namespace passo {
 
 struct SafeChange {
-  // Z of the first and the last rapid, and of tool changes. A clearance height above it takes its place.
+  // Z of the first and the last rapid, and of tool changes. A higher clearance height replaces it.
   Nanometres height{20'000'000};
   double spindle_seconds = 2;  // dwell after M3
 };

@@ -4,7 +4,7 @@
 // uses. Circles are holes, as in DXF drawings; circular arcs, including those of paths and rounded corners, stay arcs
 // unless a transform distorts them. Bézier curves and ellipses become chords within the tolerance. Y points up: the
 // lower left corner of the page is X0 Y0. Only the geometry counts: fill and stroke width are ignored. Inkscape layers
-// are the layers of the drawing. The colour of a shape is that of its line, or without a line that of its area.
+// are the layers of the drawing. The colour of a shape is that of its stroke or, without a stroke, of its fill.
 //
 // Style sheets are applied where they hide, place or size shapes (svg_style.hpp). Clip paths are applied, and nested
 // views clip their contents: of closed lines the clipped area is drawn, of open lines the pieces inside. Texts,

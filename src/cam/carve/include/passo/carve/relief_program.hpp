@@ -84,7 +84,7 @@ struct ReliefArea {
   bool is_all() const { return !only_on_model && within.empty(); }
 };
 
-// Where the program starts, changes tools and ends, and its spindle.
+// The height and position of start, tool changes and end, and the spindle.
 struct ReliefChange {
   Mm height{20};  // Z of the first and the last rapid, and of tool changes; at least the clearance height
   ReliefPoint park = {};
@@ -102,7 +102,7 @@ struct ReliefProgramOptions {
   std::optional<ReliefRoughing> roughing = {};
   std::optional<ReliefRest> rest = {};
   Mm scallop{0.02};      // scallop height between two rows on a flat area, if no stepover is given
-  Mm tolerance{0.01};    // tolerance of lines, upward only
+  Mm tolerance{0.01};    // tolerance of lines, only upwards
   Mm clearance{5};       // clearance height
   bool ramps = true;     // enter the stock along a ramp; otherwise straight down
   Radians ramp{0.0873};  // ramp angle

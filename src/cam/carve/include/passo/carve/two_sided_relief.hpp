@@ -1,14 +1,14 @@
 // split_relief: the surfaces of a part that is carved from both sides of a piece of stock, which is as thick as the
 // part.
 //
-// Seen from above, the stock consists of the part, a trench around it, in which the cutters find room, and the frame,
-// which stays. The first side, the top, is cut down to the web: a layer of the stock at the parting height, in the
-// trench and in openings of the part. The second side, the bottom, cuts through the web, except at the tabs, which hold
-// the part in the frame. The parting height is the one that the part's edge crosses at most places: there the web hides
-// nothing of the part.
+// Seen from above, the stock consists of the part, a trench around it for the cutters, and the frame, which remains.
+// The first side, the top, is cut down to the web: a layer of the stock at the parting height, in the trench and in
+// openings of the part. The second side, the bottom, cuts through the web, except at the tabs, which hold the part in
+// the frame. The parting height is the height at which the web meets the longest part of the edge, so that it hides as
+// little of the part as possible.
 //
-// Heights are relative to the top of the stock of each side. Both grids have their node (0, 0) at the lower left of
-// what the side shows: the bottom is a view after the flip.
+// Heights are relative to the top of the stock on each side. Both grids have their node (0, 0) at the lower left, as
+// seen from above; the bottom is seen after the flip.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct SplitOptions {
   StockFlip flip = StockFlip::left_to_right;
   Mm trench{10};                   // width
   Mm tab_height{2};                // also the thickness of the web
-  Mm tab_width{6};                 // 0: no tabs, and the web stays
+  Mm tab_width{6};                 // 0: no tabs, and the whole web remains
   std::optional<Mm> parting = {};  // below the top; empty: chosen
   Mm through{0.1};                 // how far the bottom is cut below the web
 };
@@ -39,13 +39,13 @@ struct SplitRelief {
   Mm beside_y{};
   Mm parting{};  // the middle of the web, below the top
   std::size_t tabs = 0;
-  // The share of the part's edge that the web does not meet, 0 to 1: it is above or below the web.
+  // The fraction of the part's edge that lies above or below the web, 0 to 1.
   double hidden = 0;
   std::vector<bool> part = {};  // for each node of `top`: whether it belongs to the part
 };
 
 // `top`, `bottom`: the part seen from both sides, with as many nodes, and with the height of its lowest point where
-// there is no part. `high`: the height of the part, more than that of the web.
+// there is no part. `high`: the height of the part, above that of the web.
 SplitRelief split_relief(const HeightGrid& top, const HeightGrid& bottom, Mm high, const SplitOptions& options);
 
 }  // namespace passo

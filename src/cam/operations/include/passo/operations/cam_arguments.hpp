@@ -13,11 +13,11 @@
 
 namespace passo {
 
-// How every program is written.
+// How a program is written.
 struct CamProgramArguments {
   std::string controller = "passo";  // a name of controllers() in post_processor/
   std::string start_text;            // files with lines of the operator; empty: none
-  std::string tool_change_text;      // replaces the words that call a tool
+  std::string tool_change_text;      // replaces the words of a tool change
   std::string end_text;
   std::string change_height = "20mm";  // Z at the start, at tool changes and at the end
   double spindle_delay = 2;            // seconds
@@ -26,14 +26,14 @@ struct CamProgramArguments {
 // The tools of a library. Options for a cutter then take its number: T3.
 struct CamToolArguments {
   std::string tool_table;  // tool library (TOML); empty: none
-  std::string material;    // what is cut; empty: feeds are the options'
-  std::string limits;      // machine file, whose speeds limit those of the tables; empty: none
-  // Not options: what the command line has found in the library, for the head of the program and for the summary.
+  std::string material;    // material of the stock; empty: feeds are those of the options
+  std::string limits;      // machine file; its speeds limit those of the tables; empty: none
+  // Not options: remarks from the library, for the head of the program and for the summary.
   std::vector<std::string> tool_remarks = {};
   std::string tool_warnings_json = {};
 };
 
-// What is read of SVG drawings, besides layers.
+// The shapes of SVG drawings to read, in addition to layers.
 struct CamShapeSelection {
   std::vector<std::string> colors;  // colours of the shapes; empty: all
   std::vector<std::string> names;   // ids or labels of the shapes or groups; empty: all
@@ -135,7 +135,7 @@ std::vector<CamOption> cam_options_of(CamOutlineArguments& arguments);
 
 // Roughing with an allowance, and finishing.
 struct CamFinishArguments {
-  std::string allowance;  // stock beside walls; empty: 5 % of the cutter's diameter with `finish_pass`, otherwise none
+  std::string allowance;  // stock on walls; empty: 5 % of the cutter's diameter with `finish_pass`, otherwise none
   bool finish_pass = false;
   std::string finish_feed;  // empty: as `feed`
   std::uint32_t spring_passes = 0;
@@ -199,14 +199,14 @@ struct CamEngraveArguments : CamMillArguments, CamTraceArguments {
 };
 std::vector<CamOption> cam_options_of(CamEngraveArguments& arguments);
 
-// Makes a part by several operations, which a job file describes.
+// Generates a program for several operations, from a job file.
 struct CamJobArguments {
   std::vector<std::string> files;  // one job file
-  std::string output;              // empty: as the job file says
+  std::string output;              // empty: as in the job file
   std::string picture;             // .svg or .png; empty: none
-  bool check = false;              // only tells whether the programs on disk are those of the inputs
+  bool check = false;              // only checks whether the programs on disk are up to date
   bool json = false;               // prints the report as JSON on standard output
-  bool only_folder = false;        // for a job file of a stranger: reads only files in its folder
+  bool only_folder = false;        // for untrusted job files: reads only files in their folder
 };
 std::vector<CamOption> cam_options_of(CamJobArguments& arguments);
 
@@ -330,7 +330,7 @@ struct CamReliefArguments : CamProgramArguments, CamToolArguments {
   std::string two_sided = "no";  // or how the stock is flipped: x, left to right; y, front to back
   std::string tab_width = "6mm";
   std::string tab_height = "2mm";
-  std::string parting;        // a negative Z; empty: where the part's edge is
+  std::string parting;        // a negative Z; empty: from the part's edge
   std::string pins = "10mm";  // distance of the dowel holes from the milled area; 0: none
   std::string align_drill = "6mm";
   bool pencil = false;            // the last cutter also cuts along inner edges

@@ -1,8 +1,8 @@
 // JoinedProgram: joins the programs of a job's operations into one.
 //
-// Each operation comes as a whole program, as its command writes it. Its tools get the numbers of the job. What one
-// operation ends with and the next one begins with is left out where nothing changes: a tool that stays, a spindle that
-// runs. All else is kept as it was written.
+// Each operation is a complete program, as its command writes it. Its tools get the numbers of the job. The words
+// between two operations are omitted where nothing changes: the tool stays in the spindle, the spindle keeps running.
+// Everything else is kept as it was written.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace passo {
 struct JoinedOperation {
   std::string title = {};
   std::string program = {};
-  // The job's number and name of each of the program's tools, which count from 1; in a program without tool changes,
-  // of its only tool.
+  // The job's number and name for each tool of the program, in the program's order from 1; in a program without tool
+  // changes, for its only tool.
   struct Tool {
     std::int32_t number = 0;
     std::string words = {};
@@ -28,14 +28,14 @@ struct JoinedOperation {
 
 class JoinedProgram {
  public:
-  // `head`: comments, one a line.
+  // `head`: comments, one per line.
   explicit JoinedProgram(const std::vector<std::string>& head);
 
   void add(const JoinedOperation& operation);
   // Ends the program, and returns its text.
   std::string take();
 
-  // The first line of each operation, from 1; where an operation ends, the next one begins.
+  // The first line of each operation, from 1. An operation ends where the next one begins.
   const std::vector<std::uint32_t>& first_lines() const { return first_lines_; }
 
  private:

@@ -1,10 +1,10 @@
 // order_operations: the order in which the operations of a job are machined.
 //
-// What must be: facing first, because it makes Z0. Whatever frees the part (a profile around it) last. Of the rest,
-// roughing before finishing: a pocket with a wider cutter before one with a narrower cutter on the same layer, and
-// chamfers and engravings after the other cuts of their layers, and after reliefs. Profiles inside before those
-// outside. Among all orders that keep to this, the one that is found has few changes of the tool; apart from that,
-// operations stay as written.
+// Facing is first, because it makes Z0. The profile around the part, which frees it, is last. Roughing comes before
+// finishing: a pocket with a wider cutter before one with a narrower cutter on the same layer, and chamfers and
+// engravings after the other cuts of their layers and after reliefs. Inside profiles come before outside profiles.
+// Within these rules, the search looks for an order with few tool changes. Otherwise operations stay in the order of
+// the file.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace passo {
 
 struct OrderedOperation {
   std::size_t index = 0;    // in the order of the file
-  std::string reason = {};  // why it is not where it was written; empty: nothing but others moved
+  std::string reason = {};  // why it was moved; empty: it was not, or only because others were
 };
 
 std::vector<OrderedOperation> order_operations(const PartJob& job);

@@ -3,7 +3,7 @@
 //     [job]
 //     drawing = "plate.svg"
 //     output = "plate.ngc"
-//     clearance = 5                # an option of operations: the default of all that have it
+//     clearance = 5                # an option of operations: default for all that have it
 //
 //     [stock]
 //     size = [120, 80]
@@ -25,9 +25,9 @@
 //     layer = "pockets"
 //     depth = -4                   # an option of passo cam pocket
 //
-// The options of an operation are those of its command: the reader fills in the rows of cam_options_of(), so an option
-// that a command has is known here, too. Numbers without a unit are in `units`. Every key has its position, for
-// findings "job.…" that are made later. Positions and texts are those of the file, which is never rewritten.
+// The options of an operation are those of its command: the reader fills in the rows of cam_options_of(), so it knows
+// every option of every command. Numbers without a unit are in `units`. Every key keeps its position in the file, for
+// later findings "job.…". The file is never rewritten.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ std::string_view name_of(PartKind kind);
 struct PartTool {
   CuttingTool tool = {};
   ToolShape shape = {};
-  // What the job file says, or else follows from the chip load for the stock's material. Empty: neither.
+  // From the job file, or else from the chip load for the stock's material. Empty: neither.
   std::optional<double> feed = {};            // mm/min
   std::optional<double> plunge = {};          // mm/min
   std::optional<std::uint32_t> spindle = {};  // rpm
@@ -72,12 +72,12 @@ using PartArguments =
 
 struct PartOperation {
   PartKind kind = PartKind::profile;
-  std::string title = {};               // the user's, or made of kind and layers
+  std::string title = {};               // the user's, or kind and layers
   SourceLocation place = {};            // of its kind
   std::int32_t tool = 0;                // a key of PartJob::tools
   std::int32_t first_tool = 0;          // engrave: clears wide areas; relief: roughs; 0: none
   std::vector<std::string> files = {};  // its drawings, or the model of a relief; empty: none
-  // What it cuts of its drawings; empty: all.
+  // The shapes of its drawings that it cuts; empty: all.
   std::vector<std::string> layers = {};
   std::vector<std::string> colors = {};
   std::vector<std::string> names = {};
@@ -96,8 +96,8 @@ struct PartStock {
   double length = 0;
   double thickness = 0;  // Z0 is the top
   std::string material = {};
-  std::optional<WorkMaterial> known_material = {};  // that of feeds and chip loads
-  double margin_below = 0.5;                        // cuts may end this far below the stock, in the waste board
+  std::optional<WorkMaterial> known_material = {};  // for feeds and chip loads
+  double margin_below = 0.5;                        // how far cuts may go below the stock, into the waste board
 };
 
 struct PartClamp {
@@ -126,7 +126,7 @@ struct PartJob {
   std::vector<PartOperation> operations = {};
   std::vector<std::string> lines = {};  // of the file, for findings
 
-  // A finding about a place of the file.
+  // A finding about a position in the file.
   Diagnostic finding(const char* code, const SourceLocation& place, std::string message, std::string expected) const;
 };
 
@@ -136,7 +136,7 @@ inline constexpr std::size_t most_part_operations = 200;
 std::optional<PartJob> parse_part_job(std::string_view text, const std::string& file, Diagnostics& diagnostics);
 std::optional<PartJob> read_part_job(const std::string& path, Diagnostics& diagnostics);
 
-// The options of an operation, as its command has them.
+// The options of an operation, as in its command.
 std::vector<CamOption> cam_options_of(PartOperation& operation);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// ControllerWords: what a controller understands, one row for each. `--for`, the PostProcessor and the table of the
-// manual are made of these rows. Each row follows the public documentation that it names.
+// ControllerWords: the words that a controller understands, one row for each controller. `--for`, the PostProcessor and
+// the table of the manual are based on these rows. Each row follows the public documentation that it names.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace passo {
 
-// How a program asks for a tool.
+// How a program calls a tool.
 enum class ToolCall : std::uint8_t {
   m6,             // T2 M6
   m6_and_length,  // T2 M6, and G43 H2 with the next move along Z: the controller has a tool table
-  pause,          // T2, and M0 for a change by hand
+  pause,          // T2, and M0 for a manual change
 };
 
-// Arcs that a controller does not take are split: into arcs, or into lines where the radius is out of range.
+// Arcs that a controller does not accept are split: into arcs, or into lines if the radius is out of range.
 struct ArcLimits {
   double least_radius = 0;    // mm
   double most_radius = 1e9;   // mm
@@ -27,7 +27,7 @@ struct ArcLimits {
 struct NumberForm {
   int mm_decimals = 4;
   int inch_decimals = 5;
-  bool has_point = false;  // a length without a point would be counted in the smallest unit
+  bool has_point = false;  // a length without a point would be read in the smallest unit
 };
 
 // The form of a program as a whole.
@@ -40,12 +40,12 @@ struct ProgramForm {
   bool dwells_in_ms = false;        // P of G4; otherwise seconds
 };
 
-// The form of a comment, and what no line may contain.
+// The form of a comment, and the limits of a line.
 struct CommentForm {
   bool has_messages = true;        // (MSG, ...) is shown to the operator
   bool has_capitals_only = false;  // A to Z, digits and a few signs
   bool is_ascii = false;
-  std::string_view realtime = {};  // characters on which the controller acts at once, wherever they stand
+  std::string_view realtime = {};  // characters on which the controller acts at once, even in comments
   std::size_t longest_line = 0;    // characters; 0: any length
 };
 
@@ -66,7 +66,7 @@ struct ControllerWords {
   // `number`: "38.2".
   bool knows_g(std::string_view number) const { return g_words.empty() || is_listed(g_words, number); }
   bool knows_m(std::string_view number) const { return m_words.empty() || is_listed(m_words, number); }
-  // Whether it accepts every word, as Passo's own row does: `passo check` judges such programs.
+  // Whether it accepts every word, as Passo's own row does; `passo check` checks such programs.
   bool knows_all() const { return letters.empty(); }
 
  private:

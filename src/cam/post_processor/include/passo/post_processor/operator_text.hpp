@@ -18,7 +18,7 @@ class OperatorText {
   // The values of the placeholders, by name.
   using Values = std::vector<std::pair<std::string_view, std::string>>;
 
-  // Where the text stands in the program.
+  // The position of the text in the program.
   enum class Place : std::uint8_t { start, tool_change, end };
 
   // Reads the text of `file`. Errors are added to `findings`: unknown placeholders, and words that `controller` does

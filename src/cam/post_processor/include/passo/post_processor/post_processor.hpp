@@ -1,5 +1,5 @@
 // PostProcessor: rewrites a program of `passo cam` in the words of another controller. Every program of `passo cam`
-// passes through it, so that no writer of programs knows any controller.
+// passes through it, so that no program writer knows any controller.
 //
 // It reads the plain words that Passo's writers use: one position in absolute coordinates per line, arcs with I, J and
 // K, T and M6 in one line, M2 at the end. Positions are rounded once, so errors do not add up. Only the current line
@@ -52,15 +52,15 @@ class PostProcessor {
 
   // Adds a piece of the program, which may end within a line.
   void add(std::string_view text);
-  // Ends the program. Returns the reason why the controller cannot run it, if there is one: what was written up to then
-  // is of no use.
+  // Ends the program. If the controller cannot run the program, returns the reason; the text written so far is then
+  // useless.
   [[nodiscard]] std::optional<std::string> finish();
 
  private:
   class Lines;
 
   std::unique_ptr<Lines> lines_;
-  std::string rest_;  // the beginning of a line whose end is to come
+  std::string rest_;  // the beginning of an unfinished line
 };
 
 }  // namespace passo

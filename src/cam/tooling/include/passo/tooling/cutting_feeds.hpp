@@ -2,8 +2,8 @@
 // reason, from the published tables of chip_tables.hpp.
 //
 // The feed is chip load × flutes × rpm. The chip load is the lower end of the table's range for the material and the
-// diameter; the tool's own chip load takes its place. Where the machine cannot feed so fast, the spindle turns slower,
-// and only where it cannot, the chip becomes thinner. The numbers are those with which a test cut begins.
+// diameter, or the tool's own chip load. If the machine cannot feed that fast, the spindle turns more slowly; if the
+// spindle cannot, the chip becomes thinner. The numbers are meant for a first test cut.
 #pragma once
 
 #include <optional>
@@ -27,11 +27,11 @@ struct FeedRequest {
   SpindleRange spindle = {};
   MmPerSecond most_feed{0};    // the machine's highest feed in X and Y; 0: unknown
   MmPerSecond most_plunge{0};  // its highest feed in Z; 0: unknown
-  Mm depth{0};                 // depth of a pass; 0: as the tables have it. Deeper passes have thinner chips
+  Mm depth{0};                 // depth of a pass; 0: from the tables. Deeper passes have thinner chips
   // Radial width of the cut as a share of the diameter, above 0, at most 1. Below a half the feed is raised, because
-  // the chip becomes thinner than the feed per tooth. Give it only where the whole path keeps it (adaptive clearing).
+  // the chip becomes thinner than the feed per tooth. Set it only if the whole path keeps it (adaptive clearing).
   double width = 1;
-  std::optional<double> rpm = {};  // a chosen spindle speed, which is kept as far as spindle and tool permit it
+  std::optional<double> rpm = {};  // chosen spindle speed, within the limits of spindle and tool
 };
 
 struct FeedReason {
@@ -57,7 +57,7 @@ struct CuttingFeeds {
   std::vector<FeedReason> reasons = {};
 };
 
-// `request.width` outside its range counts as 1. Every result is finite and above 0 where it says no other.
+// `request.width` outside its range counts as 1. Every result is finite, and above 0 unless stated otherwise.
 CuttingFeeds feeds_of(const CuttingTool& tool, const FeedRequest& request);
 
 // Returns the thickest chip as a share of the feed per tooth, for a cut of this radial width (a share of the diameter):

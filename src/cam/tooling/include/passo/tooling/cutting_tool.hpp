@@ -29,10 +29,10 @@ std::string_view name_of(ToolMaterial material);
 
 struct CuttingTool {
   std::int32_t number = 0;  // of the T word, 0 to 99999
-  std::string name;         // for people, one line; may be empty
+  std::string name;         // for the operator, one line; may be empty
   CuttingShape shape = CuttingShape::flat;
-  Mm diameter{3};       // where the tool is widest
-  Mm corner_radius{0};  // bull: of the corners
+  Mm diameter{3};       // at the widest point
+  Mm corner_radius{0};  // bull: radius of the corners
   Radians angle{};      // vee, taper, drill: included angle of the tip
   Mm tip{0};            // vee: diameter of the flat at the tip; taper: of the ball
   std::uint32_t flutes = 2;
@@ -42,7 +42,7 @@ struct CuttingTool {
   bool centre_cutting = true;  // the edges reach the axis, so the tool may plunge
   ToolMaterial material = ToolMaterial::carbide;
   std::optional<double> most_rpm = {};  // highest permitted spindle speed
-  // Chip loads of this tool, mm per tooth. They take the place of those of the tables.
+  // Chip loads of this tool, mm per tooth. They replace those of the tables.
   std::map<WorkMaterial, Mm> chip_loads = {};
 };
 

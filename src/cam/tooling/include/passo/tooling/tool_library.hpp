@@ -1,12 +1,12 @@
 // ToolLibrary: the tools of a workshop, read from a TOML file with a table for each tool. Simulation, checks, CAM and
-// job files read it by this reader only.
+// job files all use this reader.
 //
 //     [tool.1]                    # T1 in the program
-//     name = "roughing"           # optional, like every key except shape and diameter_mm, if not said otherwise
+//     name = "roughing"           # optional, like every key except shape and diameter_mm, unless stated otherwise
 //     shape = "taper"             # flat, ball, bull, vee, taper, drill
 //     diameter_mm = 6             # largest diameter
-//     tip_diameter_mm = 1         # vee: diameter of the flat tip (default: 0); taper: of the ball, required
-//     angle_deg = 12              # vee, taper: included angle, required; drill: of the point (default: 118)
+//     tip_diameter_mm = 1         # vee: diameter of the flat tip (default: 0); taper: diameter of the ball, required
+//     angle_deg = 12              # vee, taper: included angle, required; drill: point angle (default: 118)
 //     corner_radius_mm = 0.5      # bull: corner radius, required
 //     flutes = 2                  # 1 to 12
 //     flute_length_mm = 22

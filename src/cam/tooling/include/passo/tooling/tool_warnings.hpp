@@ -1,13 +1,13 @@
-// warnings_of(): what is wrong with the way in which a program uses a tool. Each warning has a stable code, its
-// numbers, and advice that was tried: with the advised use, this warning is gone, and no other one has come.
+// warnings_of(): warnings about the way in which a program uses a tool. Each warning has a stable code, its numbers,
+// and advice that was checked: the advised use does not cause this warning, nor a new one.
 //
-//   tool.depth-over-flutes    the cut is deeper than the cutting edges are long
-//   tool.holder               the holder comes down to the material
+//   tool.depth-over-flutes    the cut is deeper than the flute length
+//   tool.holder               the holder touches the material
 //   tool.step-over            neighbouring passes leave material between them
 //   tool.chip-small           the teeth rub instead of cutting
-//   tool.chip-large           a tooth takes more than the tables permit
-//   tool.plunge               a tool without teeth at its centre descends straight
-//   tool.spindle              a spindle speed outside the range of spindle or tool
+//   tool.chip-large           a tooth cuts more than the tables permit
+//   tool.plunge               a tool without teeth at its centre plunges
+//   tool.spindle              the spindle speed is outside the range of the spindle or the tool
 #pragma once
 
 #include <optional>
@@ -19,14 +19,14 @@
 
 namespace passo {
 
-// How a program uses a tool. What is 0 is unknown and not checked.
+// How a program uses a tool. Values of 0 are unknown and not checked.
 struct ToolUse {
   double rpm = 0;
   MmPerSecond feed{0};
   Mm depth{0};  // of the deepest tip below the top of the material
   Mm depth_per_pass{0};
   Mm step_over{0};       // distance of neighbouring passes
-  double width = 1;      // radial width of the cut as a share of the diameter, where the whole path keeps it
+  double width = 1;      // radial width of the cut as a fraction of the diameter, if the whole path keeps it
   bool plunges = false;  // descends straight down in the material
 };
 

@@ -1,4 +1,4 @@
-// WorkMaterial: what is cut. The materials for which the tables of chip loads have rows (cutting_feeds.hpp).
+// WorkMaterial: the material of the stock. Each has a row in the tables of chip loads (cutting_feeds.hpp).
 #pragma once
 
 #include <cstdint>
