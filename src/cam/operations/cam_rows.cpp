@@ -56,7 +56,11 @@ std::vector<CamOption> controller_rows(CamProgramArguments& a) {
        file,
        "file with lines that replace those of a tool change, e.g. T{tool} M6",
        {.matters_to = cli}},
-      {"end-text", &a.end_text, file, "file with lines for the end of the program, before M2", {.matters_to = cli}},
+      {"end-text",
+       &a.end_text,
+       file,
+       "file with lines for the end of the program, before M2 or M30",
+       {.matters_to = cli}},
   };
 }
 

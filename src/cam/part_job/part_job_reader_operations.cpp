@@ -29,9 +29,11 @@ PartArguments arguments_of(PartKind kind) {
 
 // Options that a job sets for all operations, or by their tools.
 bool is_set_by_job(const CamOption& option) {
-  constexpr std::array<std::string_view, 21> names = {
-      "output", "picture", "json", "units",  "zero",  "sheet", "mirror", "mirror-at", "align", "align-drill", "tool",
-      "tools",  "drill",   "mill", "cutter", "angle", "tip",   "clear",  "rough",     "rest",  "FILE"};
+  constexpr std::array<std::string_view, 28> names = {
+      "output",    "picture", "json",        "units",      "zero",     "sheet",  "mirror",
+      "mirror-at", "align",   "align-drill", "tool",       "tools",    "drill",  "mill",
+      "cutter",    "angle",   "tip",         "clear",      "rough",    "rest",   "FILE",
+      "two-sided", "pins",    "parting",     "tool-table", "material", "limits", "chamfer"};
   return option.kind == CamKind::drawings || is_of_program(option.name) ||
          std::ranges::find(names, option.name) != names.end();
 }

@@ -185,11 +185,9 @@ void JerkWindow::pull() {
     at_stops_.end_squared = stops_->at_end(segment->curve.tangent(Mm(to)));
   }
   const double exit = after == nullptr ? at_stops_.end_squared : cutter_.joint_cap(*segment, *after);
-  cutter_.begin(*segment, {.from = from,
-                           .to = to,
-                           .entry_squared = estimate_,
-                           .exit_squared = exit,
-                           .feed = feeds_.speed_on(*segment)});
+  cutter_.begin(
+      *segment,
+      {.from = from, .to = to, .entry_squared = estimate_, .exit_squared = exit, .feed = feeds_.speed_on(*segment)});
   started_ = cutting_ = true;
 }
 

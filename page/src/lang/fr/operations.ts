@@ -83,7 +83,7 @@ export const operations: Same<typeof en> = {
   'cam.option.for.fanuc-like': 'type Fanuc',
   'cam.option.change-height': "Hauteur de changement d'outil",
   'cam.option.spindle-delay': 'Pause après le départ de la broche, secondes',
-  'cam.option.park': 'Position finale : X,Y',
+  'cam.option.park': 'Position de repos (changements d’outil, fin) : X,Y',
   'cam.option.step-over': 'Pas latéral, % de la fraise',
   'cam.option.engagement': 'Engagement maximal, degrés ; 0 : contours décalés',
   'cam.option.allowance': 'Surépaisseur sur les parois',

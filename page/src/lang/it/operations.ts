@@ -83,7 +83,7 @@ export const operations: Same<typeof en> = {
   'cam.option.for.fanuc-like': 'tipo Fanuc',
   'cam.option.change-height': 'Quota di cambio utensile',
   'cam.option.spindle-delay': "Pausa dopo l'avvio del mandrino, secondi",
-  'cam.option.park': 'Posizione finale: X,Y',
+  'cam.option.park': 'Posizione di riposo (cambi utensile, fine): X,Y',
   'cam.option.step-over': 'Passo laterale, % della fresa',
   'cam.option.engagement': 'Impegno max., gradi; 0: contorni paralleli',
   'cam.option.allowance': 'Sovrametallo sulle pareti',

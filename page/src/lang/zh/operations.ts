@@ -83,7 +83,7 @@ export const operations: Same<typeof en> = {
   'cam.option.for.fanuc-like': '类 Fanuc',
   'cam.option.change-height': '换刀高度',
   'cam.option.spindle-delay': '主轴启动后的停顿，秒',
-  'cam.option.park': '结束位置：X,Y',
+  'cam.option.park': '停靠位置（换刀、结束）：X,Y',
   'cam.option.step-over': '步距，刀具直径的 %',
   'cam.option.engagement': '最大接触角，度；0 为环切',
   'cam.option.allowance': '侧壁余量',

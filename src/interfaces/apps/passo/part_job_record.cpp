@@ -199,7 +199,7 @@ std::optional<Json> read_job_record(const std::string& output) {
 
 std::string out_of_date(const Json& record, const std::string& fingerprint, const std::string& output) {
   if (value_of<std::string>(record, "fingerprint", "") != fingerprint) {
-    return "the job file or a drawing has changed";
+    return "the job file, a drawing or the version of Passo has changed";
   }
   const Json& programs = list_of(record, "programs");
   if (programs.empty()) return "the record lists no program";
