@@ -136,6 +136,20 @@ TEST_F(CamController, a_wrong_text_is_refused_with_its_place) {
   EXPECT_THAT(refused("M30\n", "mach3"), HasSubstr("post.early-end"));
   EXPECT_THAT(refused("go home\n", "mach3"), HasSubstr("post.bad-word"));
   EXPECT_THAT(refused("M9\nM30\nG0 X0\n", "mach3", "--end-text"), HasSubstr("t.txt:2:1: "));
+  EXPECT_THAT(refused("M9\nM2\nG0 X[#<_x>]\n", "passo", "--end-text"), HasSubstr("post.early-end"));
+}
+
+TEST_F(CamController, what_an_operation_reads_is_not_overwritten) {
+  const std::string text = write("t.ngc", "M8\n");
+  const Outcome made =
+      passo("cam outline " + checkout + "/examples/boards/timer-Edge_Cuts.gbr --start-text " + text + " -o " + text);
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("--start-text"));
+  EXPECT_EQ(read(text), "M8\n");
+  const std::string tools = write("tools.toml", "[tool.1]\nshape = \"flat\"\ndiameter_mm = 2\n");
+  const std::string drawing = checkout + "/examples/parts/bracket.svg";
+  EXPECT_EQ(passo("cam profile " + drawing + " --tool-table " + tools + " --tool T1 -o " + tools).code, 2);
+  EXPECT_THAT(read(tools), HasSubstr("[tool.1]"));
 }
 
 TEST_F(CamController, programs_that_a_controller_cannot_run_are_refused) {

@@ -275,4 +275,22 @@ TEST_F(CamJob, a_job_of_a_stranger_reads_only_its_folder) {
   EXPECT_THAT(made.err, HasSubstr("'../other.svg' is outside the job's folder [job.outside]"));
 }
 
+TEST_F(CamJob, a_job_of_a_stranger_writes_only_its_folder) {
+  small_job();
+  std::string text = read(path("small.toml"));
+  write("small.toml", text.insert(6, "output = \"../made.ngc\"\n"));
+  const Outcome made = passo("cam job small.toml --only-folder", "cd " + path("") + " &&");
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("'../made.ngc' is outside the job's folder [job.outside]"));
+}
+
+TEST_F(CamJob, a_drawing_beside_the_stock_is_a_warning) {
+  small_job();
+  EXPECT_THAT(passo("cam job " + path("small.toml")).err, testing::Not(HasSubstr("job.beside-stock")));
+  std::string text = read(path("small.toml"));
+  text.replace(text.find("size = [60, 50]"), 15, "size = [20, 20]");
+  write("small.toml", text);
+  EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("beside the stock [job.beside-stock]"));
+}
+
 }  // namespace

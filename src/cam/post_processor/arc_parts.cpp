@@ -30,7 +30,7 @@ std::array<double, 3> place_at(const ProgrammedArc& arc, double sweep, double sh
   };
   const double radius = std::lerp(radius_of(arc.from), radius_of(arc.to), share);
   const double angle = angle_of(arc, arc.from) + (arc.counterclockwise ? sweep : -sweep) * share;
-  const int third = 3 - arc.first - arc.second;
+  const std::size_t third = 3 - arc.first - arc.second;
   std::array<double, 3> at{};
   at[arc.first] = arc.centre[arc.first] + radius * std::cos(angle);
   at[arc.second] = arc.centre[arc.second] + radius * std::sin(angle);

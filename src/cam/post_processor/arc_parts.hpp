@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "passo/post_processor/controller_words.hpp"
@@ -11,8 +12,8 @@ namespace passo {
 // An arc in the plane of the axes `first` and `second` (0: X, 1: Y, 2: Z), in the order in which counterclockwise is
 // positive. The third axis moves in proportion.
 struct ProgrammedArc {
-  int first = 0;
-  int second = 1;
+  std::size_t first = 0;
+  std::size_t second = 1;
   std::array<double, 3> from = {};
   std::array<double, 3> to = {};
   std::array<double, 3> centre = {};  // the coordinate of the third axis is ignored

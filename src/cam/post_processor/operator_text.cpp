@@ -75,7 +75,7 @@ void OperatorTextCheck::check(std::string_view line, std::uint32_t number, bool 
       filled(line, [](std::string_view name, std::size_t) { return std::string(name.size() + 1, '0') + "1"; });
   const bool is_special = sample.starts_with('$') || sample.starts_with('#') || sample.starts_with('%') ||
                           sample.starts_with('/') || sample.starts_with('o') || sample.starts_with('O');
-  if (controller_.knows_all() || is_special || findings_.errors() > before) return;
+  if (is_special || findings_.errors() > before) return;
   ProgramWords words;
   read_words(sample, words);
   check_words(words);
@@ -124,6 +124,8 @@ void OperatorTextCheck::check_characters() {
 }
 
 void OperatorTextCheck::check_words(const ProgramWords& words) {
+  // Passo has expressions and parameters too; passo check examines them.
+  if (words.bad_column > 0 && controller_.knows_all()) return;
   if (words.bad_column > 0) {
     add("post.bad-word", words.bad_column, 1, "this is not a G-code word", "a letter with a number, or a comment");
     return;
@@ -135,7 +137,7 @@ void OperatorTextCheck::check_words(const ProgramWords& words) {
     const bool is_user_code =
         controller_.name == "linuxcnc" && word.letter == 'M' && word.value >= 100 && word.value < 200;
     const bool is_known =
-        is_user_code ||
+        controller_.knows_all() || is_user_code ||
         (controller_.knows_letter(word.letter) &&
          (!is_code || (word.letter == 'G' ? controller_.knows_g(number) : controller_.knows_m(number))));
     if (!is_known) {

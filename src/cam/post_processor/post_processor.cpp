@@ -11,6 +11,11 @@
 namespace passo {
 namespace {
 
+// 0 for the letter of the X axis, and so on.
+std::size_t place_of(char letter, char first) {
+  return static_cast<std::size_t>(letter - first);
+}
+
 constexpr double mm_of(LengthUnit unit) {
   return unit == LengthUnit::mm ? 1 : unit == LengthUnit::cm ? 10 : 25.4;
 }
@@ -258,13 +263,13 @@ void PostProcessor::Lines::write_part(const ProgrammedArc& arc, const ArcPart& p
   const std::array<double, 3> from = at_;
   add_motion(part.is_arc ? (arc.counterclockwise ? 3 : 2) : 1);
   const auto rounded = [&](double value) { return std::round(value / digit_) * digit_; };
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const bool is_of_plane = i == arc.first || i == arc.second;
     if (is_of_plane || length(part.to[i]) != length(from[i])) add_length(axes[i], part.to[i]);
   }
   if (part.is_arc) {
     constexpr std::string_view centres = "IJK";
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       if (i == arc.first || i == arc.second) add_length(centres[i], arc.centre[i] - rounded(from[i]));
     }
   }
@@ -280,8 +285,8 @@ void PostProcessor::Lines::write_arc() {
   if (plane_ == 18) arc.first = 2, arc.second = 0;
   if (plane_ == 19) arc.first = 1, arc.second = 2;
   for (const ProgramWord& word : words_.words) {
-    if (word.letter >= 'X' && word.letter <= 'Z') arc.to[word.letter - 'X'] = word.value * scale_;
-    if (word.letter >= 'I' && word.letter <= 'K') arc.centre[word.letter - 'I'] += word.value * scale_;
+    if (word.letter >= 'X' && word.letter <= 'Z') arc.to[place_of(word.letter, 'X')] = word.value * scale_;
+    if (word.letter >= 'I' && word.letter <= 'K') arc.centre[place_of(word.letter, 'I')] += word.value * scale_;
   }
   if (words_.find('P') != nullptr || words_.find('R') != nullptr) refuse("expected an arc with I, J or K");
   if (words_.has('G', plane_)) {
@@ -332,7 +337,7 @@ void PostProcessor::Lines::write_other() {
       add_word(word.letter, code_number(word.value));
     }
     const bool is_place = word.letter >= 'X' && word.letter <= 'Z' && !(is_cycle && word.letter == 'Z');
-    if (is_place) at_[word.letter - 'X'] = scaled;
+    if (is_place) at_[place_of(word.letter, 'X')] = scaled;
   }
   if (!words_.comment.empty()) line_ += fmt::format(" ({})", clean(words_.comment));
   end_line();

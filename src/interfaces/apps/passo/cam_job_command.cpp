@@ -266,7 +266,12 @@ bool names_are_apart(const JobRun& run) {
   for (const PartOperation& operation : run.job.operations) {
     for (const std::string& file : operation.files) files.reads("a drawing", file);
   }
+  files.reads("the tool library", run.job.library);
+  name_files_read(run.job.program, files);
   files.writes("--output", run.output);
+  if (!run.job.one_program) {
+    for (const TrialProgram& program : run.programs) files.writes("a program", program.file);
+  }
   if (keeps_record(run)) files.writes("the record", record_file_of(run.output));
   files.writes("--picture", run.arguments.picture);
   return files.are_apart();
@@ -284,6 +289,7 @@ void check_folder(const JobRun& run, Diagnostics& findings) {
                                  "a file in the folder of the job file"));
   };
   if (is_outside(run.job.library)) refuse({}, run.job.library);
+  if (run.arguments.output.empty() && is_outside(run.job.output)) refuse({}, run.job.output);
   if (!run.job.one_program) {
     findings.add(run.job.finding("job.outside", {}, "only one program is possible here", "programs = \"one\""));
   }
@@ -323,6 +329,35 @@ void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<
   say(text);
 }
 
+// Cuts far beside the stock: the drawing is probably larger, or elsewhere. The cutter may run along the stock's edge.
+void warn_beside_stock(const JobRun& run, const Trial& trial, Diagnostics& findings) {
+  if (!run.job.stock) return;
+  const PartStock& stock = *run.job.stock;
+  for (std::size_t i = 0; i < run.job.operations.size(); ++i) {
+    const PartOperation& operation = run.job.operations[i];
+    const double room = 3 * run.job.tools.at(operation.tool).shape.cutter.radius.value();
+    const auto is_beside = [&](const MillPoint& point) {
+      const double x = to_mm(point.at.x).value();
+      const double y = to_mm(point.at.y).value();
+      return x < stock.x - room || x > stock.x + stock.width + room || y < stock.y - room ||
+             y > stock.y + stock.length + room;
+    };
+    for (const MillRun& way : trial.operations[i].ways) {
+      const auto found = std::ranges::find_if(way, is_beside);
+      if (found == way.end()) continue;
+      Diagnostic finding = run.job.finding(
+          "job.beside-stock", operation.place,
+          fmt::format("'{}' cuts at X{:.4g} Y{:.4g} mm, beside the stock", operation.title, to_mm(found->at.x).value(),
+                      to_mm(found->at.y).value()),
+          fmt::format("a stock from X{:.4g} Y{:.4g} to X{:.4g} Y{:.4g} that the drawing fits on, or another zero",
+                      stock.x, stock.y, stock.x + stock.width, stock.y + stock.length));
+      finding.severity = Severity::warning;
+      findings.add(std::move(finding));
+      break;
+    }
+  }
+}
+
 int make_job(JobRun& run, const WorkProgress& progress) {
   Diagnostics findings(1000);
   if (run.arguments.only_folder) check_folder(run, findings);
@@ -342,8 +377,10 @@ int make_job(JobRun& run, const WorkProgress& progress) {
     return exit_bad_program;
   }
   join_programs(run);
+  if (!names_are_apart(run)) return exit_bad_program;
   progress.update(0.85);
   const Trial trial = try_programs(run.job, run.programs, findings);
+  warn_beside_stock(run, trial, findings);
   if (!findings.any_error()) static_cast<void>(rewrite_programs(run, findings));
   show(findings, run.job.file);
   if (findings.any_error()) return exit_bad_program;

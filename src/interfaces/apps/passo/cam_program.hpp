@@ -7,6 +7,7 @@
 
 #include "cam_commands.hpp"
 #include "length_arguments.hpp"
+#include "named_files.hpp"
 
 #include "passo/cam/drill_program.hpp"
 #include "passo/cam/mill_program.hpp"
@@ -25,6 +26,10 @@ PostProcessorOptions post_processor_options_of(const CamProgramArguments& argume
 
 // Whether the program is to be written as it is.
 bool is_plain_program(const CamProgramArguments& arguments);
+
+// The files that an operation reads besides its drawings.
+void name_files_read(const CamProgramArguments& arguments, NamedFiles& files);
+void name_files_read(const CamToolArguments& arguments, NamedFiles& files);
 
 SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments& lengths);
 
