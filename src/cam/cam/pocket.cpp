@@ -391,11 +391,12 @@ void PocketPlanner::add_runs(const std::vector<PocketLoop>& loops, std::vector<M
   if (run.size() > 1) runs.push_back(std::move(run));
 }
 
-// Gaps exactly as wide as the cutter. Adaptive clearing leaves them, because they are slots.
+// Gaps exactly as wide as the cutter. Adaptive clearing leaves them, because they are slots. An allowance that stays is
+// none of the ground: beside it, the stock on a wall would look like such a gap.
 void PocketPlanner::add_tight_ways(std::vector<MillRun>& runs) {
   if (options_.most_engagement > 0) return;
   const Region reach = finished_.empty() ? reach_ : united(reach_, reachable(finished_));
-  const std::vector<TightWay> ways = find_tight_ways(area_, reach, options_.cutter);
+  const std::vector<TightWay> ways = find_tight_ways(options_.finishes ? area_ : roughed_, reach, options_.cutter);
   for (const TightWay& way : ways) {
     ways_.push_back(way.points);
     if (way.is_closed) ways_.back().push_back(way.points.front());

@@ -307,5 +307,35 @@ TEST(Machining, gaps_exactly_as_wide_as_the_cutter_are_cut) {
   }
 }
 
+// Stock on a wall is no gap as wide as the cutter.
+TEST(Machining, an_allowance_that_stays_is_not_cut) {
+  const Region with_island = enclosed_by({box(-25, -20, 50, 40), circle(0, 0, 5)});
+  for (const Region& area : {enclosed_by({box(-25, -10, 50, 20)}), enclosed_by({circle(0, 0, 15)}), with_island}) {
+    for (const double allowance : {0.1, 0.5, 0.75}) {
+      PocketOptions options{.cutter = in_nm(3), .depth = in_nm(-3), .allowance = in_nm(allowance)};
+      options.climb = allowance != 0.1;
+      options.ramp_degrees = allowance == 0.75 ? 0 : 5;
+      options.floor_allowance = allowance == 0.5 ? in_nm(0.3) : Nanometres{};
+      Diagnostics findings;
+      const PocketPlan plan = plan_pocket(area, options, findings);
+      EXPECT_TRUE(findings.all().empty()) << render(findings, false);
+      EXPECT_EQ(plan.tight, 0U);
+      const Region goes = grown(area, in_nm(-allowance), {500});
+      std::vector<DrawnRing> ways;
+      for (const MillRun& run : plan.mill.tools.at(0).runs) {
+        std::vector<PathPoint> points;
+        for (const MillPoint& point : run) points.push_back({point.at, point.bulge});
+        ways.push_back(chords_of_path(points, false, {500}));
+      }
+      const Region cut = swept(ways, in_nm(1.5), {500});
+      EXPECT_LT(area_mm2(subtracted(cut, goes)), 0.01);
+      const double depth = options.floor_allowance.count > 0 ? -2.7 : -3;
+      const CutFindings found = cut_findings(plan.mill, subtracted(everything(), goes), opened(goes, 1.5), depth);
+      EXPECT_EQ(found.cut_into_mm2, 0);
+      EXPECT_EQ(found.left_mm2, 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace passo
