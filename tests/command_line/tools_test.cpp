@@ -124,6 +124,59 @@ TEST_F(Tools, of_other_shapes_or_without_a_library_are_refused) {
   EXPECT_THAT(refusal("cam pocket " + bracket_drawing + " --material mdf"), HasSubstr("[tool.no-library]"));
 }
 
+TEST_F(Tools, of_a_library_chamfer_with_their_own_angle_and_tip) {
+  const std::string chamfer = "cam profile " + bracket_drawing + " --layer cut --chamfer 0.5 -o " + path("v.ngc");
+  const std::string with = " --tool-table " + tool_library + " --tool T3";
+  const Outcome by_hand = passo(chamfer + " --angle 60 --tip 0.1");
+  const Outcome made = passo(chamfer + with);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("the tip is at Z-1.039 mm, its centre 0.15 mm beside the edge\n"));
+  EXPECT_EQ(made.out, by_hand.out);
+  EXPECT_THAT(read(path("v.ngc")), HasSubstr("(tool: T3 \"lettering\", V of 60 degrees, 6 mm, tip 0.1 mm)"));
+  EXPECT_THAT(passo(chamfer + with + " --angle 90 --tip 0.2").out, HasSubstr("Z-0.6 mm, its centre 0.2 mm beside"));
+}
+
+TEST_F(Tools, of_the_wrong_shape_do_not_cut_profiles_or_chamfers) {
+  const std::string profile = "cam profile " + bracket_drawing + " --layer cut -o " + path("none.ngc") +
+                              " --tool-table " + tool_library + " --tool ";
+  for (const std::string tool : {"T3", "T5", "T8"}) {
+    const Outcome made = passo(profile + tool);
+    EXPECT_EQ(made.code, 2) << tool;
+    EXPECT_THAT(made.err, HasSubstr("expected a tool of shape flat, ball or bull, found " + tool));
+  }
+  for (const std::string tool : {"T1", "T2", "T5", "T8"}) {
+    const Outcome made = passo(profile + tool + " --chamfer 0.5");
+    EXPECT_EQ(made.code, 2) << tool;
+    EXPECT_THAT(made.err, HasSubstr("expected a tool of shape vee, found " + tool));
+    EXPECT_THAT(made.err, HasSubstr("[tool.wrong-shape]"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("none.ngc")));
+}
+
+TEST_F(Tools, cut_no_chamfer_that_is_wider_than_their_flank) {
+  const std::string chamfer = "cam profile " + bracket_drawing + " --layer cut -o " + path("c.ngc") + " --chamfer ";
+  const std::string with = " --tool-table " + tool_library + " --tool T3";
+  const std::string limit = "--chamfer: expected at most 2.85 mm with a cutter of 6 mm and a tip of 0.1 mm, found '";
+  EXPECT_THAT(passo(chamfer + "2.9" + with).err, HasSubstr(limit + "2.9' [tool.chamfer-width]"));
+  EXPECT_THAT(passo(chamfer + "100" + with).err, HasSubstr(limit + "100'"));
+  EXPECT_THAT(passo(chamfer + "3 --tool 6 --tip 0.1").err, HasSubstr(limit + "3'"));
+  EXPECT_THAT(passo(chamfer + "100").err, HasSubstr("--chamfer: expected at most 24.9 mm, with a cutter of 50 mm"));
+  EXPECT_THAT(passo(chamfer + "1 --tool 2 --tip 2").err, HasSubstr("expected a wider cutter or a narrower tip"));
+  EXPECT_FALSE(std::filesystem::exists(path("c.ngc")));
+  EXPECT_EQ(passo(chamfer + "2.85" + with).code, 0);
+}
+
+TEST_F(Tools, warn_about_a_pass_that_is_deeper_than_the_flutes) {
+  const std::string feeds = "tools feeds " + tool_library + " -t 6 --material hdpe --depth ";
+  const Outcome deep = passo(feeds + "30");
+  EXPECT_EQ(deep.code, 0);
+  EXPECT_THAT(deep.err,
+              HasSubstr("warning: T6 cuts 30 mm deep, but its flutes are 12 mm long [tool.depth-over-flutes]"));
+  EXPECT_EQ(json_of(feeds + "30 --json")["warnings"][0]["code"], "tool.depth-over-flutes");
+  EXPECT_EQ(passo(feeds + "12").err, "");
+  EXPECT_TRUE(json_of(feeds + "12 --json")["warnings"].empty());
+}
+
 TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
   const std::string with = " --tool-table " + tool_library + " -o " + path("made.ngc") + " ";
   const Outcome letters = passo("cam engrave --text Hi --tool T3 --material hardwood" + with);

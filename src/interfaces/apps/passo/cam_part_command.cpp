@@ -1,11 +1,11 @@
 // passo cam profile and passo cam pocket: programs that cut parts and pockets from drawings.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cam_part.hpp"
 #include "cam_program.hpp"
 #include "cam_tools.hpp"
+#include "chamfer_cut.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -221,9 +221,14 @@ ChamferCut chamfer_of(const CamProfileArguments& arguments, LengthArguments& len
   const Nanometres width = lengths.above_0("--chamfer", arguments.chamfer);
   const Nanometres tip = lengths.any("--tip", arguments.tip);
   if (tip.count < 0) lengths.refuse("--tip: expected a width of 0 or more");
-  constexpr std::int64_t below = 100'000;  // nm that the flank goes on beside the edge
-  const double slope = std::tan(arguments.angle / 360 * std::numbers::pi);
-  return {{tip.count / 2 + below}, {-std::llround(static_cast<double>(width.count + below) / slope)}};
+  // use_tools() knows the cutter that --tool names; here only its greatest possible width is known.
+  if (const double most = most_chamfer_mm(widest_vee_mm, to_mm(tip).value()); to_mm(width).value() > most) {
+    lengths.refuse(fmt::format("--chamfer: expected at most {:g} mm, with a cutter of {:g} mm, found '{}'", most,
+                               widest_vee_mm, arguments.chamfer));
+  }
+  const double depth = chamfer_depth_mm(to_mm(width).value(), arguments.angle);
+  return {{tip.count / 2 + std::llround(chamfer_margin_mm * nanometres_per_mm)},
+          {-std::llround(depth * nanometres_per_mm)}};
 }
 
 // Cuts along the contours with the flank of a V-bit, in one pass. It keeps the same distance from all contours, so it

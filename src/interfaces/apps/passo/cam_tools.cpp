@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "chamfer_cut.hpp"
 #include "length_argument.hpp"
 #include "program_input.hpp"
 #include "tool_limits.hpp"
@@ -220,6 +221,39 @@ ToolUse use_in_layers(ToolShelf& shelf, const CuttingTool& tool, double width, A
   return use;
 }
 
+// `tool`: null: the cutter is given by its dimensions, or not at all.
+int use_for_chamfer(ToolShelf& shelf, const CuttingTool* tool, CamProfileArguments& a, const IsGiven& is_given) {
+  if (tool != nullptr) {
+    a.tool = mm_text(tool->diameter.value());
+    if (!is_given("--angle")) a.angle = tool->angle.value * degrees_of_radian;
+    if (!is_given("--tip")) a.tip = mm_text(tool->tip.value());
+  }
+  const double width = shelf.mm("--chamfer", a.chamfer);
+  const double cutter = shelf.mm("--tool", a.tool);
+  // The diameter that --tool has by default is that of an end mill: it says nothing about the V-shaped cutter.
+  const bool knows_cutter = tool != nullptr || (is_given("--tool") && cutter > 0);
+  if (const double most = most_chamfer_mm(cutter, shelf.mm("--tip", a.tip)); knows_cutter && width > most) {
+    const std::string expected = most < 0.001 ? std::string("a wider cutter or a narrower tip")
+                                              : fmt::format("at most {:g} mm", std::floor(most * 1000) / 1000);
+    return fail(exit_bad_program,
+                fmt::format("--chamfer: expected {} with a cutter of {:g} mm and a tip of {:g} mm, found '{}' "
+                            "[tool.chamfer-width]",
+                            expected, cutter, shelf.mm("--tip", a.tip), a.chamfer));
+  }
+  if (tool == nullptr) return exit_done;
+  const Mm depth(chamfer_depth_mm(width, a.angle));
+  if (const auto feeds = fill_in_feeds(shelf, *tool, {.depth = depth}, a, is_given)) {
+    fill_in(a.plunge_feed, "--plunge-feed", descent_of(*feeds), is_given);
+  }
+  ToolUse use = use_of(shelf, a);
+  use.depth = depth;
+  use.depth_per_pass = depth;
+  use.plunges = true;
+  shelf.remark("tool", *tool, use);
+  shelf.judge(*tool, use);
+  return shelf.finish();
+}
+
 constexpr std::initializer_list<CuttingShape> end_mills = {CuttingShape::flat, CuttingShape::ball, CuttingShape::bull};
 
 ToolUse relief_use(const ToolShelf& shelf, const CamReliefArguments& a, const std::string& feed) {
@@ -248,9 +282,16 @@ std::string cutter_text(const CuttingTool& tool) {
 
 int use_tools(CamProfileArguments& a, const IsGiven& is_given) {
   ToolShelf shelf(a, a.units);
-  if (const int code = shelf.open(is_tool_number(a.tool)); code != exit_done || !shelf.is_open()) return code;
-  const CuttingTool* const tool = shelf.find("--tool", a.tool);
-  if (tool == nullptr) return shelf.code();
+  const bool is_chamfer = !a.chamfer.empty();
+  if (const int code = shelf.open(is_tool_number(a.tool)); code != exit_done) return code;
+  const CuttingTool* tool = nullptr;
+  if (shelf.is_open()) {
+    // The walls of a part are upright only if the flanks of the cutter are.
+    tool = is_chamfer ? shelf.find("--tool", a.tool, {CuttingShape::vee}) : shelf.find("--tool", a.tool, end_mills);
+    if (tool == nullptr) return shelf.code();
+  }
+  if (is_chamfer) return use_for_chamfer(shelf, tool, a, is_given);
+  if (tool == nullptr) return exit_done;
   const ToolUse use = use_in_layers(shelf, *tool, 1, a, is_given);
   shelf.remark("tool", *tool, use);
   shelf.judge(*tool, use);

@@ -12,6 +12,7 @@
 
 #include "passo/tooling/cutting_feeds.hpp"
 #include "passo/tooling/tool_library.hpp"
+#include "passo/tooling/tool_warnings.hpp"
 
 namespace passo {
 namespace {
@@ -85,6 +86,11 @@ ToolsJson json_of(const CuttingTool& tool, WorkMaterial material, const CuttingF
                                {"source", reason.source.empty() ? ToolsJson() : ToolsJson(reason.source)}});
   }
   return json;
+}
+
+// A given depth of a pass is checked as that of a cut: the feeds themselves do not depend on the flutes.
+std::vector<ToolWarning> depth_warnings(const CuttingTool& tool, double depth) {
+  return warnings_of(tool, {.depth = Mm(depth), .depth_per_pass = Mm(depth)}, std::nullopt);
 }
 
 void print_feeds(const CuttingTool& tool, WorkMaterial material, const CuttingFeeds& feeds) {
@@ -171,7 +177,30 @@ int tools_feeds(const ToolsFeedsArguments& arguments) {
                                               request.spindle.least_rpm));
   }
   const CuttingFeeds feeds = feeds_of(*tool, request);
-  if (arguments.json) return print_tools_json(json_of(*tool, request.material, feeds));
+  ToolsJson warnings = ToolsJson::array();
+  Diagnostics findings;
+  for (const ToolWarning& warning : depth_warnings(*tool, arguments.depth)) {
+    findings.add({.severity = Severity::warning,
+                  .code = warning.code,
+                  .file = library->file(),
+                  .place = {},
+                  .message = warning.message,
+                  .expected = warning.advice,
+                  .text = {}});
+    warnings.push_back({{"code", warning.code},
+                        {"tool", tool->number},
+                        {"message", warning.message},
+                        {"advice", warning.advice},
+                        {"found", warning.found},
+                        {"limit", warning.limit},
+                        {"unit", warning.unit}});
+  }
+  show(findings);
+  if (arguments.json) {
+    ToolsJson json = json_of(*tool, request.material, feeds);
+    json["warnings"] = warnings;
+    return print_tools_json(json);
+  }
   print_feeds(*tool, request.material, feeds);
   return flush_output();
 }
