@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 #include "kit/command_line.hpp"
 #include <gmock/gmock.h>
@@ -51,6 +52,23 @@ TEST_F(CamPart, its_pocket_is_cleared_around_an_island) {
   EXPECT_THAT(made.out, HasSubstr("\"lost_mm2\": 0.0"));
   EXPECT_THAT(read(path("p.svg")), HasSubstr("<svg"));
   expect_cuts_well(path("p.ngc"), "X5:115,Y0:80,Z-6:0");
+}
+
+TEST_F(CamPart, a_contour_drawn_twice_counts_once) {
+  const std::string begin = "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='60mm' viewBox='0 0 100 60'>";
+  const std::string circle = "<circle cx='30' cy='30' r='15'/>";
+  const std::string rounded = "<rect x='5' y='5' width='60' height='20' rx='4'/>";
+  const std::string sharp = "<path d='M5 5H65V25H5Z'/>";
+  for (const auto& [first, second, area] : {std::tuple(circle, circle, "706.8"), std::tuple(rounded, rounded, "1186"),
+                                            std::tuple(sharp, std::string("<path d='M5 5V25H65V5Z'/>"), "1200")}) {
+    const std::string twice = write("twice.svg", begin + first + second + "</svg>");
+    const Outcome pocket = passo("cam pocket " + twice + " --tool 3 --depth -3 -o " + path("twice.ngc"));
+    EXPECT_EQ(pocket.code, 0) << pocket.err;
+    EXPECT_THAT(pocket.out, HasSubstr(std::string("1 pocket of ") + area + " mm²"));
+    EXPECT_THAT(pocket.err, HasSubstr("1 closed contour that repeats another is ignored"));
+    const Outcome profile = passo("cam profile " + twice + " --tool 3 --depth -3 -o " + path("twice.ngc"));
+    EXPECT_THAT(profile.out, HasSubstr("1 outside and 0 insides"));
+  }
 }
 
 TEST_F(CamPart, walls_are_finished_and_reported) {

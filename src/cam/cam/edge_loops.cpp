@@ -1,6 +1,7 @@
 #include "passo/cam/edge_loops.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -18,6 +19,7 @@ namespace passo {
 namespace {
 
 constexpr Nanometres chords_of_board{250};
+constexpr Nanometres same_place{1'000};  // what two programs, or two ways to draw an arc, make of one place
 
 std::vector<PathPoint> turned_around(const std::vector<PathPoint>& points) {
   std::vector<PathPoint> turned;
@@ -31,6 +33,19 @@ bool goes_back(const std::vector<PathPoint>& points) {
     if (points[i].at != points[k].at || points[i].bulge != -points[k - 1].bulge) return false;
   }
   return true;
+}
+
+bool is_same_place(DrawnPoint a, DrawnPoint b) {
+  return std::abs(a.x.count - b.x.count) <= same_place.count && std::abs(a.y.count - b.y.count) <= same_place.count;
+}
+
+// Whether two loops have the same inside, wherever they begin, in either direction, and in any pieces.
+bool have_same_inside(const DrawnRing& a, const DrawnRing& b) {
+  const Region in_a = filled({a});
+  const Region in_b = filled({b});
+  if (in_a.empty() || in_b.empty()) return false;
+  const Region between = united(subtracted(in_a, in_b), subtracted(in_b, in_a));
+  return grown(between, {-same_place.count}).empty();
 }
 
 // Ends are numbered: 2 k is the start of the open path k, 2 k + 1 its end.
@@ -47,6 +62,7 @@ class EdgeJoiner {
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (!is_used[i]) follow(i, is_used);
     }
+    drop_repeated();
     if (open_rows_ == OpenRows::slots) refuse_others();
     return std::move(found_);
   }
@@ -63,6 +79,7 @@ class EdgeJoiner {
   void trim(std::uint32_t index, const EdgeGrid& grid);
   void join_ends();
   void follow(std::size_t path, std::vector<bool>& is_used);
+  void drop_repeated();
   void refuse_others();
   std::optional<Nanometres> join_that_helps() const;
   void refuse(std::size_t first, std::size_t last, std::optional<Nanometres> join);
@@ -88,7 +105,6 @@ void EdgeJoiner::collect() {
     found_.loops.push_back(
         {{{{hole.at.x.count + radius}, hole.at.y}, 1}, {{{hole.at.x.count - radius}, hole.at.y}, 1}});
   }
-  std::set<std::tuple<DrawnPoint, DrawnPoint, DrawnPoint, std::size_t>> known;
   std::vector<DrawnPath> open;
   for (const DrawnPath& path : drawing_.paths) {
     if (path.points.size() < 2) continue;
@@ -99,8 +115,6 @@ void EdgeJoiner::collect() {
       open.push_back(std::move(whole));
       continue;
     }
-    const DrawnPoint middle = point_along(first, path.points[1].at, path.points[0].bulge, 0.5);
-    if (!known.emplace(first, first, middle, path.points.size()).second) continue;
     for (std::size_t i = 0; i + 1 < whole.points.size(); ++i) is_new(whole.points[i], whole.points[i + 1]);
     whole.points.pop_back();
     found_.loops.push_back(std::move(whole.points));
@@ -265,6 +279,46 @@ void EdgeJoiner::follow(std::size_t path, std::vector<bool>& is_used) {
   }
   if (loop.size() > 2 && loop.front().at == loop.back().at) loop.pop_back();
   if (loop.size() > 1) found_.loops.push_back(std::move(loop));
+}
+
+// Of loops that are the same, the first counts. A second one would be an opening as large as what it is in, and neither
+// would be left.
+void EdgeJoiner::drop_repeated() {
+  struct Place {
+    double key;
+    std::size_t loop;
+    DrawnBox box;
+    DrawnRing ring;
+  };
+  // One number for a box, so that few are compared. With these factors, boxes in a row or column have different ones.
+  constexpr std::array factors = {1.0, 2.236, 3.317, 4.123};
+  constexpr double beside = static_cast<double>(same_place.count) * (factors[0] + factors[1] + factors[2] + factors[3]);
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < found_.loops.size(); ++i) {
+    DrawnRing ring = chords_of_path(found_.loops[i], true, chords_of_board);
+    const DrawnBox box = box_of(ring);
+    const double key =
+        factors[0] * static_cast<double>(box.least.x.count) + factors[1] * static_cast<double>(box.least.y.count) +
+        factors[2] * static_cast<double>(box.most.x.count) + factors[3] * static_cast<double>(box.most.y.count);
+    places.push_back({key, i, box, std::move(ring)});
+  }
+  std::ranges::sort(places, {}, [](const Place& place) { return std::pair(place.key, place.loop); });
+  std::vector<bool> is_repeated(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& one = places[i];
+    for (std::size_t k = i + 1; k < places.size() && places[k].key - one.key <= beside; ++k) {
+      const Place& other = places[k];
+      if (is_repeated[one.loop] || is_repeated[other.loop]) continue;
+      if (!is_same_place(one.box.least, other.box.least) || !is_same_place(one.box.most, other.box.most)) continue;
+      if (have_same_inside(one.ring, other.ring)) is_repeated[std::max(one.loop, other.loop)] = true;
+    }
+  }
+  std::vector<std::vector<PathPoint>> kept;
+  for (std::size_t i = 0; i < found_.loops.size(); ++i) {
+    if (!is_repeated[i]) kept.push_back(std::move(found_.loops[i]));
+  }
+  found_.repeated = found_.loops.size() - kept.size();
+  found_.loops = std::move(kept);
 }
 
 // A line within the board whose ends are far from each other, and from other ends, is a slot. Anything else that is

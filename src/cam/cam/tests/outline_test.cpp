@@ -115,6 +115,69 @@ TEST(EdgeLoops, a_line_of_a_closed_outline_may_be_drawn_again) {
   EXPECT_FALSE(outlined(drawing, {.cutter = lengthy(2)}).findings.any_error());
 }
 
+DrawnPath closed_line(std::vector<PathPoint> points) {
+  DrawnPath path = open_line(std::move(points));
+  path.is_closed = true;
+  return path;
+}
+
+TEST(EdgeLoops, circles_drawn_twice_count_once) {
+  Drawing drawing = board_drawing();
+  drawing.holes.push_back(drawing.holes.front());
+  // The same circle as a path, clockwise, and in four arcs that begin elsewhere.
+  drawing.paths.push_back(closed_line({{xy(20, 18), -1}, {xy(20, 12), -1}}));
+  const double quarter = std::tan(M_PI / 8);
+  const double side = 3 * std::sqrt(0.5);
+  drawing.paths.push_back(closed_line({{xy(20 + side, 15 + side), quarter},
+                                       {xy(20 - side, 15 + side), quarter},
+                                       {xy(20 - side, 15 - side), quarter},
+                                       {xy(20 + side, 15 - side), quarter}}));
+  const Outlined result = outlined(drawing, {});
+  EXPECT_FALSE(result.findings.any_error());
+  EXPECT_EQ(result.loops.loops.size(), 2U);
+  EXPECT_EQ(result.loops.repeated, 3U);
+  EXPECT_NEAR(area_mm2(result.board), 1200 - 9 * M_PI, 0.01);
+}
+
+TEST(EdgeLoops, closed_contours_drawn_twice_count_once_in_any_direction) {
+  const double quarter = std::tan(M_PI / 8);
+  const std::vector<PathPoint> rounded = {{xy(4, 0)},   {xy(36, 0), quarter}, {xy(40, 4)}, {xy(40, 26), quarter},
+                                          {xy(36, 30)}, {xy(4, 30), quarter}, {xy(0, 26)}, {xy(0, 4), quarter}};
+  const std::vector<PathPoint> backwards = {{xy(40, 4), -quarter}, {xy(36, 0)}, {xy(4, 0), -quarter},   {xy(0, 4)},
+                                            {xy(0, 26), -quarter}, {xy(4, 30)}, {xy(36, 30), -quarter}, {xy(40, 26)}};
+  const std::vector<PathPoint> sharp = {{xy(0, 0)}, {xy(40, 0)}, {xy(40, 30)}, {xy(0, 30)}};
+  const std::vector<PathPoint> sharp_backwards = {{xy(0, 0)}, {xy(0, 30)}, {xy(40, 30)}, {xy(40, 0)}};
+  const double corners = 4 * 16 - 16 * M_PI;
+  for (const auto& [first, second, mm2] :
+       {std::tuple(rounded, rounded, 1200 - corners), std::tuple(rounded, backwards, 1200 - corners),
+        std::tuple(sharp, sharp, 1200.0), std::tuple(sharp, sharp_backwards, 1200.0)}) {
+    Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+    drawing.paths = {closed_line(first), closed_line(second)};
+    const Outlined closed = outlined(drawing, {});
+    EXPECT_EQ(closed.loops.loops.size(), 1U);
+    EXPECT_EQ(closed.loops.repeated, 1U);
+    EXPECT_NEAR(area_mm2(closed.board), mm2, 0.01);
+    EXPECT_NEAR(area_mm2(enclosed_by(closed.loops.loops)), mm2, 0.02);
+    // As closed paths that are drawn as open ones: the pieces are the same.
+    for (DrawnPath& path : drawing.paths) {
+      path.is_closed = false;
+      path.points.push_back({path.points.front().at, 0});
+    }
+    EXPECT_EQ(outlined(drawing, {}).loops.loops.size(), 1U);
+  }
+}
+
+// Neither the same first side nor the same box makes two contours the same.
+TEST(EdgeLoops, contours_that_share_a_side_or_a_box_are_two) {
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  drawing.paths = {closed_line({{xy(0, 0)}, {xy(40, 0)}, {xy(40, 30)}, {xy(0, 30)}}),
+                   closed_line({{xy(0, 0)}, {xy(40, 0)}, {xy(40, -10)}, {xy(0, -10)}}),
+                   closed_line({{xy(20, 0)}, {xy(40, 15)}, {xy(20, 30)}, {xy(0, 15)}})};
+  const Outlined result = outlined(drawing, {});
+  EXPECT_EQ(result.loops.loops.size(), 3U);
+  EXPECT_EQ(result.loops.repeated, 0U);
+}
+
 TEST(EdgeLoops, lines_may_overlap) {
   Drawing drawing{.file = "edge.gbr", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
   for (const auto& [from, to] :

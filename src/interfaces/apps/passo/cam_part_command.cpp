@@ -77,6 +77,10 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
   if (dots == DrawnDots::kept) kept = take_dots(drawing);
   Diagnostics findings;
   PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most, std::move(kept)};
+  if (const std::size_t repeated = part.loops.repeated; repeated > 0) {
+    note(fmt::format("{} that {} ignored", counted(repeated, "closed contour"),
+                     repeated == 1 ? "repeats another is" : "repeat others are"));
+  }
   for (const DrawnHole& hole : drawing.holes) {
     if (hole.is_dot && cuts_dots) part.loops.open.push_back({{hole.at, 0}});
   }

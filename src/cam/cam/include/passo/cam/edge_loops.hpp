@@ -1,7 +1,7 @@
 // edge_loops: joins the pieces of a board's edge drawing to closed loops.
 //
 // Closed paths and circles are loops. Open paths are joined end to end, the nearest free ends first, if they are at
-// most `join` apart. Duplicate pieces, including those drawn in the opposite direction, count once.
+// most `join` apart. Duplicate pieces and duplicate loops, including those drawn in the opposite direction, count once.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,7 @@ struct EdgeLoops {
   std::vector<std::vector<PathPoint>> open = {};   // open contours, if they are kept
   std::size_t joined = 0;                          // number of gaps that were bridged
   Nanometres widest_joined = {};
+  std::size_t repeated = 0;  // number of loops that repeat another one, within 0.001 mm
 };
 
 // The treatment of open contours: an error "outline.open" that names the ends (an error for each if two lines of the
