@@ -247,6 +247,43 @@ TEST_F(CamJob, a_job_is_written_in_the_words_of_its_controller) {
               HasSubstr("job.for is the text \"gbrl\" [job.bad-value]"));
 }
 
+TEST_F(CamJob, a_bore_that_is_not_wider_than_its_cutter_is_refused) {
+  const std::string bore =
+      "[[operation]]\nkind = \"bore\"\ntool = 1\nlayer = \"pockets\"\ndepth = -2\ndrawing = \"holes.svg\"\n";
+  const auto holes = [&](const std::string& circles) {
+    write("holes.svg",
+          "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' "
+          "width='60mm' height='50mm' viewBox='0 0 60 50'><g inkscape:groupmode='layer' inkscape:label='pockets'>" +
+              circles + "</g></svg>\n");
+  };
+  holes("<circle cx='40' cy='25' r='1.5'/>\n<circle cx='15' cy='25' r='1'/>\n<circle cx='25' cy='25' r='3'/>");
+  const Outcome made = passo("cam job " + small_job("", bore));
+  EXPECT_EQ(made.code, 2) << made.out;
+  EXPECT_THAT(made.err, HasSubstr("the circle of 3 mm at X40 Y25 mm is not wider than the cutter of 3 mm "
+                                  "[drill.narrow-bore]"));
+  EXPECT_THAT(made.err, HasSubstr("the circle of 2 mm at X15 Y25 mm is not wider"));
+  EXPECT_THAT(made.err, HasSubstr("[job.operation]"));
+  EXPECT_FALSE(std::filesystem::exists(path("small.ngc")));
+
+  holes("<circle cx='25' cy='25' r='3'/>");
+  const Outcome good = passo("cam job " + small_job("", bore));
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_THAT(read(path("small.ngc")), Not(HasSubstr("G81")));
+}
+
+TEST_F(CamJob, circles_that_their_drill_does_not_fit_are_named) {
+  const std::string drill = "[[operation]]\nkind = \"drill\"\ntool = 1\nlayer = \"pockets\"\ndepth = -2\n";
+  const std::string circles =
+      "<circle cx='35' cy='25' r='1.5'/><circle cx='40' cy='25' r='2.5'/><circle cx='45' cy='25' r='2.5'/>";
+  const Outcome made = passo("cam job " + small_job(circles, drill));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("warning: 2 circles have another diameter than the drill, 3 mm: 2 of 5 mm "
+                                  "[drill.other-diameter]\n"));
+  EXPECT_THAT(passo("cam job " + small_job(circles, drill + "tolerance = 3\n")).out, Not(HasSubstr("drill.other")));
+  EXPECT_THAT(passo("cam job " + small_job("<circle cx='35' cy='25' r='1.51'/>", drill)).out,
+              Not(HasSubstr("drill.other")));
+}
+
 TEST_F(CamJob, feeds_come_from_the_material_where_the_file_has_none) {
   std::string text = read(small_job());
   text.replace(text.find("feed_mm_min = 600\nplunge_mm_min = 200\n"), 38, "flutes = 2\n");

@@ -52,6 +52,8 @@ class DrillPlanner {
   void drill_slot(const WantedCut& cut, Nanometres drill);
   std::optional<Nanometres> drill_for(Nanometres width) const;
   void refuse(const WantedCut& first, std::size_t count);
+  void refuse_narrow(const WantedCut& first, std::size_t count);
+  void warn_of_others();
   void finish();
   void order_all(const WorkProgress& progress);
   void order(DrillTool& tool, const WorkProgress& progress) const;
@@ -70,6 +72,7 @@ class DrillPlanner {
   DrillTool mill_;
   std::size_t slots_as_holes_ = 0;
   std::map<Nanometres, std::pair<Nanometres, std::size_t>> off_;     // widths made by another drill, and how many
+  std::map<Nanometres, std::pair<WantedCut, std::size_t>> narrow_;   // widths that the mill would only plunge, like:
   std::map<Nanometres, std::pair<WantedCut, std::size_t>> refused_;  // widths that nothing makes: the first, how many
 };
 
@@ -130,6 +133,12 @@ void DrillPlanner::give_to_a_tool(const WantedCut& cut) {
   if (diagnostics_.full()) return;
   const bool mills =
       options_.mill && !options_.one_drill && cut.width.count + options_.tolerance.count >= options_.mill->count;
+  // A plunge, instead of the helix that the job asks for: and an end mill may have no teeth at its centre.
+  const bool is_bore = options_.in_job && options_.mill && !options_.one_drill && cut.width.count > 0;
+  if (is_bore && !(cut.slot != nullptr && mills) && cut.width <= *options_.mill + options_.tolerance) {
+    ++narrow_.try_emplace(cut.width, cut, 0U).first->second.second;
+    return;
+  }
   if (cut.slot != nullptr && mills) {
     mill(cut);
     return;
@@ -242,7 +251,43 @@ void DrillPlanner::refuse(const WantedCut& first, std::size_t count) {
        .text = ""});
 }
 
+void DrillPlanner::refuse_narrow(const WantedCut& first, std::size_t count) {
+  const std::string more = count == 1 ? "" : fmt::format(" (the first of {} of this diameter)", count);
+  diagnostics_.add(
+      {.code = "drill.narrow-bore",
+       .file = first.drawing->file,
+       .place = {first.line, first.line == 0 ? 0U : 1U, 1},
+       .message = fmt::format("the {} of {} at X{:.6g} Y{:.6g} mm{} is not wider than the cutter of {}",
+                              first.slot == nullptr ? "circle" : "slot", mm_words(first.width),
+                              to_mm(first.at.x).value(), to_mm(first.at.y).value(), more, mm_words(*options_.mill)),
+       .expected = "a narrower cutter, or kind = \"drill\" with a drill of this diameter",
+       .text = ""});
+}
+
+void DrillPlanner::warn_of_others() {
+  std::string others;
+  std::size_t all = 0;
+  Nanometres drill{};
+  for (const auto& [width, use] : off_) {
+    if (std::abs(width.count - use.first.count) <= options_.tolerance.count) continue;
+    drill = use.first;
+    all += use.second;
+    others += fmt::format("{}{} of {}", others.empty() ? "" : ", ", use.second, mm_words(width));
+  }
+  if (all == 0) return;
+  diagnostics_.add({.severity = Severity::warning,
+                    .code = "drill.other-diameter",
+                    .file = "",
+                    .place = {},
+                    .message = fmt::format("{} {} another diameter than the drill, {}: {}", counted(all, "circle"),
+                                           all == 1 ? "has" : "have", mm_words(drill), others),
+                    .expected = "a drill of this diameter, or kind = \"bore\" with a narrower cutter",
+                    .text = ""});
+}
+
 void DrillPlanner::finish() {
+  for (const auto& [width, narrow] : narrow_) refuse_narrow(narrow.first, narrow.second);
+  if (options_.in_job && options_.one_drill) warn_of_others();
   for (const auto& [width, refused] : refused_) refuse(refused.first, refused.second);
   for (const auto& [width, use] : off_) {
     if (options_.one_drill) break;

@@ -56,6 +56,7 @@ Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
   if (job.plan.tolerance.count < 0) lengths.refuse("--tolerance: expected a length of 0 or more");
   job.plan.one_drill = lengths.perhaps("--drill", arguments.drill);
   job.plan.mill = lengths.perhaps("--mill", arguments.mill);
+  job.plan.in_job = arguments.in_job;
   job.plan.park = lengths.place("--park", arguments.park);
   job.plan.route_steps = arguments.route_steps;
   job.mirror = mirror_of(arguments.mirror, arguments.mirror_at, lengths);
@@ -189,6 +190,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
   if (format) {
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }
+  if (arguments.in_job) show(findings, listed(arguments.files));
   const std::string words = summary_of(drawings, plan, arguments);
   progress.update(1);
   if (made != nullptr) {

@@ -128,6 +128,7 @@ void OperationRun::fill(const PartJobZero& zero) {
           if (operation_.at) arguments.zero = fmt::format("{}mm,{}mm", -operation_.at->front(), -operation_.at->back());
         }
         if constexpr (requires { arguments.json; }) arguments.json = true;
+        if constexpr (requires { arguments.in_job; }) arguments.in_job = true;
         // Canned cycles of a program in the words of another controller cannot be written as moves afterwards.
         if constexpr (requires { arguments.plain; }) {
           const ControllerWords* const words = find_controller(job_.program.controller);
@@ -221,7 +222,7 @@ std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperat
   const int code = run.run(progress);
   for (const Diagnostic& finding : messages.findings) {
     if (finding.severity == Severity::warning) {
-      made.notes.push_back(fmt::format("{} [{}]", std::string(finding.message), finding.code));
+      made.notes.push_back(fmt::format("warning: {} [{}]", std::string(finding.message), finding.code));
     } else {
       findings.add(finding);
     }

@@ -25,8 +25,11 @@ struct DrillOptions {
   Nanometres tolerance{50'000};              // maximum difference between the diameters of a hole and its drill
   std::optional<Nanometres> one_drill = {};  // this drill makes every hole and slot
   std::optional<Nanometres> mill = {};       // diameter of the milling cutter
-  DrawnPoint park = {};                      // tool position at the start, at tool changes and at the end
-  std::uint64_t route_steps = 200'000'000;   // maximum number of steps of shorten_route() per tool
+  // Of a job file, which chooses holes for a tool: a hole that is not wider than `mill` is an error instead of being
+  // drilled, and holes with another diameter than `one_drill` are warned about.
+  bool in_job = false;
+  DrawnPoint park = {};                     // tool position at the start, at tool changes and at the end
+  std::uint64_t route_steps = 200'000'000;  // maximum number of steps of shorten_route() per tool
 };
 
 // What one tool makes at one position.

@@ -56,8 +56,9 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelect
   std::string align_drill = "3mm";  // diameter of the alignment holes
   std::string tools;                // the rack: comma-separated diameters; empty: one drill per diameter
   std::string tolerance = "0.05mm";
-  std::string drill;  // a single drill for all holes; empty: none
-  std::string mill;   // diameter of the milling cutter; empty: none
+  std::string drill;    // a single drill for all holes; empty: none
+  std::string mill;     // diameter of the milling cutter; empty: none
+  bool in_job = false;  // an operation of a job file, which chooses the holes for its tool: see DrillOptions
   std::string mill_step = "0.5mm";
   std::string clearance = "2mm";
   std::string feed_height = "0.5mm";  // at most `clearance`
