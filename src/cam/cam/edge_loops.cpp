@@ -41,6 +41,7 @@ bool is_same_place(DrawnPoint a, DrawnPoint b) {
 
 // Whether two loops have the same inside, wherever they begin, in either direction, and in any pieces.
 bool have_same_inside(const DrawnRing& a, const DrawnRing& b) {
+  if (a == b) return true;  // mostly so, and much faster
   const Region in_a = filled({a});
   const Region in_b = filled({b});
   if (in_a.empty() || in_b.empty()) return false;
