@@ -21,7 +21,7 @@ const std::map<std::string, Exception> exceptions = {
     {"CamReliefArguments", {61, "a field for each option of a command"}},
     {"RunArguments", {25, "a field for each option of a command"}},
     {"MotorArguments", {27, "a field for each option of a command"}},
-    {"CamDrillArguments", {28, "a field for each option of a command"}},
+    {"CamDrillArguments", {29, "a field for each option of a command"}},
     {"ChordsArguments", {22, "a field for each option of a command"}},
     {"CamEngraveArguments", {22, "a field for each option of a command"}},
     {"RunningMotor", {41, "one motor's state and constants, which each step of the integration reads together"}},
