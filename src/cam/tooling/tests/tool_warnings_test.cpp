@@ -59,7 +59,7 @@ TEST(ToolWarnings, give_the_numbers_of_each_kind) {
   EXPECT_EQ(only(use), "tool.depth-over-flutes: T2 cuts 15 mm deep, but its flutes are 12 mm long");
   use = good;
   use.feed = mm_per_minute(4000);
-  EXPECT_EQ(only(use), "tool.chip-large: T2 cuts 0.167 mm per tooth in hardwood: the tables permit 0.096 mm");
+  EXPECT_EQ(only(use), "tool.chip-large: T2 cuts 0.167 mm per tooth in hardwood: the tables permit at most 0.096 mm");
   use = good;
   use.step_over = Mm(3.5);
   EXPECT_EQ(only(use), "tool.step-over: passes 3.5 mm apart leave material between them: T2 is 3 mm wide");
