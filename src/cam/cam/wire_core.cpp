@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "flat_vector.hpp"
+#include "thin_line.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/edge_loops.hpp"
@@ -16,39 +16,13 @@ namespace {
 constexpr Nanometres core_chords{500};
 
 // Removes points that are almost in line: an offset has corners with edges so short that their directions are
-// meaningless. Source: D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points (1973).
+// meaningless.
 DrawnRing without_tiny_edges(DrawnRing ring) {
   constexpr double least_nm = 2'000;
   // The profile from the point of greatest X around to the same point.
   const auto first = std::ranges::max_element(ring, {}, &DrawnPoint::x);
   std::rotate(ring.begin(), first, ring.end());
-  ring.push_back(ring.front());
-  std::vector<bool> is_kept(ring.size(), false);
-  std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, ring.size() - 1}};
-  while (!parts.empty()) {
-    const auto [from, to] = parts.back();
-    parts.pop_back();
-    is_kept[from] = true;
-    const FlatVector chord = from_to(ring[from], ring[to]);
-    const double length = std::hypot(chord.x, chord.y);
-    double farthest = least_nm;
-    std::size_t middle = from;
-    for (std::size_t i = from + 1; i < to; ++i) {
-      const FlatVector at = from_to(ring[from], ring[i]);
-      const double off = length > 0 ? std::abs(cross(chord, at)) / length : std::hypot(at.x, at.y);
-      if (off <= farthest) continue;
-      farthest = off;
-      middle = i;
-    }
-    if (middle == from) continue;
-    parts.emplace_back(from, middle);
-    parts.emplace_back(middle, to);
-  }
-  DrawnRing kept;
-  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-    if (is_kept[i]) kept.push_back(ring[i]);
-  }
-  return kept;
+  return thinned_ring(ring, least_nm);
 }
 
 class CoreMaker {

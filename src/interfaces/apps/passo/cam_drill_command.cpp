@@ -154,8 +154,8 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
               CamMade* made) {
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
-  name_files_read(static_cast<const CamProgramArguments&>(arguments), files);
-  name_files_read(static_cast<const CamToolArguments&>(arguments), files);
+  name_texts_read(arguments, files);
+  name_library_read(arguments, files);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;

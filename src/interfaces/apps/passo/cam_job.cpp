@@ -135,8 +135,8 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.reads("--edge", edge);
-  name_files_read(static_cast<const CamProgramArguments&>(arguments), files);
-  name_files_read(static_cast<const CamToolArguments&>(arguments), files);
+  name_texts_read(arguments, files);
+  name_library_read(arguments, files);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return false;

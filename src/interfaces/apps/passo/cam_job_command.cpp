@@ -267,7 +267,7 @@ bool names_are_apart(const JobRun& run) {
     for (const std::string& file : operation.files) files.reads("a drawing", file);
   }
   files.reads("the tool library", run.job.library);
-  name_files_read(run.job.program, files);
+  name_texts_read(run.job.program, files);
   files.writes("--output", run.output);
   if (!run.job.one_program) {
     for (const TrialProgram& program : run.programs) files.writes("a program", program.file);

@@ -83,13 +83,13 @@ bool program_words_are_good(const CamProgramArguments& arguments, const std::str
   return !findings.any_error();
 }
 
-void name_files_read(const CamProgramArguments& arguments, NamedFiles& files) {
+void name_texts_read(const CamProgramArguments& arguments, NamedFiles& files) {
   files.reads("--start-text", arguments.start_text);
   files.reads("--tool-change-text", arguments.tool_change_text);
   files.reads("--end-text", arguments.end_text);
 }
 
-void name_files_read(const CamToolArguments& arguments, NamedFiles& files) {
+void name_library_read(const CamToolArguments& arguments, NamedFiles& files) {
   files.reads("--tool-table", arguments.tool_table);
   files.reads("--limits", arguments.limits);
 }

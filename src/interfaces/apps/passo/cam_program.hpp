@@ -28,8 +28,8 @@ PostProcessorOptions post_processor_options_of(const CamProgramArguments& argume
 bool is_plain_program(const CamProgramArguments& arguments);
 
 // The files that an operation reads besides its drawings.
-void name_files_read(const CamProgramArguments& arguments, NamedFiles& files);
-void name_files_read(const CamToolArguments& arguments, NamedFiles& files);
+void name_texts_read(const CamProgramArguments& arguments, NamedFiles& files);
+void name_library_read(const CamToolArguments& arguments, NamedFiles& files);
 
 SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments& lengths);
 

@@ -17,8 +17,8 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   NamedFiles files;
   files.reads("the file", arguments.file);
   files.reads("--within", arguments.within);
-  name_files_read(static_cast<const CamProgramArguments&>(arguments), files);
-  name_files_read(static_cast<const CamToolArguments&>(arguments), files);
+  name_texts_read(arguments, files);
+  name_library_read(arguments, files);
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;

@@ -10,6 +10,7 @@
 #include "length_argument.hpp"
 #include "program_input.hpp"
 #include "tool_limits.hpp"
+#include "tool_warning_words.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -146,20 +147,8 @@ void ToolShelf::remark(const char* option, const CuttingTool& tool, const ToolUs
 
 void ToolShelf::judge(const CuttingTool& tool, const ToolUse& use) {
   for (const ToolWarning& warning : warnings_of(tool, use, material_, limits_.spindle, limits_.most_feed)) {
-    findings_.add({.severity = Severity::warning,
-                   .code = warning.code,
-                   .file = library_->file(),
-                   .place = {},
-                   .message = warning.message,
-                   .expected = warning.advice,
-                   .text = {}});
-    warnings_.push_back({{"code", warning.code},
-                         {"tool", tool.number},
-                         {"message", warning.message},
-                         {"advice", warning.advice},
-                         {"found", warning.found},
-                         {"limit", warning.limit},
-                         {"unit", warning.unit}});
+    findings_.add(finding_of(warning, library_->file()));
+    warnings_.push_back(json_of(warning, tool.number));
   }
 }
 

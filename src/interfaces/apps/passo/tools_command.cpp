@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "program_input.hpp"
 #include "tool_limits.hpp"
+#include "tool_warning_words.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -180,20 +181,8 @@ int tools_feeds(const ToolsFeedsArguments& arguments) {
   ToolsJson warnings = ToolsJson::array();
   Diagnostics findings;
   for (const ToolWarning& warning : depth_warnings(*tool, arguments.depth)) {
-    findings.add({.severity = Severity::warning,
-                  .code = warning.code,
-                  .file = library->file(),
-                  .place = {},
-                  .message = warning.message,
-                  .expected = warning.advice,
-                  .text = {}});
-    warnings.push_back({{"code", warning.code},
-                        {"tool", tool->number},
-                        {"message", warning.message},
-                        {"advice", warning.advice},
-                        {"found", warning.found},
-                        {"limit", warning.limit},
-                        {"unit", warning.unit}});
+    findings.add(finding_of(warning, library->file()));
+    warnings.push_back(json_of(warning, tool->number));
   }
   show(findings);
   if (arguments.json) {
