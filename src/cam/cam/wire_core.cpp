@@ -1,7 +1,6 @@
 #include "passo/cam/wire_core.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "thin_line.hpp"
