@@ -1,0 +1,79 @@
+#include "passo/sender/grbl_forecast.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+GrblLimits router() {
+  GrblMachine machine;
+  machine.axes = "XYZ";
+  for (const char* line : {"$11=0.010", "$12=0.002", "$100=400", "$101=400", "$102=400", "$110=6000", "$111=6000",
+                           "$112=3000", "$120=500", "$121=500", "$122=250"}) {
+    machine.hear(line);
+  }
+  return limits_of(machine);
+}
+
+constexpr GrblLine network{.bytes_per_second = 0, .buffer = 1023};
+
+TEST(GrblForecast, takes_the_limits_that_the_board_reports) {
+  const GrblLimits limits = router();
+  EXPECT_EQ(limits.velocity[Axis::z], MmPerSecond(50));
+  EXPECT_EQ(limits.acceleration[Axis::z], MmPerSecond2(250));
+  EXPECT_EQ(limits.steps_per_unit[Axis::y], 400);
+  EXPECT_EQ(limits.steps_per_unit[Axis::a], 0);
+  EXPECT_EQ(limits.junction_deviation, Mm(0.01));
+  EXPECT_EQ(limits.blocks, 15U);
+}
+
+TEST(GrblForecast, reads_modal_lines_from_the_work_zero) {
+  Point zero;
+  zero[Axis::x] = 100;
+  Point start = zero;
+  GrblForecast forecast(router(), network, start, zero);
+  forecast.add("G21G90", 1);
+  forecast.add("G1F3000X50", 2);
+  forecast.add("M3S1000", 3);
+  forecast.add("X0", 4);
+  forecast.add("G4P1.5", 5);
+  forecast.add("G0Z5", 6);
+  const double move = 50.0 / 50 + 50.0 / 500;
+  EXPECT_NEAR(forecast.finish().time.value(), 2 * move + 1.5 + 2 * std::sqrt(5.0 / 250), 1e-9);
+}
+
+TEST(GrblForecast, measures_arcs_along_their_chords) {
+  GrblForecast forecast(router(), network, {}, {});
+  forecast.add("G3F600X-20Y0Z0I-10J0", 1);
+  forecast.add("X0Y0Z0I10J0", 2);
+  const double circle = 2 * std::numbers::pi * 10;
+  EXPECT_NEAR(forecast.finish().time.value(), circle / 10 + 10.0 / 500, 0.005);
+}
+
+// 0.1 mm per line at 100 mm/s: a thousand lines a second, and the connection carries half of them.
+TEST(GrblForecast, tells_what_the_connection_costs_and_which_feed_it_carries) {
+  constexpr double line = 11520 / 24.0;  // lines per second
+  const auto run = [](double feed) {
+    GrblLimits limits = router();
+    limits.blocks = 100;
+    GrblForecast forecast(limits, {}, {}, {});
+    for (int i = 1; i <= 20'000; ++i) forecast.add(fmt::format("G1F{}X{:09.4f}Y0.000", feed, 0.1 * i), 7);
+    return forecast.finish();
+  };
+  const GrblForecast::Result fast = run(1800);
+  EXPECT_NEAR(fast.feed_carried.value(), 0.1 * line, 0.1);
+  EXPECT_EQ(fast.densest_line, 7U);
+  EXPECT_NEAR(fast.time.value(), fast.unhindered.value(), 0.01) << "30 mm/s are below 48";
+  const GrblForecast::Result faster = run(4800);
+  EXPECT_GT(faster.time.value(), 20'000 / line) << "the last byte of a line must have arrived";
+  EXPECT_LT(faster.time.value(), 20'000 / line * 1.02);
+  EXPECT_NEAR(faster.unhindered.value(), 2000.0 / 80 + 80.0 / 500, 0.01);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,117 @@
+#include "passo/grbl_planner/grbl_planner.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// 100 mm/s, 500 mm/s², 400 steps/mm.
+GrblLimits limits_of_router(std::size_t blocks = 15) {
+  GrblLimits limits{.blocks = blocks};
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.steps_per_unit[axis] = 400;
+    limits.velocity[axis] = MmPerSecond(100);
+    limits.acceleration[axis] = MmPerSecond2(500);
+  }
+  return limits;
+}
+
+Point at(double x, double y = 0, double z = 0) {
+  Point place;
+  place[Axis::x] = x;
+  place[Axis::y] = y;
+  place[Axis::z] = z;
+  return place;
+}
+
+TEST(GrblPlanner, moves_in_trapezoids_and_triangles) {
+  GrblPlanner planner(limits_of_router(), {});
+  planner.add_line(at(100), MmPerSecond(50), 1, Seconds(0));
+  EXPECT_NEAR(planner.wait_for_rest(Seconds(0), Seconds(0)).value(), 100.0 / 50 + 50.0 / 500, 1e-9);
+  GrblPlanner rapid(limits_of_router(), {});
+  rapid.add_line(at(5), MmPerSecond(infinite), 1, Seconds(0));
+  EXPECT_NEAR(rapid.wait_for_rest(Seconds(0), Seconds(0)).value(), 2 * std::sqrt(5.0 / 500), 1e-9);
+  EXPECT_NEAR(rapid.wait_for_rest(Seconds(1.5), Seconds(0)).value(), 2 * std::sqrt(5.0 / 500) + 1.5, 1e-9);
+}
+
+TEST(GrblPlanner, limits_junctions_by_their_deviation) {
+  std::vector<GrblBlock> blocks;
+  GrblPlanner planner(limits_of_router(), {});
+  planner.hear([&](const GrblBlock& block) { blocks.push_back(block); });
+  planner.add_line(at(50), MmPerSecond(80), 1, Seconds(0));
+  planner.add_line(at(50, 50), MmPerSecond(80), 2, Seconds(0));
+  planner.add_line(at(50, 0), MmPerSecond(80), 3, Seconds(0));
+  planner.wait_for_rest(Seconds(0), Seconds(0));
+  ASSERT_EQ(blocks.size(), 3U);
+  // A right angle: the difference of the directions lies between two axes, so it has 1.414 times the acceleration.
+  const double sine = std::sqrt(0.5);
+  EXPECT_NEAR(blocks[0].exit.value(), std::sqrt(500 * std::numbers::sqrt2 * 0.01 * sine / (1 - sine)), 1e-9);
+  EXPECT_EQ(blocks[1].entry, blocks[0].exit);
+  EXPECT_EQ(blocks[1].exit, MmPerSecond(0)) << "a reversal is a stop";
+  EXPECT_EQ(blocks[2].begun, blocks[1].ended);
+  for (const GrblBlock& block : blocks) EXPECT_NEAR(block.top.value(), 80, 1e-9);
+}
+
+// The board must be able to stop at the end of what it holds.
+TEST(GrblPlanner, is_slowed_by_a_short_queue) {
+  const auto time_of = [](std::size_t queue) {
+    GrblPlanner planner(limits_of_router(queue), {});
+    double fastest = 0;
+    planner.hear([&](const GrblBlock& block) { fastest = std::max(fastest, block.top.value()); });
+    for (int i = 1; i <= 1000; ++i) planner.add_line(at(0.1 * i), MmPerSecond(90), 1, Seconds(0));
+    planner.wait_for_rest(Seconds(0), Seconds(0));
+    return fastest;
+  };
+  EXPECT_NEAR(time_of(15), std::sqrt(2 * 500 * 1.5), 2);
+  EXPECT_NEAR(time_of(100), 90, 1e-9);
+}
+
+TEST(GrblPlanner, takes_a_line_when_it_has_room) {
+  GrblPlanner planner(limits_of_router(3), {});
+  EXPECT_EQ(planner.add_line(at(10), MmPerSecond(10), 1, Seconds(0)), Seconds(0));
+  EXPECT_EQ(planner.add_line(at(20), MmPerSecond(10), 2, Seconds(0.2)), Seconds(0.2));
+  EXPECT_EQ(planner.add_line(at(30), MmPerSecond(10), 3, Seconds(0.2)), Seconds(0.2));
+  EXPECT_NEAR(planner.add_line(at(40), MmPerSecond(10), 4, Seconds(0.2)).value(), 1.01, 1e-9);
+}
+
+// Without the next line the board stops, and starts again from rest.
+TEST(GrblPlanner, stops_if_lines_are_late) {
+  GrblPlanner planner(limits_of_router(), {});
+  planner.add_line(at(10), MmPerSecond(50), 1, Seconds(0));
+  planner.add_line(at(20), MmPerSecond(50), 2, Seconds(5));
+  EXPECT_NEAR(planner.wait_for_rest(Seconds(0), Seconds(5)).value(), 5 + 10.0 / 50 + 50.0 / 500, 1e-9);
+  // A line that comes while the board brakes lets it accelerate again.
+  GrblPlanner just(limits_of_router(), {});
+  just.add_line(at(10), MmPerSecond(50), 1, Seconds(0));
+  just.add_line(at(20), MmPerSecond(50), 2, Seconds(0.25));
+  const double dip = 25;  // mm/s: 0.05 s after the begin of the brake
+  EXPECT_NEAR(just.wait_for_rest(Seconds(0), Seconds(0)).value(),
+              20.0 / 50 + 0.1 + 2 * (0.05 - (50 + dip) / 2 * 0.05 / 50), 1e-6);
+}
+
+TEST(GrblPlanner, divides_arcs_by_the_tolerance) {
+  std::vector<GrblBlock> blocks;
+  GrblPlanner planner(limits_of_router(), at(10));
+  planner.hear([&](const GrblBlock& block) { blocks.push_back(block); });
+  planner.add_arc({.first_center = -10}, at(10, 0, -2), MmPerSecond(20), 7, Seconds(0));
+  planner.wait_for_rest(Seconds(0), Seconds(0));
+  const double chords = std::floor(std::numbers::pi * 10 / std::sqrt(0.002 * (20 - 0.002)));
+  ASSERT_EQ(blocks.size(), static_cast<std::size_t>(chords));
+  for (const GrblBlock& block : blocks) {
+    EXPECT_NEAR(std::hypot(block.end[Axis::x], block.end[Axis::y]), 10, 0.003);
+    EXPECT_EQ(block.source, 7U);
+  }
+  const double fall = blocks[blocks.size() / 2].end[Axis::z];
+  EXPECT_NEAR(fall, -1, 0.03);
+  EXPECT_EQ(blocks.back().end, at(10, 0, -2));
+}
+
+}  // namespace
+}  // namespace passo
