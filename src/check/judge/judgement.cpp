@@ -72,6 +72,11 @@ Judgement judge(ProgramReader program, const MachineDescription& machine, const 
                 const ProgramCheck& check, const JudgeWatchers& watchers, const std::function<void(double)>& progress,
                 const MotionFactors& factors) {
   PlannedProgram planned(std::move(program), machine, options, check, factors);
+  return judge(planned, machine, check.nominal_time, watchers, progress);
+}
+
+Judgement judge(ProgramMotion& motion, const MachineDescription& machine, Seconds whole, const JudgeWatchers& watchers,
+                const std::function<void(double)>& progress) {
   std::vector<Axis> axes;
   AxisSet axis_set;
   for (const AxisDescription& axis : machine.axes) {
@@ -82,17 +87,17 @@ Judgement judge(ProgramReader program, const MachineDescription& machine, const 
   MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
   SpeedSurvey speeds(motion_limits(machine), axis_set);
   Judgement judged;
-  planned.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });
-  planned.path().watch([&](const PathItem& item) { builder.watch_path(item); });
+  motion.watch_operations([&](const Operation& operation) { builder.watch_operation(operation); });
+  motion.watch_path([&](const PathItem& item) { builder.watch_path(item); });
   constexpr unsigned items_between_looks = 1024;
   unsigned items = 0;
   const auto plan = [&](MotionItem& item) {
-    if (!planned.next(item)) return false;
+    if (!motion.next(item)) return false;
     builder.add_up(item);
     if (const auto* action = std::get_if<Action>(&item)) {
       judged.tool_changes += action->kind == Action::Kind::tool_change ? 1 : 0;
     }
-    if (progress && ++items % items_between_looks == 0) progress(planned.nominal_time() / check.nominal_time);
+    if (progress && ++items % items_between_looks == 0) progress(motion.nominal_time() / whole);
     return true;
   };
   const auto measure = [&](const MotionItem& item) {

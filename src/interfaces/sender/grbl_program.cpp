@@ -80,7 +80,9 @@ Point first_work_zero(const GrblMachine& machine) {
 }
 
 ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
-                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings) {
+                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings,
+                            const std::function<void(const PathItem&)>& watch_path,
+                            const std::function<void(const Operation&)>& watch_operations) {
   Objections objections(program.name(), findings);
   GrblCode code(zero);
   std::vector<std::string> lines;
@@ -90,8 +92,12 @@ ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescripti
         lines.clear();
         const auto written = code.write(item, lines);
         if (!written) objections.add(written.error(), line_of(item));
+        if (watch_path) watch_path(item);
       },
-      [&](const Operation& operation) { objections.note(operation); });
+      [&](const Operation& operation) {
+        objections.note(operation);
+        if (watch_operations) watch_operations(operation);
+      });
   check.good = check.good && !findings.any_error();
   return check;
 }

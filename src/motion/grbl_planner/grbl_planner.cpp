@@ -73,17 +73,15 @@ Seconds GrblPlanner::add_line(const Point& end, MmPerSecond feed, std::uint32_t 
   if (blocks_.size() == limits_.blocks) end_first(profile());
   run_until(when.value());
   const Point direction = way * (1 / length);
-  Block block{.motion = {.source = source, .start = last_step_, .end = step},
-              .length = length,
-              .acceleration = limit_along(direction, strongest_)};
-  block.motion.acceleration = MmPerSecond2(block.acceleration);
-  const double fastest = limit_along(direction, fastest_);
-  block.nominal2 = square(std::min(std::max(feed.value(), slowest), fastest));
-  if (blocks_.empty()) {
-    rest_of_first_ = length;
-  } else {
-    block.most_entry2 = std::min({junction2(direction), block.nominal2, nominal2_});
-  }
+  Block block{.motion = {.source = source,
+                         .rapid = std::isinf(feed.value()),
+                         .feed = feed,
+                         .start = last_step_,
+                         .end = step,
+                         .length = Mm(length),
+                         .acceleration = MmPerSecond2(limit_along(direction, strongest_))}};
+  block.nominal2 = square(std::min(std::max(feed.value(), slowest), limit_along(direction, fastest_)));
+  if (!blocks_.empty()) block.most_entry2 = std::min({junction2(direction), block.nominal2, nominal2_});
   blocks_.push_back(block);
   last_step_ = step;
   direction_ = direction;
@@ -130,7 +128,7 @@ void GrblPlanner::plan() {
   double exit2 = 0;
   for (std::size_t i = blocks_.size(); i-- > 1;) {
     Block& block = blocks_[i];
-    const double entry2 = std::min(block.most_entry2, exit2 + 2 * block.acceleration * block.length);
+    const double entry2 = std::min(block.most_entry2, exit2 + block.gain2());
     if (entry2 == block.entry2 && i + 1 < blocks_.size()) return;
     block.entry2 = exit2 = entry2;
   }
@@ -138,17 +136,18 @@ void GrblPlanner::plan() {
 
 GrblPlanner::Profile GrblPlanner::profile() const {
   const Block& first = blocks_.front();
-  const double length = rest_of_first_;
-  const double gain2 = 2 * first.acceleration * length;
+  const double acceleration = first.motion.acceleration.value();
+  const double length = first.motion.length.value() - done_of_first_;
+  const double gain2 = 2 * acceleration * length;
   const double speed2 = square(speed_);
   const double wanted2 = blocks_.size() > 1 ? blocks_[1].entry2 : 0;
   // A plan never asks for more than the brakes give; only rounding does.
   const double exit2 = std::clamp(wanted2, std::max(0.0, speed2 - gain2), speed2 + gain2);
   const double top2 = std::max({std::min(first.nominal2, (speed2 + exit2 + gain2) / 2), speed2, exit2});
-  const double rest = length - (2 * top2 - speed2 - exit2) / (2 * first.acceleration);
+  const double rest = length - (2 * top2 - speed2 - exit2) / (2 * acceleration);
   Profile profile{.top = std::sqrt(top2), .exit = std::sqrt(exit2)};
-  profile.up = (profile.top - speed_) / first.acceleration;
-  profile.down = (profile.top - profile.exit) / first.acceleration;
+  profile.up = (profile.top - speed_) / acceleration;
+  profile.down = (profile.top - profile.exit) / acceleration;
   profile.level = rest > 0 ? rest / profile.top : 0;
   return profile;
 }
@@ -163,32 +162,33 @@ void GrblPlanner::run_until(double when) {
 }
 
 void GrblPlanner::move_first(const Profile& profile, double time) {
-  Block& first = blocks_.front();
-  if (rest_of_first_ == first.length) {
-    first.motion.begun = Seconds(now_);
-    first.motion.entry = MmPerSecond(speed_);
-  }
+  const double acceleration = blocks_.front().motion.acceleration.value();
   const double up = std::min(time, profile.up);
   const double level = std::clamp(time - profile.up, 0.0, profile.level);
-  const double down = time - up - level;
-  const double top = speed_ + first.acceleration * up;
-  const double last = top - first.acceleration * down;
-  const double way = (speed_ + top) / 2 * up + top * level + (top + last) / 2 * down;
-  first.motion.top = MmPerSecond(std::max(first.motion.top.value(), top));
-  rest_of_first_ = std::max(rest_of_first_ - way, 0.0);
-  speed_ = std::max(last, 0.0);
+  add_phase(acceleration, up);
+  add_phase(0, level);
+  add_phase(-acceleration, time - up - level);
+}
+
+void GrblPlanner::add_phase(double acceleration, double time) {
+  if (time <= 0) return;
+  const GrblPhase phase{.block = blocks_.front().motion,
+                        .begun = Seconds(now_),
+                        .duration = Seconds(time),
+                        .from = Mm(done_of_first_),
+                        .speed = MmPerSecond(speed_),
+                        .acceleration = MmPerSecond2(acceleration)};
+  if (listener_) listener_(phase);
+  done_of_first_ = std::min(phase.end(), phase.block.length).value();
+  speed_ = std::max(phase.end_speed().value(), 0.0);
   now_ += time;
 }
 
 void GrblPlanner::end_first(const Profile& profile) {
   move_first(profile, profile.time());
-  GrblBlock& motion = blocks_.front().motion;
   speed_ = profile.exit;
-  motion.exit = MmPerSecond(speed_);
-  motion.ended = Seconds(now_);
-  if (listener_) listener_(motion);
+  done_of_first_ = 0;
   blocks_.pop_front();
-  rest_of_first_ = blocks_.empty() ? 0 : blocks_.front().length;
 }
 
 }  // namespace passo

@@ -10,6 +10,7 @@
 #include "check_report.hpp"
 #include "commands.hpp"
 #include "cut_words.hpp"
+#include "grbl_check.hpp"
 #include "link_delay.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
@@ -102,6 +103,9 @@ bool measures_motion(const CheckArguments& arguments) {
 
 // What is wrong with the options. Empty: nothing.
 std::string refusal_of(const CheckArguments& arguments) {
+  if (!arguments.board.empty() && (measures_motion(arguments) || arguments.cutting_force)) {
+    return "--board cannot be combined with --motion, with a picture of the motion, or with --cutting-force";
+  }
   if (std::string why = refuse_picture(arguments.picture); !why.empty()) return why;
   const bool draws_margin = arguments.colour_by == "margin";
   if (!arguments.colour_by.empty() && (!draws_margin || arguments.picture.empty() || arguments.motion)) {
@@ -151,7 +155,8 @@ struct FirstLook {
 };
 
 void look(const CheckArguments& arguments, const MachineDescription& machine, const ProgramReader& program,
-          const InterpreterOptions& options, ProgressDisplay& progress, FirstLook& first) {
+          const InterpreterOptions& options, const std::optional<GrblBoard>& board, ProgressDisplay& progress,
+          FirstLook& first) {
   constexpr unsigned items_between_looks = 4096;
   ProgramMessages messages(arguments.program.program, !arguments.json);
   FindingsDisplay display(first.findings);
@@ -170,18 +175,21 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
     first.stops.watch(operation, options.tools);
     messages.show(operation, [&] { progress.clear(); });
   };
-  first.result = check_program(program.again(), machine, options, first.findings, watch_path, watch_operations);
+  first.result =
+      board ? check_for_grbl(program, machine, options, board->zero, first.findings, watch_path, watch_operations)
+            : check_program(program.again(), machine, options, first.findings, watch_path, watch_operations);
   progress.clear();
   if (!arguments.json || (first.result.good && measures_motion(arguments))) display.finish();
 }
 
 void print(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
-           const std::optional<Judgement>& page, const std::optional<CutOutcome>& cut,
-           const std::vector<Proposal>& proposals) {
+           const std::optional<Judgement>& page, const std::optional<GrblBoard>& board,
+           const std::optional<CutOutcome>& cut, const std::vector<Proposal>& proposals) {
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     nlohmann::ordered_json json = findings_as_json(first.findings, first.stops);
     if (page) add_to(json, *page, machine);
+    if (page && board) json["board"] = as_json(*board);
     if (cut) json["cut"] = as_json(*cut);
     json["proposals"] = passo::as_json(proposals);
     std::puts(json.dump(2, ' ', false, replace).c_str());
@@ -191,6 +199,7 @@ void print(const CheckArguments& arguments, const MachineDescription& machine, c
   if (first.result.good && !first.findings.any_error()) std::printf("%s: no errors\n", name);
   if (first.stops.count() > 0) std::printf("%s: stops for the operator at %s\n", name, first.stops.words().c_str());
   if (cut) std::fputs(to_text(*cut).c_str(), stdout);
+  if (page && board) std::fputs(to_text(*board).c_str(), stdout);
   if (page) std::fputs(to_text(*page, machine).c_str(), stdout);
   std::fputs(to_text(proposals).c_str(), stdout);
 }
@@ -252,7 +261,7 @@ int check(const CheckArguments& arguments) {
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   std::optional<ProgramReader> program = streamed_program(arguments.program);
-  const std::optional<InterpreterOptions> options = machine_options(arguments.program);
+  std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);
   files.reads("the machine file", arguments.machine);
@@ -261,10 +270,16 @@ int check(const CheckArguments& arguments) {
   files.writes("--report", arguments.report);
   files.writes("--loads", arguments.loads);
   if (!files.are_apart()) return exit_bad_program;
+  std::optional<GrblBoard> board;
+  if (!arguments.board.empty()) {
+    int code = exit_done;
+    board = grbl_board(arguments.board, *machine, *options, code);
+    if (!board) return code;
+  }
 
   FirstLook first;
   ProgressDisplay progress(program->name());
-  look(arguments, *machine, *program, *options, progress, first);
+  look(arguments, *machine, *program, *options, board, progress, first);
   if (first.result.good && measures_motion(arguments)) {
     return measure(arguments, *machine, std::move(*program), *options, first.result.nominal_time, first.findings,
                    progress);
@@ -280,24 +295,28 @@ int check(const CheckArguments& arguments) {
   LineTorques loads;
   if (first.result.good) {
     const bool reports = !arguments.report.empty();
-    page = judge(program->again(), *machine, *options, first.result,
-                 {.path = reports || !arguments.picture.empty() ? &path : nullptr,
-                  .track = reports ? &track : nullptr,
-                  .loads = stock ? &stock->loads : nullptr,
-                  .lines = arguments.loads.empty() ? nullptr : &loads},
-                 [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
+    const JudgeWatchers watchers{.path = reports || !arguments.picture.empty() ? &path : nullptr,
+                                 .track = reports ? &track : nullptr,
+                                 .loads = stock ? &stock->loads : nullptr,
+                                 .lines = arguments.loads.empty() ? nullptr : &loads};
+    const auto show_share = [&](double share) {
+      progress.update(share_of_first_look + (1 - share_of_first_look) * share);
+    };
+    page = board ? judge_on_grbl(*program, *machine, *options, first.result, watchers, show_share, *board)
+                 : judge(program->again(), *machine, *options, first.result, watchers, show_share);
   }
   progress.clear();
-  if (page) page->line = line_cost_with_progress(*program, *machine, *options, first.result, page->summary.time());
+  if (page && !board)
+    page->line = line_cost_with_progress(*program, *machine, *options, first.result, page->summary.time());
   if (page && !arguments.loads.empty()) {
     const int code = write_text(arguments.loads, loads.text());
     if (code != exit_done) return code;
   }
   const int written = write_files(arguments, *machine, first, page, path, track);
   if (written != exit_done) return written;
-  const std::vector<Proposal> proposals =
-      proposals_of({*program, *machine, *options}, first.result, first.findings, page && !stock ? &*page : nullptr);
-  print(arguments, *machine, first, page, stock, proposals);
+  const std::vector<Proposal> proposals = proposals_of({*program, *machine, *options}, first.result, first.findings,
+                                                       page && !stock && !board ? &*page : nullptr);
+  print(arguments, *machine, first, page, board, stock, proposals);
   if (page && page->lost()) {
     return fail(exit_failed, "the motors would lose steps, and the part would be scrap [check.steps-lost]");
   }

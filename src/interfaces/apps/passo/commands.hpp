@@ -109,6 +109,7 @@ int home(const HomeArguments& arguments);
 struct CheckArguments {
   ProgramArguments program;
   std::string machine;
+  std::string board;      // "grbl", or an address of a Grbl board, which plans the motion by itself; empty: our planner
   bool motion = false;    // plans the path, too, and measures the motion
   std::string picture;    // picture of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the torque margin; empty: the motion

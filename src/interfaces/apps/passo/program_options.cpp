@@ -139,6 +139,9 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
   command.add_flag(
       "--motion", arguments.motion,
       "plan the motion too, check it against every limit, and compare its time with the shortest possible");
+  command.add_option("--board", arguments.board,
+                     "grbl: for the motion that Grbl plans on an Uno with the limits of the machine file; "
+                     "grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT: with the settings of that machine");
   command.add_option("-p,--picture", arguments.picture,
                      "picture of the motion: toolpath and tolerance, speed along the path, acceleration and jerk "
                      "(FILE.svg or FILE.png)");
@@ -153,6 +156,8 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
       "Examples:\n  passo check part.ngc -m router.toml             all errors and warnings\n"
       "  passo check part.ngc -m router.toml --motion    peaks, deviation, time and the shortest possible time;\n"
       "                                                  exit code 1 if a limit is exceeded\n"
+      "  passo check part.ngc -m router.toml --board grbl:/dev/ttyUSB0    duration on this Grbl machine, and whether\n"
+      "                                                  its connection is fast enough\n"
       "  passo check part.ngc -m router.toml --report part.html    report with pictures, for screen and "
       "print\n"
       "  passo check part.ngc -m router.toml --picture margin.svg --colour-by margin    where the torque margin is "

@@ -1,7 +1,9 @@
 #include "passo/grbl_planner/grbl_planner.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -31,6 +33,34 @@ Point at(double x, double y = 0, double z = 0) {
   return place;
 }
 
+// The motion of each line.
+class PerLine {
+ public:
+  struct Motion {
+    double entry = -1;
+    double top = 0;
+    double exit = 0;
+    double time = 0;
+    double length = 0;
+  };
+  void add(const GrblPhase& phase) {
+    Motion& motion = motions_[phase.block.source];
+    if (motion.entry < 0) motion.entry = phase.speed.value();
+    EXPECT_NEAR(motion.length, phase.from.value(), 1e-9);
+    motion.exit = phase.end_speed().value();
+    motion.top = std::max({motion.top, phase.speed.value(), motion.exit});
+    motion.time += phase.duration.value();
+    motion.length += phase.duration.value() * (phase.speed.value() + motion.exit) / 2;
+    EXPECT_NEAR(phase.begun.value(), now_, 1e-9);
+    now_ = (phase.begun + phase.duration).value();
+  }
+  const Motion& operator[](std::uint32_t line) const { return motions_.at(line); }
+
+ private:
+  std::map<std::uint32_t, Motion> motions_;
+  double now_ = 0;
+};
+
 TEST(GrblPlanner, moves_in_trapezoids_and_triangles) {
   GrblPlanner planner(limits_of_router(), {});
   planner.add_line(at(100), MmPerSecond(50), 1, Seconds(0));
@@ -42,35 +72,39 @@ TEST(GrblPlanner, moves_in_trapezoids_and_triangles) {
 }
 
 TEST(GrblPlanner, limits_junctions_by_their_deviation) {
-  std::vector<GrblBlock> blocks;
+  PerLine lines;
   GrblPlanner planner(limits_of_router(), {});
-  planner.hear([&](const GrblBlock& block) { blocks.push_back(block); });
+  planner.hear([&](const GrblPhase& phase) { lines.add(phase); });
   planner.add_line(at(50), MmPerSecond(80), 1, Seconds(0));
   planner.add_line(at(50, 50), MmPerSecond(80), 2, Seconds(0));
   planner.add_line(at(50, 0), MmPerSecond(80), 3, Seconds(0));
-  planner.wait_for_rest(Seconds(0), Seconds(0));
-  ASSERT_EQ(blocks.size(), 3U);
+  const Seconds end = planner.wait_for_rest(Seconds(0), Seconds(0));
   // A right angle: the difference of the directions lies between two axes, so it has 1.414 times the acceleration.
   const double sine = std::sqrt(0.5);
-  EXPECT_NEAR(blocks[0].exit.value(), std::sqrt(500 * std::numbers::sqrt2 * 0.01 * sine / (1 - sine)), 1e-9);
-  EXPECT_EQ(blocks[1].entry, blocks[0].exit);
-  EXPECT_EQ(blocks[1].exit, MmPerSecond(0)) << "a reversal is a stop";
-  EXPECT_EQ(blocks[2].begun, blocks[1].ended);
-  for (const GrblBlock& block : blocks) EXPECT_NEAR(block.top.value(), 80, 1e-9);
+  EXPECT_NEAR(lines[1].exit, std::sqrt(500 * std::numbers::sqrt2 * 0.01 * sine / (1 - sine)), 1e-9);
+  EXPECT_NEAR(lines[2].entry, lines[1].exit, 1e-9);
+  EXPECT_NEAR(lines[2].exit, 0, 1e-6) << "a reversal is a stop";
+  double time = 0;
+  for (const std::uint32_t line : {1U, 2U, 3U}) {
+    EXPECT_NEAR(lines[line].top, 80, 1e-9);
+    EXPECT_NEAR(lines[line].length, 50, 1e-9);
+    time += lines[line].time;
+  }
+  EXPECT_NEAR(time, end.value(), 1e-9);
 }
 
 // The board must be able to stop at the end of what it holds.
 TEST(GrblPlanner, is_slowed_by_a_short_queue) {
-  const auto time_of = [](std::size_t queue) {
+  const auto fastest_of = [](std::size_t queue) {
     GrblPlanner planner(limits_of_router(queue), {});
     double fastest = 0;
-    planner.hear([&](const GrblBlock& block) { fastest = std::max(fastest, block.top.value()); });
+    planner.hear([&](const GrblPhase& phase) { fastest = std::max(fastest, phase.end_speed().value()); });
     for (int i = 1; i <= 1000; ++i) planner.add_line(at(0.1 * i), MmPerSecond(90), 1, Seconds(0));
     planner.wait_for_rest(Seconds(0), Seconds(0));
     return fastest;
   };
-  EXPECT_NEAR(time_of(15), std::sqrt(2 * 500 * 1.5), 2);
-  EXPECT_NEAR(time_of(100), 90, 1e-9);
+  EXPECT_NEAR(fastest_of(15), std::sqrt(2 * 500 * 1.5), 2);
+  EXPECT_NEAR(fastest_of(100), 90, 1e-9);
 }
 
 TEST(GrblPlanner, takes_a_line_when_it_has_room) {
@@ -99,7 +133,9 @@ TEST(GrblPlanner, stops_if_lines_are_late) {
 TEST(GrblPlanner, divides_arcs_by_the_tolerance) {
   std::vector<GrblBlock> blocks;
   GrblPlanner planner(limits_of_router(), at(10));
-  planner.hear([&](const GrblBlock& block) { blocks.push_back(block); });
+  planner.hear([&](const GrblPhase& phase) {
+    if (phase.from == Mm(0)) blocks.push_back(phase.block);
+  });
   planner.add_arc({.first_center = -10}, at(10, 0, -2), MmPerSecond(20), 7, Seconds(0));
   planner.wait_for_rest(Seconds(0), Seconds(0));
   const double chords = std::floor(std::numbers::pi * 10 / std::sqrt(0.002 * (20 - 0.002)));

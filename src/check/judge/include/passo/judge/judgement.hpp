@@ -57,5 +57,8 @@ struct JudgeWatchers {
 Judgement judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const ProgramCheck& check, const JudgeWatchers& watchers = {},
                 const std::function<void(double)>& progress = {}, const MotionFactors& factors = {});
+// Analyses a motion from another source. `whole`: the nominal time of the program.
+Judgement judge(ProgramMotion& motion, const MachineDescription& machine, Seconds whole,
+                const JudgeWatchers& watchers = {}, const std::function<void(double)>& progress = {});
 
 }  // namespace passo

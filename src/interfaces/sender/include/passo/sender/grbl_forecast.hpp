@@ -44,8 +44,8 @@ class GrblForecast {
   // The board rests at `start`, in machine coordinates; `zero`: the work zero, as for GrblCode.
   GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const Point& zero);
 
-  // Sets a listener for the blocks in the order of their motion.
-  void hear(std::function<void(const GrblBlock&)> listener) { hindered_.hear(std::move(listener)); }
+  // Sets a listener for the phases of the motion, in order.
+  void hear(std::function<void(const GrblPhase&)> listener) { hindered_.hear(std::move(listener)); }
   // Adds a line of GrblCode, without its line end. `source`: the line of the program.
   void add(std::string_view text, std::uint32_t source);
   // Waits for the end of the motion.

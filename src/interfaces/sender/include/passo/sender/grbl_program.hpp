@@ -25,9 +25,12 @@ void set_offsets(InterpreterOptions& options, const GrblMachine& machine);
 Point first_work_zero(const GrblMachine& machine);
 
 // Checks a program as for our boards, and whether a Grbl machine supports it: what it does not support is an error
-// "grbl.cannot" at its line, once for each reason. `zero`: as for GrblCode.
+// "grbl.cannot" at its line, once for each reason. `zero`: as for GrblCode. Observers, if set, receive each path item
+// and each operation.
 ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
-                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings);
+                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings,
+                            const std::function<void(const PathItem&)>& watch_path = {},
+                            const std::function<void(const Operation&)>& watch_operations = {});
 
 class GrblProgram {
  public:

@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 #include "passo/activity/program.hpp"
 #include "passo/path/backlash_compensator.hpp"
+#include "passo/session/program_motion.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
@@ -20,7 +22,7 @@ struct MotionFactors {
   friend bool operator==(const MotionFactors&, const MotionFactors&) = default;
 };
 
-class PlannedProgram final : public Source<MotionItem> {
+class PlannedProgram final : public ProgramMotion {
  public:
   // `machine`, `options` and the program's `check` must outlive this object.
   PlannedProgram(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
@@ -33,8 +35,9 @@ class PlannedProgram final : public Source<MotionItem> {
   // For observers, which must be added before the first next().
   Tap<Operation>& operations() { return activity_.operations(); }
   Tap<PathItem>& path() { return activity_.path(); }
-  // The nominal time of the motion planned so far.
-  Seconds nominal_time() const { return activity_.nominal_time(); }
+  void watch_operations(std::function<void(Operation&)> watcher) override { operations().watch(std::move(watcher)); }
+  void watch_path(std::function<void(PathItem&)> watcher) override { path().watch(std::move(watcher)); }
+  Seconds nominal_time() const override { return activity_.nominal_time(); }
 
  private:
   const ProgramCheck& check_;

@@ -40,17 +40,29 @@ struct GrblLimits {
   std::size_t blocks = 15;                  // blocks that the planner holds, including the one that moves; at least 1
 };
 
-// A straight move as the board has made it.
+// A straight move of the board, from step to step.
 struct GrblBlock {
   std::uint32_t source = 0;  // as passed to the planner: the number of the line
-  Point start;               // rounded to steps
+  bool rapid = false;
+  MmPerSecond feed{0};  // as programmed
+  Point start;
   Point end;
+  Mm length{0};
   MmPerSecond2 acceleration{0};
-  MmPerSecond entry{0};  // speed at the start
-  MmPerSecond top{0};    // highest speed
-  MmPerSecond exit{0};   // speed at the end
-  Seconds begun{0};      // time of its start
-  Seconds ended{0};
+};
+
+// A part of the motion along a block, with constant acceleration. Phases follow each other; between two of them the
+// board may rest.
+struct GrblPhase {
+  const GrblBlock& block;
+  Seconds begun{0};
+  Seconds duration{0};
+  Mm from{0};  // along the block
+  MmPerSecond speed{0};
+  MmPerSecond2 acceleration{0};
+
+  MmPerSecond end_speed() const { return speed + acceleration * duration; }
+  Mm end() const { return from + (speed + end_speed()) / 2 * duration; }
 };
 
 class GrblPlanner {
@@ -66,8 +78,8 @@ class GrblPlanner {
   // The board rests at `start`.
   GrblPlanner(const GrblLimits& limits, const Point& start);
 
-  // Sets a listener, which receives each block when its motion is complete, in order.
-  void hear(std::function<void(const GrblBlock&)> listener) { listener_ = std::move(listener); }
+  // Sets a listener, which receives all phases in the order of the motion.
+  void hear(std::function<void(const GrblPhase&)> listener) { listener_ = std::move(listener); }
 
   // The functions below take the time at which the board has read the line, and return the time at which it has
   // processed it, i.e. when it answers. Times must not decrease.
@@ -82,11 +94,10 @@ class GrblPlanner {
  private:
   struct Block {
     GrblBlock motion;
-    double length = 0;
-    double acceleration = 0;
     double nominal2 = 0;  // squares of speeds
     double most_entry2 = 0;
     double entry2 = 0;  // planned
+    double gain2() const { return 2 * motion.acceleration.value() * motion.length.value(); }
   };
   // The rest of the first block: accelerate to `top`, keep the speed, decelerate to `exit`.
   struct Profile {
@@ -104,6 +115,7 @@ class GrblPlanner {
   Profile profile() const;
   void run_until(double when);
   void move_first(const Profile& profile, double time);
+  void add_phase(double acceleration, double time);
   void end_first(const Profile& profile);
   Point rounded(const Point& place) const;
 
@@ -117,8 +129,8 @@ class GrblPlanner {
   std::deque<Block> blocks_;  // the first one moves
   double now_ = 0;            // time of the motion, s
   double speed_ = 0;
-  double rest_of_first_ = 0;  // mm
-  std::function<void(const GrblBlock&)> listener_;
+  double done_of_first_ = 0;  // mm
+  std::function<void(const GrblPhase&)> listener_;
 };
 
 }  // namespace passo

@@ -1,0 +1,112 @@
+#include "grbl_check.hpp"
+
+#include <algorithm>
+
+#include "commands.hpp"
+#include "grbl_connection.hpp"
+#include "run_signals.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "passo/sender/grbl_motion.hpp"
+#include "passo/transport/board_address.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double bits_per_byte = 10;  // with start bit and stop bit
+
+GrblLimits limits_of(const MachineDescription& machine) {
+  GrblLimits limits;
+  for (const AxisDescription& axis : machine.axes) {
+    if (axis.axis > Axis::z) continue;
+    limits.steps_per_unit[axis.axis] = axis.steps_per_unit;
+    limits.velocity[axis.axis] = axis.velocity;
+    limits.acceleration[axis.axis] = axis.acceleration;
+  }
+  return limits;
+}
+
+// Which the connection limits: USB itself, and a network, are faster than every board.
+double bytes_per_second(const BoardAddress& address, const GrblMachine& machine) {
+  const bool is_native_usb = address.place.starts_with("/dev/ttyACM") && machine.firmware != "Grbl";
+  return address.kind == BoardAddress::Kind::serial && !is_native_usb ? address.baud / bits_per_byte : 0;
+}
+
+}  // namespace
+
+std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescription& machine,
+                                    InterpreterOptions& options, int& code) {
+  if (name == "grbl") return GrblBoard{.limits = limits_of(machine), .line = {}, .zero = {}};
+  if (!names_grbl_machine(name)) {
+    code = fail(exit_bad_program, name + ": --board of check takes grbl, grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT");
+    return std::nullopt;
+  }
+  const auto address = parse_board_address(name);
+  brake_on_signals();
+  const auto opened = address ? GrblConnection::open(name, code) : nullptr;
+  if (!opened) {
+    if (!address) code = fail(exit_bad_program, address.error());
+    return std::nullopt;
+  }
+  const GrblSender& sender = opened->sender();
+  const GrblMachine& board = sender.machine();
+  set_offsets(options, board);
+  options.start = sender.place().value_or(options.start);
+  GrblBoard found{.firmware = board.firmware + " " + board.version,
+                  .limits = passo::limits_of(board),
+                  .line = {.bytes_per_second = bytes_per_second(*address, board), .buffer = sender.buffer_size()},
+                  .zero = first_work_zero(board)};
+  const auto& steps = found.limits.steps_per_unit.values;
+  if (std::ranges::all_of(steps, [](double per_unit) { return per_unit <= 0; })) {
+    code = fail(exit_failed, name +
+                                 ": the machine has not reported its steps per millimetre ($100 to $102). It may be "
+                                 "in an alarm: home it first [grbl.locked]");
+    return std::nullopt;
+  }
+  return found;
+}
+
+Judgement judge_on_grbl(const ProgramReader& program, const MachineDescription& machine,
+                        const InterpreterOptions& options, const ProgramCheck& check, const JudgeWatchers& watchers,
+                        const std::function<void(double)>& progress, GrblBoard& board) {
+  GrblMotion motion(program, machine, options, board.limits, board.line, board.zero);
+  Judgement judged = judge(motion, machine, check.nominal_time, watchers, progress);
+  board.forecast = motion.result();
+  return judged;
+}
+
+std::string to_text(const GrblBoard& board) {
+  std::string text = fmt::format("board           {}, {} blocks: {} in all\n", board.firmware, board.limits.blocks,
+                                 clock_words(board.forecast.time));
+  if (board.line.bytes_per_second <= 0) return text;
+  const GrblForecast::Result& forecast = board.forecast;
+  text += fmt::format("connection      {:.0f} baud", board.line.bytes_per_second * bits_per_byte);
+  const Seconds lost = forecast.time - forecast.unhindered;
+  constexpr double noticeable = 0.005;
+  if (lost > noticeable * forecast.time) {
+    text += fmt::format(": too slow for this program, which takes {:.1f} s longer; it carries F{:.0f} at line {}",
+                        lost.value(), forecast.feed_carried.value() * 60, forecast.densest_line);
+  } else {
+    text += ": fast enough";
+  }
+  return text + "\n";
+}
+
+nlohmann::ordered_json as_json(const GrblBoard& board) {
+  nlohmann::ordered_json json = {{"firmware", board.firmware},
+                                 {"blocks", board.limits.blocks},
+                                 {"time_s", board.forecast.time.value()},
+                                 {"bytes_per_second", nullptr},
+                                 {"lost_on_connection_s", (board.forecast.time - board.forecast.unhindered).value()},
+                                 {"feed_carried_mm_min", nullptr},
+                                 {"densest_line", nullptr}};
+  if (board.line.bytes_per_second > 0) json["bytes_per_second"] = board.line.bytes_per_second;
+  if (board.forecast.feed_carried > MmPerSecond(0)) {
+    json["feed_carried_mm_min"] = board.forecast.feed_carried.value() * 60;
+    json["densest_line"] = board.forecast.densest_line;
+  }
+  return json;
+}
+
+}  // namespace passo
