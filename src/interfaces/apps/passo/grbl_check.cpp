@@ -4,10 +4,12 @@
 
 #include "commands.hpp"
 #include "grbl_connection.hpp"
+#include "program_input.hpp"
 #include "run_signals.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/judge/check_page.hpp"
 #include "passo/sender/grbl_motion.hpp"
 #include "passo/transport/board_address.hpp"
 
