@@ -52,14 +52,15 @@ class StepJudge {
   }
 
   // Returns the maximum time to stop from these speeds of the axes, with each axis considered separately: the braking
-  // time; and for each axis that makes a step between these times, the time to reverse and release its acceleration.
+  // time; and for each axis that moves or makes a step between these times, the time to reverse and release its
+  // acceleration. An axis may move by less than a step.
   double braking(const std::vector<double>& speeds, double from, double rested) const {
     double most = 0;
     double longest_rise = 0;
     for (unsigned m = 0; m < machine_.axes.size(); ++m) {
       const AxisDescription& axis = machine_.axes[m];
       most = std::max(most, speeds[m] / axis.acceleration_at(MmPerSecond(speeds[m])).value());
-      if (axis.jerk.value() == 0 || !steps_between(m, from, rested)) continue;
+      if (axis.jerk.value() == 0 || !(speeds[m] > 0 || steps_between(m, from, rested))) continue;
       longest_rise = std::max(longest_rise, axis.acceleration.value() / axis.jerk.value());
     }
     return most + 2.5 * longest_rise;

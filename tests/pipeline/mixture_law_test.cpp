@@ -77,5 +77,18 @@ TEST(MixtureLaw, holds_in_programs_that_once_failed) {
   }
 }
 
+// Stops on bends, with start-stop velocities and a jerk limit on one axis. These programs took 1.65 and 1.28 times the
+// bound when the speed at a stop was that of the guess, and the motion began without acceleration along the path.
+TEST(MixtureLaw, chooses_the_speed_at_a_stop_on_a_bend) {
+  for (const std::uint64_t number : {9200548U, 9500498U}) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    test::Random random = test::Random::of(number);
+    const test::RandomJob job = test::RandomJob::of_any_limits(number, random);
+    const MotionProof proof = test::run(job.program, job.machine, {.live = endless_commitment}).proof;
+    for (const std::string& fault : proof.faults()) ADD_FAILURE() << fault;
+    EXPECT_LT(proof.times_bound(), 1.09);
+  }
+}
+
 }  // namespace
 }  // namespace passo

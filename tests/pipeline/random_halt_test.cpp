@@ -110,10 +110,20 @@ struct Tally {
   }
 };
 
-// Returns what is wrong with the run.
+// Searches for a stop that is a fifth earlier, if the least time leaves room for one.
+void search_sooner_rest(Halt& halt, const MachineDescription& machine, const test::LaidPath& path) {
+  const double took = halt.rested - halt.from;
+  if (halt.least.time < least_halt || took <= most_of_least_rest * halt.least.time) return;
+  test::SoonestRest search(machine.axes, path.pieces());
+  const double found = search.time_from(halt.place, took / most_of_least_rest);
+  if (std::isfinite(found)) halt.sooner = found;
+}
+
+// Returns what is wrong with the run. A late stop on a bend is wrong if the search finds a much earlier one: where a
+// bend uses all of the acceleration, no axis can brake.
 std::vector<std::string> faults_of(const MachineDescription& machine, const test::StepLog::Steps& steps,
-                                   const std::vector<Halt>& halts, const test::PathPlaces& path, std::uint64_t number,
-                                   Tally& tally) {
+                                   std::vector<Halt>& halts, const test::PathPlaces& path, const test::LaidPath& laid,
+                                   std::uint64_t number, Tally& tally) {
   std::vector<std::string> faults;
   std::vector<test::StepJudge::Tail> tails;
   for (const Halt& halt : halts) {
@@ -122,7 +132,7 @@ std::vector<std::string> faults_of(const MachineDescription& machine, const test
   const test::StepJudge judge(machine, steps, std::move(tails));
   if (const auto fault = judge.fault()) faults.push_back(*fault);
   if (const auto fault = path.fault(machine, steps)) faults.push_back(*fault);
-  for (const Halt& halt : halts) {
+  for (Halt& halt : halts) {
     const double rested = judge.last_step_before(halt.rested);
     const double braking = judge.braking(halt.speeds, halt.asked, rested);
     const double late = rested - halt.from - braking;
@@ -131,7 +141,9 @@ std::vector<std::string> faults_of(const MachineDescription& machine, const test
       tally.latest = late;
       tally.latest_number = number;
     }
-    if (late <= soon) continue;
+    const bool is_on_bend = halt.least.time > 0 && !halt.least.is_on_line;
+    if (test::prints_rows() || late > soon) search_sooner_rest(halt, machine, laid);
+    if (late <= soon || (is_on_bend && halt.sooner == 0)) continue;
     faults.push_back(fmt::format("{} from {:.4f} s on, with a braking time of {:.4f} s, rests at {:.4f} s", halt.what,
                                  halt.from, braking, rested));
   }
@@ -222,17 +234,6 @@ struct HaltedRun {
   std::vector<std::string> faults;
 };
 
-// Searches for a stop that is a fifth earlier, if the least time leaves room for one.
-void search_sooner_rests(std::vector<Halt>& halts, const MachineDescription& machine, const test::LaidPath& path) {
-  for (Halt& halt : halts) {
-    const double took = halt.rested - halt.from;
-    if (halt.least.time < least_halt || took <= most_of_least_rest * halt.least.time) continue;
-    test::SoonestRest search(machine.axes, path.pieces());
-    const double found = search.time_from(halt.place, took / most_of_least_rest);
-    if (std::isfinite(found)) halt.sooner = found;
-  }
-}
-
 HaltedRun act_at_random(std::uint64_t number, const test::RandomJob& job, test::Random& random, Tally& tally) {
   Diagnostics diagnostics;
   test::DrivenProgram running(ProgramReader::from_text("t", job.program), job.machine, InterpreterOptions(),
@@ -248,8 +249,7 @@ HaltedRun act_at_random(std::uint64_t number, const test::RandomJob& job, test::
   acts.end();
   HaltedRun run{.halts = acts.halts(), .faults = {}};
   std::erase_if(run.halts, [](const Halt& halt) { return halt.rested == 0; });  // taken back, or at the program's end
-  run.faults = faults_of(job.machine, log.steps, run.halts, path, number, tally);
-  if (test::prints_rows()) search_sooner_rests(run.halts, job.machine, speeds.path());
+  run.faults = faults_of(job.machine, log.steps, run.halts, path, speeds.path(), number, tally);
   if (diagnostics.any_error()) run.faults.push_back(render(diagnostics, false));
   if (running.link().error()) run.faults.push_back("the link failed");
   return run;
@@ -289,7 +289,8 @@ HaltedRun cut_at_random(std::uint64_t number, test::RandomJob job, test::Random&
                      .speeds = speeds.in_the_last(committed.value())});
     ++tally.cuts;
   }
-  HaltedRun run{.halts = halts, .faults = faults_of(job.machine, log.steps, halts, path, number, tally)};
+  HaltedRun run{.halts = std::move(halts), .faults = {}};
+  run.faults = faults_of(job.machine, log.steps, run.halts, path, speeds.path(), number, tally);
   if (diagnostics.any_error()) run.faults.push_back(render(diagnostics, false));
   if (running.link().error()) run.faults.push_back("the link failed");
   return run;
@@ -361,7 +362,8 @@ void hold_program_at(const MachineDescription& machine, const std::string& progr
   }
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
   Tally tally;
-  for (const std::string& fault : faults_of(machine, log.steps, halts, path, 0, tally)) ADD_FAILURE() << fault;
+  for (const std::string& fault : faults_of(machine, log.steps, halts, path, speeds.path(), 0, tally))
+    ADD_FAILURE() << fault;
 }
 
 // X turns back with 5 mm of backlash, which takes 0.7 s. A hold meanwhile was obeyed after that.

@@ -38,9 +38,15 @@ double short_of(double back) {
 void JerkOptimizer::set_up(const Stretch& stretch, std::size_t first, std::size_t last,
                            const std::vector<NodeState>& states) {
   tied_first_ = tied_last_ = {};
-  if (states[first].speed == 0) tied_first_ = {.node = 1, .factor = 2 / (3 * stretch.cells[first].length)};
+  if (states[first].speed == 0) {
+    tied_first_ = {.node = 1, .factor = 2 / (3 * stretch.cells[first].length), .holds = true};
+  } else if (stretch.begins.square > 0) {
+    tied_first_ = {.node = 0, .factor = stretch.begins.bend, .holds = true};
+  }
   if (states[last].speed == 0) {
-    tied_last_ = {.node = last - first - 1, .factor = -2 / (3 * stretch.cells[last - 1].length)};
+    tied_last_ = {.node = last - first - 1, .factor = -2 / (3 * stretch.cells[last - 1].length), .holds = true};
+  } else if (stretch.ends.square > 0) {
+    tied_last_ = {.node = last - first, .factor = stretch.ends.bend, .holds = true};
   }
   at_.clear();
   for (std::size_t k = first; k <= last; ++k) {
@@ -48,7 +54,7 @@ void JerkOptimizer::set_up(const Stretch& stretch, std::size_t first, std::size_
     at_.push_back(states[k].acceleration);
   }
   for (const Tie& tied : {tied_first_, tied_last_}) {
-    if (tied.factor != 0) at_[2 * tied.node + 1] = tied.factor * at_[2 * tied.node];
+    if (tied.holds) at_[2 * tied.node + 1] = tied.factor * at_[2 * tied.node];
   }
   make_passable(stretch, first);
   make_rows(stretch, first, last);
@@ -72,9 +78,7 @@ void JerkOptimizer::make_passable(const Stretch& stretch, std::size_t first) {
   while (cell + 1 < nodes && is_passable(cell)) ++cell;
   if (cell + 1 == nodes) return;
   for (std::size_t node = 1; node + 1 < nodes; ++node) {
-    const bool is_tied =
-        (tied_first_.factor != 0 && node == tied_first_.node) || (tied_last_.factor != 0 && node == tied_last_.node);
-    if (!is_tied) at_[2 * node + 1] = std::clamp(at_[2 * node + 1], -most(node), most(node - 1));
+    if (!is_tied(node)) at_[2 * node + 1] = std::clamp(at_[2 * node + 1], -most(node), most(node - 1));
   }
 }
 
@@ -207,16 +211,16 @@ void JerkOptimizer::assemble(double target) {
   }
 }
 
-// Solves for the numbers that move: all but the first two and the last two.
 void JerkOptimizer::solve() {
-  const std::size_t end = at_.size() - 2;
+  const std::size_t begin = first_moved();
+  const std::size_t end = last_moved();
   for (const Tie& tied : {tied_first_, tied_last_}) {
-    if (tied.factor != 0) system_[2 * tied.node + 1][0] = 1;
+    if (tied.holds) system_[2 * tied.node + 1][0] = 1;
   }
   for (std::size_t i = std::max<std::size_t>(end, 5) - 3; i < end; ++i) {
     for (std::size_t k = end - i; k < 4; ++k) system_[i][k] = 0;
   }
-  for (std::size_t i = 2; i < end; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     Four& own = system_[i];
     const double by = 1 / own[0];
     const Four factor = {0, own[1] * by, own[2] * by, own[3] * by};
@@ -228,8 +232,8 @@ void JerkOptimizer::solve() {
     own = factor;
   }
   for (std::size_t i = end; i < step_.size(); ++i) step_[i] = 0;
-  step_[0] = step_[1] = 0;
-  for (std::size_t i = end; i-- > 2;) {
+  for (std::size_t i = 0; i < begin; ++i) step_[i] = 0;
+  for (std::size_t i = end; i-- > begin;) {
     step_[i] -= system_[i][1] * step_[i + 1] + system_[i][2] * step_[i + 2] + system_[i][3] * step_[i + 3];
   }
   tie_step(tied_first_);
@@ -237,7 +241,7 @@ void JerkOptimizer::solve() {
 }
 
 void JerkOptimizer::tie_step(const Tie& tied) {
-  if (tied.factor != 0) step_[2 * tied.node + 1] = tied.factor * step_[2 * tied.node];
+  if (tied.holds) step_[2 * tied.node + 1] = tied.factor * step_[2 * tied.node];
 }
 
 // Finds how slacks and prices change with the step, and the shares of these changes that may be made.
@@ -321,14 +325,14 @@ bool JerkOptimizer::raise(const Stretch& stretch, std::size_t first, std::size_t
     solve();
     const Reach reach = reach_along(target);
     if (!(reach.share > least_share)) break;
-    for (std::size_t i = 2; i + 2 < at_.size(); ++i) at_[i] += reach.share * step_[i];
+    for (std::size_t i = first_moved(); i < last_moved(); ++i) at_[i] += reach.share * step_[i];
     if (step % steps_with_rows == steps_with_rows - 1) make_rows(stretch, first, last);
     const double product = go(reach);
     if (target <= last_target * unit && reach.share > 0.5) break;
     target = std::max(product * (1 - reach.share * (1 - target_falls)), last_target * unit);
   }
   if (!is_allowed()) return false;
-  for (std::size_t k = first + 1; k < last; ++k) {
+  for (std::size_t k = begins_free() ? first : first + 1; k < (ends_free() ? last + 1 : last); ++k) {
     states[k] = {.speed = std::sqrt(at_[2 * (k - first)]), .acceleration = at_[2 * (k - first) + 1]};
   }
   return true;

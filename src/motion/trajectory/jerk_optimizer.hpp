@@ -33,16 +33,23 @@ class JerkOptimizer {
  public:
   explicit JerkOptimizer(const std::vector<LimitedAxis>& axes) : axes_(axes) {}
 
+  // A stop that the motion may leave, or reach, at any x up to `square`, with the acceleration `bend` x.
+  struct Stop {
+    double square = 0;  // 0: the speed at the stop is 0
+    double bend = 0;
+  };
   struct Stretch {
     const std::vector<JerkCell>& cells;
     const std::vector<AxisShape>& shapes;  // for each cell, one per axis
     const std::vector<double>& share;      // fraction of the limits to use, for each cell
     const std::vector<double>& cap;        // the maximum squared speeds, for each cell
     const std::vector<double>& node_cap;   // and for each node
+    Stop begins = {};                      // the stop at `first`
+    Stop ends = {};                        // and that at `last`
   };
-  // Optimises the motion between the nodes `first` and `last`, which stay unchanged. Each of them may be a stop; at all
-  // nodes in between the speed must be above 0. In the cell next to a stop the jerk is constant. Returns false and
-  // changes nothing if no feasible motion was found.
+  // Optimises the motion between the nodes `first` and `last`, which stay unchanged, except at a stop with a speed. If
+  // the speed is 0 at one of them, the jerk is constant in the cell next to it; at all other nodes the speed must be
+  // above 0. Returns false and changes nothing if no feasible motion was found.
   [[nodiscard]] bool raise(const Stretch& stretch, std::size_t first, std::size_t last, std::vector<NodeState>& states);
 
  private:
@@ -94,12 +101,21 @@ class JerkOptimizer {
     bool has_rest() const { return pace_count == 0; }
     const Pace& pace(At place) const { return paces[static_cast<std::size_t>(place)]; }
   };
-  // Next to a stop the acceleration at the cell's other node follows from the speed there: a = factor x. So a is not a
-  // separate unknown.
+  // At a stop with a speed, and at the node next to a stop without, the acceleration follows from the speed: a =
+  // factor x. So a is not a separate unknown.
   struct Tie {
     std::size_t node = 0;
-    double factor = 0;  // 0: there is no stop
+    double factor = 0;
+    bool holds = false;
   };
+  bool is_tied(std::size_t node) const {
+    return (tied_first_.holds && node == tied_first_.node) || (tied_last_.holds && node == tied_last_.node);
+  }
+  bool begins_free() const { return tied_first_.holds && tied_first_.node == 0; }
+  bool ends_free() const { return tied_last_.holds && 2 * tied_last_.node + 2 == at_.size(); }
+  // The numbers that move.
+  std::size_t first_moved() const { return begins_free() ? 0 : 2; }
+  std::size_t last_moved() const { return at_.size() - (ends_free() ? 0 : 2); }
   void tie(Four& along) const;
   void tie_step(const Tie& tied);
 
@@ -115,6 +131,7 @@ class JerkOptimizer {
     double cap = 0;  // the maximum x
   };
   void add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place);
+  void add_stop_row(const Four& x, const Stop& stop, double share);
   void add_straight_rows(const JerkCell& cell, double share, double in_share);
   void add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins);
   double highest_beside_rest(const Stretch& stretch, std::size_t cell, bool begins) const;

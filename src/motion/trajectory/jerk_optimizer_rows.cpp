@@ -42,11 +42,10 @@ constexpr std::array<double, 4> x_out = {0, 0, 1, 0};
 
 // From rest with jerk j the motion is at h = j t³/6 with v = j t²/2 and a = j t. So a = 2 x / 3 h.
 void JerkOptimizer::tie(Four& along) const {
-  if (cell_ == tied_first_.node && tied_first_.factor != 0) {
-    along[0] += tied_first_.factor * std::exchange(along[1], 0);
-  }
-  if (cell_ + 1 == tied_last_.node && tied_last_.factor != 0) {
-    along[2] += tied_last_.factor * std::exchange(along[3], 0);
+  for (const Tie& tied : {tied_first_, tied_last_}) {
+    if (!tied.holds) continue;
+    if (cell_ == tied.node) along[0] += tied.factor * std::exchange(along[1], 0);
+    if (cell_ + 1 == tied.node) along[2] += tied.factor * std::exchange(along[3], 0);
   }
 }
 
@@ -110,6 +109,11 @@ void JerkOptimizer::add_cell_at_rest(const Stretch& stretch, std::size_t cell, b
   const std::size_t node = begins ? cell + 1 : cell;
   const double cap = std::min(stretch.node_cap[node], highest_beside_rest(stretch, cell, begins)) / 2;
   add_tied_row({.along = begins ? x_out : x_in, .offset = cap, .limit = cap});
+}
+
+void JerkOptimizer::add_stop_row(const Four& x, const Stop& stop, double share) {
+  const double cap = stop.square * share / 2;
+  add_tied_row({.along = x, .offset = cap, .limit = cap});
 }
 
 void JerkOptimizer::add_straight_rows(const JerkCell& cell, double share, double in_share) {
@@ -266,6 +270,8 @@ void JerkOptimizer::add_cell(const Stretch& stretch, std::size_t cell) {
     add_cell_at_rest(stretch, cell, begins);
   } else {
     add_rows(stretch, cell, cell_ == 0);
+    if (begins_free() && cell_ == 0) add_stop_row(x_in, stretch.begins, stretch.share[cell]);
+    if (ends_free() && cell_ + 1 == tied_last_.node) add_stop_row(x_out, stretch.ends, stretch.share[cell]);
     Four middle = Forms(h).middle_x;
     tie(middle);
     const std::array<Four, 5> squares = {x_in, middle, x_out, sum(x_in, outer_part, middle, 1 - outer_part),

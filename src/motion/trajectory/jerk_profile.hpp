@@ -72,6 +72,7 @@ class JerkProfile {
 
  private:
   static constexpr std::size_t fewest_cells = 4;
+  static constexpr double planned_velocity = 0.9999;  // a share of the limits
 
   struct Excess {  // as multiples of the limits
     double force = 0;
@@ -95,7 +96,7 @@ class JerkProfile {
   double acceleration_at(std::size_t cell, double x) const;
   double passing_cap(std::size_t node) const;
   double constant_speed_cap(std::size_t node) const;
-  double stop_cap(std::size_t cell, bool begins) const;
+  JerkOptimizer::Stop stop_at(bool begins) const;
   void prepare();
   void split(std::size_t i);
   void even_out();
@@ -103,7 +104,6 @@ class JerkProfile {
   bool split_coarse();
   void guess(double share, double growth);
   double most_at_start() const;
-  double most_at_end() const;
   void guess_from(std::size_t node, bool backwards, double growth);
   void begin_with_guess();
   double duration(std::size_t i) const;

@@ -165,8 +165,8 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
   return strength;
 }
 
-// The speed from which the motors may stop at once at that place. The acceleration of no axis with a jerk limit jumps
-// there where the path bends, and no axis exceeds a limit, as at the stops of the path (JerkProfile::stop_cap).
+// The speed from which the motors may stop at once at that place, without acceleration along the path. The acceleration
+// of no axis with a jerk limit jumps there where the path bends, and no axis exceeds a limit.
 double SpeedChange::stop_speed(PathAhead& path, const PathState& at, const Request& request) {
   const Segment* const segment = request.stops != nullptr ? path.at(at.segment) : nullptr;
   if (segment == nullptr) return 0;
