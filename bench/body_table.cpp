@@ -251,6 +251,14 @@ struct Use {
   bool is_good = false;
 };
 
+double peak_kib(const std::string& status) {
+  std::ifstream file(status);
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6));
+  }
+  return 0;
+}
+
 // Runs a command, without its output.
 Use used_by(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
@@ -263,14 +271,21 @@ Use used_by(const std::vector<std::string>& words) {
     execv(arguments.front(), arguments.data());
     _exit(127);
   }
+  if (child < 0) return {};
+  // The child's usage counts what this process had in memory when it was forked, so its own peak is read while it runs.
+  const std::string of_child = "/proc/" + std::to_string(child) + "/status";
+  double most_kib = 0;
   int status = 0;
   rusage usage{};
-  if (child < 0 || wait4(child, &status, 0, &usage) != child) return {};
+  for (pid_t ended = 0; ended == 0; ended = wait4(child, &status, WNOHANG, &usage)) {
+    usleep(1000);
+    most_kib = std::max(most_kib, peak_kib(of_child));
+  }
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
   };
   return {.seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime),
-          .mib = static_cast<double>(usage.ru_maxrss) / 1024,
+          .mib = most_kib / 1024,
           .is_good = WIFEXITED(status) && WEXITSTATUS(status) == 0};
 }
 
@@ -311,7 +326,7 @@ bool measure(const Body& body, const std::string& passo, const std::filesystem::
   for (const std::string& word : words_of(body.options)) command.push_back(word);
   const Use use = used_by(command);
   if (!use.is_good) {
-    std::printf("| %s | failed | | | |\n", body.name);
+    std::printf("| %s | %s | failed | | |\n", body.name, body.options);
     return false;
   }
   std::ifstream file(program, std::ios::binary);
