@@ -2,6 +2,7 @@
 #include "kit/command_line.hpp"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -162,6 +163,11 @@ TEST_F(CamRelief, both_sides_of_a_model_are_carved_with_dowel_holes_and_instruct
   const Outcome second = passo("simulate " + job + "/3-bottom.ngc" + tools + write("b.stl", stl_of(bottom)));
   EXPECT_EQ(second.code, 0) << second.err;
 
+  EXPECT_EQ(relief(part + options + " --pins 0").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(job + "/1-top.ngc"));
+  EXPECT_FALSE(std::filesystem::exists(job + "/1-dowels.ngc")) << "of the former job";
+  EXPECT_FALSE(std::filesystem::exists(job + "/3-bottom.ngc"));
+
   const auto refused = [&](const std::string& arguments, const char* words) {
     const Outcome outcome = relief(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
@@ -170,8 +176,37 @@ TEST_F(CamRelief, both_sides_of_a_model_are_carved_with_dowel_holes_and_instruct
   refused(part + " --two-sided y", "--two-sided: expected --output FOLDER");
   refused(part + " --mirror" + options, "--two-sided: cannot be combined with --mirror");
   refused(part + " --tab-height 5" + options, "a lower --tab-height");
-  refused(part + " --parting -0.5 --tab-height 1" + options, "only 0 tabs would hold the part");
+  refused(part + " --parting -0.5 --tab-height 1" + options, "no tab would hold the part");
   refused(flower + options, "has no other side");
+}
+
+// Each note and warning on standard error is in the summary too.
+TEST_F(CamRelief, a_summary_as_json_has_all_notes_and_warnings) {
+  std::string pyramid = "solid part\n";
+  const char* const corners[] = {"-10 -8 0", "10 -8 0", "10 8 0", "-10 8 0"};
+  const auto facet = [&](const char* a, const char* b, const char* c) {
+    pyramid += fmt::format("facet normal 0 0 0\nouter loop\nvertex {}\nvertex {}\nvertex {}\nendloop\nendfacet\n", a, b, c);
+  };
+  for (int i = 0; i < 4; ++i) facet(corners[i], corners[(i + 1) % 4], "0 0 12");
+  facet(corners[0], corners[2], corners[1]);
+  facet(corners[0], corners[3], corners[2]);
+  const std::string part = write("pyramid.stl", pyramid + "endsolid part\n");
+  const std::string coarse = " --cutter ball:3 --pitch 0.2 --scallop 0.2 ";
+  const Outcome sides = relief(part + coarse + "--two-sided x --tab-height 1 --json -o " + path("job"));
+  EXPECT_EQ(sides.code, 0) << sides.err;
+  const nlohmann::json both = nlohmann::json::parse(sides.out);
+  EXPECT_EQ(both["tabs"], 4);
+  EXPECT_EQ(both["sides"][1]["program"], "3-bottom.ngc");
+  ASSERT_EQ(both["notes"].size(), 2U) << sides.err;
+  for (const std::string words : both["notes"]) EXPECT_THAT(sides.err, HasSubstr(words));
+
+  const Outcome one = relief(part + coarse + "--json -o " + path("p.ngc"));
+  EXPECT_EQ(one.code, 0) << one.err;
+  const nlohmann::json summary = nlohmann::json::parse(one.out);
+  EXPECT_EQ(summary["passes"][0]["what"], "finishing");
+  EXPECT_GT(summary["passes"][0]["moves"], 20);
+  EXPECT_FALSE(summary.contains("warnings"));
+  EXPECT_THAT(relief(part + coarse + "--json").err, HasSubstr("the program needs --output FILE"));
 }
 
 TEST_F(CamRelief, a_model_is_turned_and_has_a_unit) {

@@ -11,6 +11,7 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
        are_needed},
       output_row(a.output),
       picture_row(a.picture, "picture of holes, tools and rapids (FILE.svg or FILE.png)"),
+      {"json", &a.json, flag, "print a summary as JSON; needs --output", {.matters_to = cli, .is_of_job = true}},
       units_row(a.units),
       input_row(a.input, "unit of the numbers in the files: mm, cm or inch (default: as the files declare)"),
       scale_row(a.scale),

@@ -206,6 +206,7 @@ std::vector<CamOption> cam_options_of(CamReliefArguments& a) {
         {.is_required = true, .most_files = 1}},
        output_row(a.output),
        picture_row(a.picture, "picture of the finished surface (FILE.png)"),
+       {"json", &a.json, flag, "print a summary as JSON; needs --output", {.matters_to = cli, .is_of_job = true}},
        {"units",
         &a.units,
         choice,

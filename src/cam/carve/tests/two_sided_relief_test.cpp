@@ -52,6 +52,17 @@ Faces hat() {
   return lens([](double share) { return share < 0.65 ? high - share : 1.5; }, [](double) { return 0.0; });
 }
 
+// Its edge is as thin as a knife, halfway up.
+Faces egg() {
+  const auto high_at = [](double share) { return std::sqrt(1 - share * share) * high / 2; };
+  return lens([&](double share) { return high / 2 + high_at(share); },
+              [&](double share) { return high / 2 - high_at(share); });
+}
+// Its edge is at the bottom.
+Faces cone() {
+  return lens([](double share) { return high * (1 - share); }, [](double) { return 0.0; });
+}
+
 Faces flipped(Faces faces, StockFlip flip) {
   for (SurfaceTriangle& face : faces) {
     for (SurfacePoint& p : face) {
@@ -157,6 +168,55 @@ TEST(TwoSidedRelief, cuts_the_part_free_except_at_its_tabs) {
     EXPECT_LE(left(wide - 0.2, deep - 0.2), 0);
     EXPECT_NEAR(left(wide / 2, deep / 2), high, 0.1);
   }
+}
+
+// How much material is left above the body at a place, after the program of the side that is up, mm.
+double left_above(const Faces& body, const OracleStock& stock, double x, double y) {
+  return high + stock.at(x, y) - Surface(body).top(x, y);
+}
+
+TEST(TwoSidedRelief, holds_parts_whose_edge_is_thinner_than_the_tabs) {
+  for (const StockFlip flip : {StockFlip::left_to_right, StockFlip::front_to_back}) {
+    const Faces body = flip == StockFlip::left_to_right ? egg() : cone();
+    const SplitRelief sides = split(body, {.flip = flip, .trench = Mm(3.2), .tab_height = Mm(1), .tab_width = Mm(2)});
+    EXPECT_EQ(sides.tabs, 4U);
+    EXPECT_GT(sides.on_part, Mm(0));
+    EXPECT_LT(sides.on_part, Mm(2.5));
+    const std::string top = written(sides.top, side_options(sides)).text;
+    const std::string bottom = written(sides.bottom, side_options(sides)).text;
+    EXPECT_LE(deepest(body, top), 1e-3);
+    EXPECT_LE(deepest(flipped(body, flip), bottom), 1e-3);
+    const OracleStock from_top = stock_of(top);
+    const OracleStock from_bottom = stock_of(bottom);
+    const bool is_x = flip == StockFlip::left_to_right;
+    const auto left = [&](double x, double y) {
+      return high + from_top.at(x, y) + from_bottom.at(is_x ? wide - x : x, is_x ? y : deep - y);
+    };
+    // The tab is as thick from the frame to where the part is.
+    for (double x = wide + 1.6; x >= wide - 1; x -= 0.1) EXPECT_GE(left(x, deep / 2), 0.9) << x;
+    EXPECT_LE(left(wide + 1.6, deep / 2 + 3), 0) << "beside the tab, the part is free";
+    // Away from the tabs both sides are carved to the edge. The heights are those of cells on a slope.
+    for (double share = 0; share < 0.96; share += 0.05) {
+      const double x = wide / 2 * (1 + share * std::sqrt(0.5));
+      const double y = deep / 2 * (1 + share * std::sqrt(0.5));
+      EXPECT_LE(left_above(body, from_top, x, y), 0.45) << share;
+      EXPECT_LE(left_above(flipped(body, flip), from_bottom, x, y), 0.45) << share;
+    }
+  }
+}
+
+TEST(TwoSidedRelief, puts_the_tabs_of_a_thin_edge_where_they_hide_nothing_of_the_top) {
+  const SplitOptions options{.trench = Mm(3), .tab_height = Mm(1), .tab_width = Mm(2)};
+  const SplitRelief of_egg = split(egg(), options);
+  EXPECT_TRUE(of_egg.has_web);
+  EXPECT_NEAR(of_egg.parting.value(), high / 2 + 0.5, 0.4) << "below the edge";
+  const SplitRelief of_cone = split(cone(), options);
+  EXPECT_FALSE(of_cone.has_web) << "there is no room below the edge";
+  EXPECT_NEAR(of_cone.parting.value(), high - 0.5, 0.1);
+  const SplitRelief of_funnel = split(flipped(cone(), StockFlip::left_to_right), options);
+  EXPECT_TRUE(of_funnel.has_web);
+  EXPECT_EQ(of_funnel.tabs, 4U);
+  EXPECT_NEAR(of_funnel.parting.value(), 0.6, 0.1) << "a little below the top, so that the bottom is cut through it";
 }
 
 TEST(TwoSidedRelief, puts_the_web_where_the_edge_is) {

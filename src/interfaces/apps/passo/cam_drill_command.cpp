@@ -5,11 +5,13 @@
 
 #include "cam_job.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include "commands.hpp"
 #include "length_arguments.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "passo/cam/drawing_file.hpp"
 #include "passo/cam/drill_plan.hpp"
@@ -122,6 +124,18 @@ std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& pl
   return text;
 }
 
+std::string json_of(const DrillPlan& plan) {
+  nlohmann::ordered_json tools = nlohmann::ordered_json::array();
+  for (const DrillTool& tool : plan.tools) {
+    tools.push_back({{"kind", tool.is_mill ? "mill" : "drill"},
+                     {"diameter_mm", to_mm(tool.diameter).value()},
+                     {"holes", tool.holes},
+                     {"slots", tool.slots},
+                     {"rapids_mm", tool.rapids_after_nm / nanometres_per_mm}});
+  }
+  return nlohmann::ordered_json{{"tools", std::move(tools)}}.dump(2);
+}
+
 // Adds the holes of --align, turns the board over, and moves it to its zero.
 void place(std::vector<Drawing>& drawings, const DrillJob& job) {
   const auto turn = [&](Drawing& drawing) { mirror_drawing(drawing, job.mirror); };
@@ -159,6 +173,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;
+  if (!has_room_for_json(arguments.json, arguments.output)) return exit_bad_program;
   const Result<DrillJob, std::string> job = job_of(arguments);
   if (!job) return fail(exit_bad_program, job.error());
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
@@ -190,7 +205,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
   if (format) {
     if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
   }
-  if (arguments.in_job) show(findings, listed(arguments.files));
+  show(findings, listed(arguments.files));
   const std::string words = summary_of(drawings, plan, arguments);
   progress.update(1);
   if (made != nullptr) {
@@ -198,6 +213,8 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
       made->tools.push_back(fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", to_mm(tool.diameter).value()));
     }
     made->summary = words;
+  } else if (arguments.json) {
+    say(with_warnings(json_of(plan), arguments) + "\n");
   } else if (!arguments.output.empty() && arguments.output != "-") {
     say(words);
   }

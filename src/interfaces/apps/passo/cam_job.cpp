@@ -144,7 +144,11 @@ bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge
     fail(exit_bad_program, why);
     return false;
   }
-  const bool has_no_room = arguments.json && (arguments.output.empty() || arguments.output == "-");
+  return has_room_for_json(arguments.json, arguments.output);
+}
+
+bool has_room_for_json(bool json, const std::string& output) {
+  const bool has_no_room = json && (output.empty() || output == "-");
   if (has_no_room) fail(exit_bad_program, "--json writes to standard output, so the program needs --output FILE");
   return !has_no_room;
 }

@@ -69,6 +69,8 @@ OutlineOptions outline_options_of(const CamOutlineArguments& arguments, const Mi
 
 // Checks that all files are different, and that --picture is a picture. Shows a message if not.
 bool outputs_are_good(const CamMillArguments& arguments, const std::string& edge);
+// Checks that a summary as JSON does not go where the program goes. Shows a message if it does.
+bool has_room_for_json(bool json, const std::string& output);
 
 // Joins the file names for a finding about all of them: "front.svg, back.svg".
 std::string listed(const std::vector<std::string>& files);

@@ -7,6 +7,7 @@
 #include "cam_tools.hpp"
 #include "command_table.hpp"
 #include "number_range.hpp"
+#include "program_input.hpp"
 #include "progress_display.hpp"
 #include <CLI/CLI.hpp>
 
@@ -112,6 +113,7 @@ std::function<int()> with_tools(CLI::App& command) {
   const auto arguments = std::make_shared<Arguments>();
   add_cam_options(command, *arguments);
   return [arguments, &command] {
+    const RecordedMessages shown_ones;
     const int code = use_tools(*arguments, [&](const char* option) { return command.count(option) > 0; });
     return code == exit_done ? run_with_progress(*arguments, run) : code;
   };
@@ -124,6 +126,7 @@ std::function<int()> remembered_of(CLI::App& command) {
   add_cam_options(command, (*all).*part);
   add_remember_options(command, *all);
   return [all, &command] {
+    const RecordedMessages shown_ones;
     if (const int code = use_remembered(command, *all); code != exit_done) return code;
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype((*all).*part)>, CamDrillArguments>) {
       const int code = use_tools((*all).*part, [&](const char* option) { return command.count(option) > 0; });

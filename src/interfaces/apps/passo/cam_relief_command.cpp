@@ -4,9 +4,11 @@
 #include "cam_job.hpp"
 #include "cam_program.hpp"
 #include "cam_relief_job.hpp"
+#include "cam_tools.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
+#include <nlohmann/json.hpp>
 
 #include "passo/report/output_file.hpp"
 
@@ -22,6 +24,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
   files.writes("--output", arguments.output);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;
+  if (!has_room_for_json(arguments.json, arguments.output)) return exit_bad_program;
   ReliefReading reading(*mm_of_unit(arguments.units));
   ReliefJob job = relief_job_of(arguments, reading);
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
@@ -70,7 +73,16 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
     if (const int code = write_text(arguments.picture, picture); code != exit_done) return code;
   }
   progress.update(1);
-  if (!arguments.output.empty() && arguments.output != "-") {
+  if (arguments.json) {
+    const nlohmann::ordered_json json = {{"input", read->words},
+                                         {"width_mm", read->grid.width().value()},
+                                         {"length_mm", read->grid.length().value()},
+                                         {"depth_mm", 0.0 - static_cast<double>(floor_of(read->grid))},
+                                         {"columns", read->grid.columns},
+                                         {"rows", read->grid.rows},
+                                         {"passes", json_of(report)}};
+    say(with_warnings(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace), arguments) + "\n");
+  } else if (!arguments.output.empty() && arguments.output != "-") {
     say(fmt::format("{}: {}\n{}\n{}", arguments.file, read->words, grid_words(read->grid), summary_of(report)));
   }
   return exit_done;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "program_input.hpp"
+#include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
 #include "passo/cam/drawing_file.hpp"
@@ -387,6 +388,22 @@ std::string summary_of(const ReliefReport& report) {
         minutes_words(part.minutes), part.removal > 0 ? fmt::format(", at most {:.0f} mm3/min", part.removal) : "");
   }
   return text;
+}
+
+nlohmann::ordered_json json_of(const ReliefReport& report) {
+  nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+  for (const ReliefPart& part : report.parts) {
+    passes.push_back({{"what", part.what},
+                      {"tool", part.tool},
+                      {"step_mm", part.step.value()},
+                      {"moves", part.moves},
+                      {"arcs", part.arcs},
+                      {"feeds_mm", part.cut.value()},
+                      {"rapids_mm", part.rapid.value()},
+                      {"time_s", part.minutes * 60}});
+    if (part.removal > 0) passes.back()["removal_mm3_min"] = part.removal;
+  }
+  return passes;
 }
 
 }  // namespace passo

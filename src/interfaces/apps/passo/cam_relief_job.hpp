@@ -9,6 +9,7 @@
 #include "cam_commands.hpp"
 #include "length_argument.hpp"
 #include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
 
 #include "passo/carve/relief_program.hpp"
 #include "passo/carve/relief_surface.hpp"
@@ -106,6 +107,8 @@ bool meet(const std::vector<std::vector<ReliefPoint>>& curves, const HeightGrid&
 std::string grid_words(const HeightGrid& grid);
 // One line for each cutter.
 std::string summary_of(const ReliefReport& report);
+// An object for each cutter.
+nlohmann::ordered_json json_of(const ReliefReport& report);
 
 // The programs of both sides, for --two-sided.
 int cam_relief_sides(const CamReliefArguments& arguments, const WorkProgress& progress);

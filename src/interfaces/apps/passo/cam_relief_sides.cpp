@@ -10,9 +10,12 @@
 #include "cam_job.hpp"
 #include "cam_program.hpp"
 #include "cam_relief_job.hpp"
+#include "cam_tools.hpp"
 #include "progress_display.hpp"
 #include "unfinished_job.hpp"
+#include <nlohmann/json.hpp>
 
+#include "passo/base/counted.hpp"
 #include "passo/carve/two_sided_relief.hpp"
 #include "passo/report/flip_picture.hpp"
 
@@ -97,6 +100,8 @@ class SidesMaker {
   std::optional<SplitRelief> read(ReliefReading& reading, Diagnostics& findings);
   int write_all(const WorkProgress& progress);
   void put_stock(const std::string& name);
+  void note_edge() const;
+  std::string as_json() const;
   int drill(const WorkProgress& progress);
   int carve(const HeightGrid& grid, const char* name, BoardStep step, const WorkProgress& progress);
   int flip();
@@ -115,6 +120,7 @@ class SidesMaker {
   Mm drill_{};
   SplitRelief split_;
   BoardPage page_;
+  nlohmann::ordered_json json_ = nlohmann::ordered_json::array();  // the programs of both sides
   std::string words_;
   Mm x0_{};  // of the part's lower left corner
   Mm y0_{};
@@ -148,8 +154,12 @@ std::optional<SplitRelief> SidesMaker::read(ReliefReading& reading, Diagnostics&
   y0_ = job_.program.y0;
   SplitRelief split = split_relief(top->grid, bottom->grid, top->high, options_);
   if (split.tabs < 2 && options_.tab_width.value() > 0) {
-    return refuse(fmt::format("only {} tabs would hold the part", split.tabs),
-                  "a lower --tab-height or --tab-width; --tab-width 0 leaves the web around the part");
+    return refuse(fmt::format("{} would hold the part: on the other sides, its edge is nowhere {:.4g} mm thick along "
+                              "{:.4g} mm, at Z{:.4g}",
+                              split.tabs == 0 ? "no tab" : "only one tab", options_.tab_height.value(),
+                              options_.tab_width.value(), -split.parting.value()),
+                  "a lower --tab-height or --tab-width, or another --parting; --tab-width 0 leaves the web around the "
+                  "part");
   }
   return split;
 }
@@ -182,8 +192,29 @@ void SidesMaker::put_stock(const std::string& name) {
            "Z0 is the upper face of the stock."}});
 }
 
+// The edge of the part is not everywhere as the web and the tabs need it.
+void SidesMaker::note_edge() const {
+  constexpr double much = 0.02;
+  if (options_.tab_width.value() <= 0) {
+    if (split_.hidden > much) {
+      note(fmt::format("the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters "
+                       "may not reach all of the part",
+                       split_.parting.value(), split_.hidden * 100));
+    }
+    return;
+  }
+  if (!split_.has_web) {
+    note("a web would hide some of the part's edge: the top, too, is cut through around the part, except at the tabs");
+  }
+  if (split_.on_part > Mm(0)) {
+    note(fmt::format("the part's edge is thinner than the tabs, which reach up to {:.2g} mm onto the part",
+                     split_.on_part.value()));
+  }
+}
+
 void SidesMaker::tell(const BoardStep& step) const {
   ProgressDisplay::clear_shown();
+  if (arguments_.json) return;
   say(fmt::format("{}: {}\n{}", step.program, step.title, step.figures));
 }
 
@@ -240,6 +271,7 @@ int SidesMaker::carve(const HeightGrid& grid, const char* name, BoardStep step, 
     if (part.step.value() > 0) step.tools.push_back(part.tool);
   }
   step.figures = summary_of(report);
+  json_.push_back({{"program", step.program}, {"passes", json_of(report)}});
   step.photo = draw_carved(report.carved, grid.pitch_x, grid.pitch_y);
   const std::string picture = fs::path(step.program).replace_extension(".png").string();
   if (const int code = write_text(path(picture), step.photo); code != exit_done) return code;
@@ -292,8 +324,9 @@ int SidesMaker::flip() {
 int SidesMaker::write_all(const WorkProgress& progress) {
   if (const int code = drill(progress.part(0, 0.05)); code != exit_done) return code;
   const std::string web =
-      fmt::format("A web of {:.4g} mm remains around the part, {:.4g} mm below the upper face.",
-                  options_.tab_height.value(), split_.parting.value() - options_.tab_height.value() / 2);
+      fmt::format("{} of {:.4g} mm {} around the part, {:.4g} mm below the upper face.",
+                  split_.has_web ? "A web" : counted(split_.tabs, "tab"), options_.tab_height.value(),
+                  split_.has_web ? "remains" : "remain", split_.parting.value() - options_.tab_height.value() / 2);
   int code = carve(
       split_.top, "top",
       {.kind = "front", .title = "Carve the top", .words = {"Insert the cutter, set Z0, and run the program.", web}},
@@ -301,7 +334,8 @@ int SidesMaker::write_all(const WorkProgress& progress) {
   if (code == exit_done) code = flip();
   std::vector<std::string> words = {"Insert the cutter, set Z0 on the upper face, and run the program."};
   words.push_back(split_.tabs > 0
-                      ? fmt::format("The web is cut through except at {} tabs, which hold the part.", split_.tabs)
+                      ? fmt::format("The {} is cut through except at {} tabs, which hold the part.",
+                                                  split_.has_web ? "web" : "trench", split_.tabs)
                       : std::string("The web around the part remains."));
   words.emplace_back(split_.tabs > 0 ? "Saw off the tabs, and sand the stubs." : "Saw the part out of the web.");
   if (code == exit_done) {
@@ -309,6 +343,19 @@ int SidesMaker::write_all(const WorkProgress& progress) {
                  progress.part(0.5, 1));
   }
   return code == exit_done ? write_text(path("relief.html"), to_html(page_)) : code;
+}
+
+std::string SidesMaker::as_json() const {
+  const nlohmann::ordered_json json = {{"input", words_},
+                                       {"width_mm", width_.value()},
+                                       {"length_mm", length_.value()},
+                                       {"height_mm", high_},
+                                       {"parting_mm", -split_.parting.value()},
+                                       {"has_web", split_.has_web},
+                                       {"tabs", split_.tabs},
+                                       {"tabs_on_part_mm", split_.on_part.value()},
+                                       {"sides", json_}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 int SidesMaker::make(ReliefReading& reading, const WorkProgress& progress) {
@@ -326,18 +373,13 @@ int SidesMaker::make(ReliefReading& reading, const WorkProgress& progress) {
   if (!reading.message().empty()) return fail(exit_bad_program, reading.message());
   split_ = std::move(*split);
   put_stock(fs::path(arguments_.file).filename().string());
-  say(fmt::format("{}: {}\n{}\n", arguments_.file, words_, grid_words(split_.top)));
-  constexpr double much = 0.02;
-  if (split_.hidden > much) {
-    note(fmt::format(
-        "the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters may "
-        "not reach all of the part, and no tab can hold it",
-        split_.parting.value(), split_.hidden * 100));
-  }
+  if (!arguments_.json) say(fmt::format("{}: {}\n{}\n", arguments_.file, words_, grid_words(split_.top)));
+  note_edge();
   int code = unfinished_.begin();
   if (code == exit_done) code = write_all(progress);
   if (code == exit_done) code = unfinished_.finish();
   if (code == exit_done) progress.update(1);
+  if (code == exit_done && arguments_.json) say(with_warnings(as_json(), arguments_) + "\n");
   return code;
 }
 

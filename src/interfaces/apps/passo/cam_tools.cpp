@@ -424,12 +424,31 @@ int use_tools(CamReliefArguments& a, const IsGiven& is_given) {
   return shelf.finish();
 }
 
-std::string with_tool_warnings(const std::string& json, const CamToolArguments& arguments) {
-  if (arguments.tool_warnings_json.empty()) return json;
+std::string with_warnings(const std::string& json, const CamToolArguments& arguments) {
+  const RecordedMessages* const shown = RecordedMessages::current();
+  const bool has_news = shown != nullptr && !(shown->warnings.empty() && shown->notes.empty());
+  if (arguments.tool_warnings_json.empty() && !has_news) return json;
   ToolJson summary = ToolJson::parse(json, nullptr, false);
   if (!summary.is_object()) return json;
-  summary["warnings"] = ToolJson::parse(arguments.tool_warnings_json, nullptr, false);
-  return summary.dump(2);
+  ToolJson warnings = ToolJson::parse(arguments.tool_warnings_json, nullptr, false);
+  if (!warnings.is_array()) warnings = ToolJson::array();
+  const auto is_of_tool = [&](const Diagnostic& warning) {
+    return std::ranges::any_of(warnings, [&](const ToolJson& one) {
+      return one.value("code", "") == warning.code && one.value("message", "") == std::string(warning.message);
+    });
+  };
+  if (shown != nullptr) {
+    for (const Diagnostic& warning : shown->warnings) {
+      if (is_of_tool(warning)) continue;
+      warnings.push_back({{"code", warning.code},
+                          {"file", warning.file},
+                          {"message", std::string(warning.message)},
+                          {"advice", std::string(warning.expected)}});
+    }
+    if (!shown->notes.empty()) summary["notes"] = shown->notes;
+  }
+  summary["warnings"] = std::move(warnings);
+  return summary.dump(2, ' ', false, ToolJson::error_handler_t::replace);
 }
 
 }  // namespace passo

@@ -21,7 +21,8 @@ int use_tools(CamEngraveArguments& arguments, const IsGiven& is_given);
 int use_tools(CamDrillArguments& arguments, const IsGiven& is_given);
 int use_tools(CamReliefArguments& arguments, const IsGiven& is_given);
 
-// Adds the warnings to a summary, as its member "warnings". Without a tool of a library the summary is unchanged.
-std::string with_tool_warnings(const std::string& json, const CamToolArguments& arguments);
+// Adds to a summary what was shown beside it: warnings, of tools and of files, as its member "warnings", and notes as
+// "notes". Without any, the summary is unchanged.
+std::string with_warnings(const std::string& json, const CamToolArguments& arguments);
 
 }  // namespace passo

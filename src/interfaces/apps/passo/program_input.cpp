@@ -1,9 +1,11 @@
 #include "program_input.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include "progress_display.hpp"
 #include <fmt/format.h>
@@ -99,6 +101,7 @@ std::optional<InterpreterOptions> machine_options(const ProgramArguments& argume
 namespace {
 
 KeptMessages* kept = nullptr;
+RecordedMessages* recorded = nullptr;
 
 // Text on standard error takes the place of a progress line.
 void show(const std::string& text) {
@@ -119,6 +122,10 @@ void show(const Diagnostics& diagnostics, const std::string& file) {
       kept->findings.push_back(std::move(finding));
     }
     return;
+  }
+  if (recorded != nullptr) {
+    const auto is_warning = [](const Diagnostic& finding) { return finding.severity == Severity::warning; };
+    std::ranges::copy_if(diagnostics.all(), std::back_inserter(recorded->warnings), is_warning);
   }
   const bool colour = shows_colours(STDERR_FILENO);
   std::string text;
@@ -153,6 +160,7 @@ int fail(ExitCode code, const std::string& message) {
 }
 
 void note(const std::string& words) {
+  if (recorded != nullptr && kept == nullptr) recorded->notes.push_back(words);
   if (kept != nullptr) {
     kept->notes.push_back(words);
   } else {
@@ -173,6 +181,16 @@ KeptMessages::KeptMessages() : outer_(kept) {
 }
 KeptMessages::~KeptMessages() {
   kept = outer_;
+}
+
+RecordedMessages::RecordedMessages() : outer_(recorded) {
+  recorded = this;
+}
+RecordedMessages::~RecordedMessages() {
+  recorded = outer_;
+}
+const RecordedMessages* RecordedMessages::current() {
+  return recorded;
 }
 
 int flush_output() {

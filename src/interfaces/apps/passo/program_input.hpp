@@ -81,6 +81,24 @@ class KeptMessages {
   KeptMessages* outer_;
 };
 
+// While it exists, warnings and notes are shown and also recorded, for a summary as JSON.
+class RecordedMessages {
+ public:
+  RecordedMessages();
+  ~RecordedMessages();
+  RecordedMessages(const RecordedMessages&) = delete;
+  RecordedMessages& operator=(const RecordedMessages&) = delete;
+
+  // Null: nothing is recorded.
+  static const RecordedMessages* current();
+
+  std::vector<Diagnostic> warnings = {};
+  std::vector<std::string> notes = {};
+
+ private:
+  RecordedMessages* outer_;
+};
+
 // Flushes standard output. Returns exit_done, or the exit code that the command should return. If the reader has closed
 // the pipe, as `head` does, this is not an error.
 int flush_output();

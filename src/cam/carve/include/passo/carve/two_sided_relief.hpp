@@ -7,6 +7,10 @@
 // the frame. The parting height is the height at which the web meets the longest part of the edge, so that it hides as
 // little of the part as possible.
 //
+// The edge of an egg is thinner than a tab. The tabs then reach onto the part, to where it is as thick as they are, and
+// the web lies below the edge, so that the top can be cut down to it. Below the edge of a pyramid there is no room for a
+// web; then both sides cut the trench through, except at the tabs.
+//
 // Heights are relative to the top of the stock on each side. Both grids have their node (0, 0) at the lower left, as
 // seen from above; the bottom is seen after the flip.
 #pragma once
@@ -39,6 +43,8 @@ struct SplitRelief {
   Mm beside_y{};
   Mm parting{};  // the middle of the web, below the top
   std::size_t tabs = 0;
+  Mm on_part{};         // how far the tabs reach onto the part, at most
+  bool has_web = true;  // false: the top leaves only the tabs
   // The fraction of the part's edge that lies above or below the web, 0 to 1.
   double hidden = 0;
   std::vector<bool> part = {};  // for each node of `top`: whether it belongs to the part

@@ -39,7 +39,12 @@ struct CamShapeSelection {
   std::vector<std::string> names;   // ids or labels of the shapes or groups; empty: all
 };
 
-struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection {
+// The summary of an operation.
+struct CamSummaryArguments {
+  bool json = false;  // as JSON on standard output
+};
+
+struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection, CamSummaryArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
   std::string picture;              // .svg or .png; empty: none
@@ -276,7 +281,7 @@ struct CamBoardArguments {
 std::vector<CamOption> cam_options_of(CamBoardArguments& arguments);
 
 // Cutters are in the format of parse_cutter().
-struct CamReliefArguments : CamProgramArguments, CamToolArguments {
+struct CamReliefArguments : CamProgramArguments, CamToolArguments, CamSummaryArguments {
   std::string file;     // PNG, TIFF, STL or height map
   std::string output;   // empty: standard output
   std::string picture;  // .png; empty: none
