@@ -45,9 +45,9 @@ bool CopperBuilder::has_room_for(std::size_t points, std::uint32_t line) {
   return false;
 }
 
-bool CopperBuilder::affords(const std::vector<Region>& objects) {
+bool CopperBuilder::affords(const std::vector<Region>& objects, std::uint32_t line) {
   if (budget_.affords(objects)) return true;
-  if (!is_full_) refuse("too-large", 0, "the lines of the board cross too often to be merged", "a simpler board");
+  if (!is_full_) refuse("too-large", line, "the lines of the board cross too often to be merged", "a simpler board");
   is_full_ = true;
   return false;
 }
@@ -58,18 +58,33 @@ std::uint32_t CopperBuilder::net_index(Sheet& sheet, const std::string& net) {
   return entry->second;
 }
 
-void CopperBuilder::add_stroke(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line) {
+void CopperBuilder::add_line(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line) {
   if (path.width.count <= 0 || path.points.empty() || !has_room_for(kicad_stroke_points(path), line)) return;
+  for (Region& area : kicad_stroke_regions({&path, 1})) sheets_[sheet].objects[net].push_back(std::move(area));
+}
+
+void CopperBuilder::add_stroke(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line) {
+  if (path.width.count <= 0 || path.points.empty()) return;
+  add_line(sheet, net, path, line);
+  if (is_full_) return;
   Sheet& on = sheets_[sheet];
-  for (Region& area : kicad_stroke_regions({&path, 1})) on.objects[net].push_back(std::move(area));
   on.image.strokes.push_back(path);
   if (!net.empty()) on.image.named.push_back({path.points.front().at, 0, net_index(on, net), line});
 }
 
-void CopperBuilder::add_face(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line) {
-  if (ring.size() < 3 || !has_room_for(ring.size(), line) || !affords({Region{{ring}}})) return;
+void CopperBuilder::add_face(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line,
+                             Nanometres rim) {
+  if (ring.size() < 3 || !has_room_for(ring.size(), line) || !affords({Region{{ring}}}, line)) return;
   Region face = filled({std::move(ring)});
+  if (rim.count > 0) {
+    face = grown(face, {rim.count / 2}, gerber_tolerance);
+    for (const DrawnRing& one : face.rings) points_ += one.size();
+  }
   if (!face.empty()) sheets_[sheet].objects[net].push_back(std::move(face));
+}
+
+void CopperBuilder::add_area(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line) {
+  if (ring.size() >= 3 && has_room_for(ring.size(), line)) sheets_[sheet].objects[net].push_back({{std::move(ring)}});
 }
 
 void CopperBuilder::add_place(std::size_t sheet, const std::string& net, DrawnPoint at, std::uint32_t line) {
@@ -139,7 +154,7 @@ void CopperBuilder::pour(Sheet& sheet) {
   for (const auto& [net, one] : sheet.pours) {
     std::vector<Region> all = {{{one.outline}}};
     for (const auto& [other, objects] : sheet.objects) all.insert(all.end(), objects.begin(), objects.end());
-    if (!affords(all)) return;
+    if (!affords(all, 0)) return;
     Region area = poured(sheet, net, one);
     if (!area.empty()) sheet.objects[net].push_back(std::move(area));
   }
@@ -170,6 +185,7 @@ GerberLayer CopperBuilder::layer_of(Sheet& sheet) {
     layer.strokes.notes.push_back(sheet.texts == 1 ? "a text on this layer is ignored"
                                                    : fmt::format("{} texts on this layer are ignored", sheet.texts));
   }
+  std::ranges::move(sheet.notes, std::back_inserter(layer.strokes.notes));
   if (std::optional<Region> dark = composed(std::move(sheet.image), budget_)) {
     layer.dark = std::move(*dark);
   } else if (!diagnostics_.any_error()) {

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gerber_image.hpp"
@@ -33,13 +34,19 @@ class CopperBuilder {
   // Adds a copper layer, from the top down, and returns its index.
   std::size_t add_sheet(std::string name);
   std::size_t sheets() const { return sheets_.size(); }
+  // Adds a track.
   void add_stroke(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line);
-  // Adds an area, whose ring may cross itself.
-  void add_face(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line);
+  // Adds a line that is no track, e.g. of a pad.
+  void add_line(std::size_t sheet, const std::string& net, const DrawnPath& path, std::uint32_t line);
+  // Adds an area, whose ring may cross itself. `rim`: the width of the line that is drawn along the ring.
+  void add_face(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line, Nanometres rim = {});
+  // Adds an area, whose ring is counterclockwise and does not cross itself.
+  void add_area(std::size_t sheet, const std::string& net, DrawnRing ring, std::uint32_t line);
   void add_place(std::size_t sheet, const std::string& net, DrawnPoint at, std::uint32_t line);
   void add_pour(std::size_t sheet, const std::string& net, CopperPour pour);
   void add_cutout(std::size_t sheet, DrawnRing ring);  // where nothing is poured
   void add_text(std::size_t sheet) { ++sheets_[sheet].texts; }
+  void add_note(std::size_t sheet, std::string words) { sheets_[sheet].notes.push_back(std::move(words)); }
   void add_edge(DrawnPath path);
   void add_hole(const DrawnHole& hole);
   void add_slot(DrawnPath slot);
@@ -60,10 +67,11 @@ class CopperBuilder {
     std::vector<std::pair<std::string, CopperPour>> pours = {};
     std::vector<DrawnRing> cutouts = {};
     std::size_t texts = 0;
+    std::vector<std::string> notes = {};
   };
 
   bool has_room_for(std::size_t points, std::uint32_t line);
-  bool affords(const std::vector<Region>& objects);
+  bool affords(const std::vector<Region>& objects, std::uint32_t line);
   std::uint32_t net_index(Sheet& sheet, const std::string& net);
   void pour(Sheet& sheet);
   Region poured(Sheet& sheet, const std::string& net, const CopperPour& pour) const;

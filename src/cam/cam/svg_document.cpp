@@ -1,14 +1,12 @@
 #include "svg_document.hpp"
 
 #include <algorithm>
-#include <memory>
 
 #include "svg_style.hpp"
-#include <expat.h>
 #include <fmt/format.h>
 
 #include "passo/base/trimmed.hpp"
-#include "passo/base/xml_place.hpp"
+#include "passo/diagnostics/xml_parser.hpp"
 
 namespace passo {
 namespace {
@@ -26,23 +24,11 @@ class SvgTreeReader {
   SvgTreeReader(const std::string& name, Diagnostics& diagnostics) : name_(name), diagnostics_(diagnostics) {}
 
   SvgDocument read(std::string_view text) {
-    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
-        XML_ParserCreate(nullptr), &XML_ParserFree);
-    parser_ = parser.get();
-    if (parser_ == nullptr) return {};
-    XML_SetUserData(parser_, this);
-    XML_SetElementHandler(parser_, &SvgTreeReader::begin, &SvgTreeReader::end);
-    XML_SetCharacterDataHandler(parser_, &SvgTreeReader::add_text);
-    XML_SetProcessingInstructionHandler(parser_, &SvgTreeReader::instruct);
-    constexpr std::size_t piece = std::size_t{1} << 20;
-    XML_Status status = XML_STATUS_OK;
-    do {
-      const std::string_view part = text.substr(0, piece);
-      text.remove_prefix(part.size());
-      status = XML_Parse(parser_, part.data(), static_cast<int>(part.size()), text.empty() ? 1 : 0);
-    } while (!text.empty() && status == XML_STATUS_OK);
-    if (status != XML_STATUS_OK && !diagnostics_.any_error()) {
-      refuse("svg.syntax", fmt::format("the drawing cannot be read: {}", XML_ErrorString(XML_GetErrorCode(parser_))),
+    if (parser_.get() == nullptr) return {};
+    XML_SetCharacterDataHandler(parser_.get(), &SvgTreeReader::add_text);
+    XML_SetProcessingInstructionHandler(parser_.get(), &SvgTreeReader::instruct);
+    if (!parser_.take(text, true) && !diagnostics_.any_error()) {
+      refuse("svg.syntax", fmt::format("the drawing cannot be read: {}", parser_.fault()),
              "an SVG drawing, which is XML");
     }
     if (diagnostics_.any_error()) return {};
@@ -58,19 +44,40 @@ class SvgTreeReader {
     return std::move(document_);
   }
 
- private:
-  static void XMLCALL begin(void* self, const XML_Char* name, const XML_Char** attributes) {
-    static_cast<SvgTreeReader*>(self)->add(name, attributes);
-  }
-  static void XMLCALL end(void* self, const XML_Char* /*name*/) {
-    auto& reader = *static_cast<SvgTreeReader*>(self);
-    if (reader.open_.empty()) return;
-    if (reader.in_style()) {
-      reader.sheet_.add(reader.css_);
-      reader.css_.clear();
+  void begin(const char* name, const char** attributes) {
+    if (document_.elements.size() >= most_svg_elements || open_.size() >= deepest_svg_element) {
+      refuse("svg.too-large",
+             fmt::format("the drawing has more than {} elements, or they are nested more than {} deep",
+                         most_svg_elements, deepest_svg_element),
+             "a smaller drawing");
+      return parser_.stop();
     }
-    reader.open_.pop_back();
+    const auto index = static_cast<std::uint32_t>(document_.elements.size());
+    SvgElement& element = document_.elements.emplace_back();
+    element.name = without_prefix(name);
+    element.line = parser_.line();
+    for (const char** at = attributes; at[0] != nullptr; at += 2) find_prefix(at[0], at[1]);
+    for (const char** at = attributes; at[0] != nullptr; at += 2) {
+      const std::string key = key_of(at[0]);
+      if (key == "id") document_.ids.try_emplace(at[1], index);
+      if (key == "inkscape:version" && index == 0) document_.inkscape_version = at[1];
+      element.attributes.emplace_back(key, at[1]);
+    }
+    element.parent = open_.empty() ? 0 : open_.back();
+    if (!open_.empty()) document_.elements[open_.back()].children.push_back(index);
+    open_.push_back(index);
   }
+
+  void end(const char* /*name*/) {
+    if (open_.empty()) return;
+    if (in_style()) {
+      sheet_.add(css_);
+      css_.clear();
+    }
+    open_.pop_back();
+  }
+
+ private:
   static void XMLCALL add_text(void* self, const XML_Char* text, int size) {
     auto& reader = *static_cast<SvgTreeReader*>(self);
     if (reader.in_style()) reader.css_.append(text, static_cast<std::size_t>(size));
@@ -89,31 +96,6 @@ class SvgTreeReader {
     return (type.empty() || type == "text/css") && (media.empty() || media == "all" || media == "screen");
   }
 
-  void add(const char* name, const char** attributes) {
-    if (document_.elements.size() >= most_svg_elements || open_.size() >= deepest_svg_element) {
-      refuse("svg.too-large",
-             fmt::format("the drawing has more than {} elements, or they are nested more than {} deep",
-                         most_svg_elements, deepest_svg_element),
-             "a smaller drawing");
-      XML_StopParser(parser_, XML_FALSE);
-      return;
-    }
-    const auto index = static_cast<std::uint32_t>(document_.elements.size());
-    SvgElement& element = document_.elements.emplace_back();
-    element.name = without_prefix(name);
-    element.line = xml_line(parser_);
-    for (const char** at = attributes; at[0] != nullptr; at += 2) find_prefix(at[0], at[1]);
-    for (const char** at = attributes; at[0] != nullptr; at += 2) {
-      const std::string key = key_of(at[0]);
-      if (key == "id") document_.ids.try_emplace(at[1], index);
-      if (key == "inkscape:version" && index == 0) document_.inkscape_version = at[1];
-      element.attributes.emplace_back(key, at[1]);
-    }
-    element.parent = open_.empty() ? 0 : open_.back();
-    if (!open_.empty()) document_.elements[open_.back()].children.push_back(index);
-    open_.push_back(index);
-  }
-
   // xmlns:PREFIX="http://www.inkscape.org/..." declares the prefix of Inkscape's attributes, usually "inkscape".
   void find_prefix(std::string_view name, std::string_view value) {
     constexpr std::string_view declares = "xmlns:";
@@ -127,18 +109,13 @@ class SvgTreeReader {
     return name.starts_with(inkscape_) ? "inkscape:" + std::string(name.substr(inkscape_.size())) : std::string(name);
   }
 
-  void refuse(std::string code, std::string message, std::string expected) {
-    diagnostics_.add({.code = std::move(code),
-                      .file = name_,
-                      .place = {xml_line(parser_), xml_column(parser_) + 1, 1},
-                      .message = std::move(message),
-                      .expected = std::move(expected),
-                      .text = ""});
+  void refuse(const char* code, std::string message, const char* expected) {
+    diagnostics_.add(parser_.refusal(code, name_, std::move(message), expected));
   }
 
   const std::string& name_;
   Diagnostics& diagnostics_;
-  XML_Parser parser_ = nullptr;
+  XmlParser parser_{*this};
   SvgDocument document_;
   std::vector<std::uint32_t> open_;
   std::string inkscape_ = "inkscape:";  // the prefix of its attributes in this file

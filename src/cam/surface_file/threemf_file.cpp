@@ -6,16 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "zip_archive.hpp"
-#include <expat.h>
 #include <fmt/format.h>
 
-#include "passo/base/xml_place.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/diagnostics/xml_parser.hpp"
 #include "passo/surface_file/surface_file.hpp"
 
 namespace passo {
@@ -84,34 +82,26 @@ std::string_view local_name(std::string_view name) {
 // Reads one model file, element by element.
 class ModelReader {
  public:
-  explicit ModelReader(CountsOf3mf& counts) : counts_(counts), parser_(XML_ParserCreate(nullptr), &XML_ParserFree) {
-    if (!parser_) return;
-    XML_SetUserData(parser_.get(), this);
-    XML_SetElementHandler(parser_.get(), &ModelReader::begin, &ModelReader::end);
-    XML_SetEntityDeclHandler(parser_.get(), &ModelReader::refuse_entity);
+  explicit ModelReader(CountsOf3mf& counts) : counts_(counts) {
+    if (parser_.get() != nullptr) XML_SetEntityDeclHandler(parser_.get(), &ModelReader::refuse_entity);
   }
 
   // Returns false if it cannot continue; fault() has the reason.
   bool take(std::string_view piece, bool is_last = false) {
-    if (!parser_) return refuse("out of memory");
     if (!fault_.empty()) return false;
     counts_.bytes += piece.size();
     if (counts_.bytes > most_model_bytes) return refuse("its models have over 2 GiB");
-    const XML_Status status = XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0);
-    if (status == XML_STATUS_OK) return true;
-    return refuse(XML_ErrorString(XML_GetErrorCode(parser_.get())));
+    return parser_.take(piece, is_last) || refuse(parser_.fault());
   }
   const std::string& fault() const { return fault_; }
   ModelOf3mf take_model() { return std::move(model_); }
 
+  void begin(const char* name, const char** attributes) { open(local_name(name), attributes); }
+  void end(const char* name) {
+    if (local_name(name) == "object") object_ = nullptr;
+  }
+
  private:
-  static void XMLCALL begin(void* self, const XML_Char* name, const XML_Char** attributes) {
-    static_cast<ModelReader*>(self)->open(local_name(name), attributes);
-  }
-  static void XMLCALL end(void* self, const XML_Char* name) {
-    auto& reader = *static_cast<ModelReader*>(self);
-    if (local_name(name) == "object") reader.object_ = nullptr;
-  }
   static void XMLCALL refuse_entity(void* self, const XML_Char*, int, const XML_Char*, int, const XML_Char*,
                                     const XML_Char*, const XML_Char*, const XML_Char*) {
     static_cast<ModelReader*>(self)->refuse("it declares an entity");
@@ -120,9 +110,9 @@ class ModelReader {
   bool refuse(const std::string& fault) {
     if (!fault_.empty()) return false;
     fault_ = fault;
-    if (!parser_) return false;
-    fault_ += fmt::format(", line {} column {}", xml_line(parser_.get()), xml_column(parser_.get()) + 1);
-    XML_StopParser(parser_.get(), XML_FALSE);
+    if (parser_.get() == nullptr) return false;
+    fault_ += fmt::format(", line {} column {}", parser_.line(), parser_.column());
+    parser_.stop();
     return false;
   }
 
@@ -226,7 +216,7 @@ class ModelReader {
   }
 
   CountsOf3mf& counts_;
-  std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser_;
+  XmlParser parser_{*this};
   ModelOf3mf model_;
   ObjectOf3mf* object_ = nullptr;
   std::size_t parts_ = 0;

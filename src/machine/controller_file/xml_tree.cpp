@@ -1,13 +1,11 @@
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "source_readers.hpp"
-#include <expat.h>
 #include <fmt/format.h>
 
 #include "passo/base/utf8.hpp"
-#include "passo/base/xml_place.hpp"
+#include "passo/diagnostics/xml_parser.hpp"
 
 namespace passo {
 namespace {
@@ -29,31 +27,36 @@ class XmlTree {
     // Windows writes the texts of Mach3 in its own code page, without saying so.
     const bool is_latin =
         source_.text.substr(0, 200).find("encoding") == std::string_view::npos && !is_utf8(source_.text);
-    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
-        XML_ParserCreate(is_latin ? "ISO-8859-1" : nullptr), &XML_ParserFree);
-    parser_ = parser.get();
-    if (parser_ == nullptr) return std::nullopt;
-    XML_SetUserData(parser_, this);
-    XML_SetElementHandler(parser_, &XmlTree::begin, &XmlTree::end);
-    XML_SetCharacterDataHandler(parser_, &XmlTree::add_text);
-    XML_SetEntityDeclHandler(parser_, &XmlTree::refuse_entity);
-    const int length = static_cast<int>(source_.text.size());
-    if (XML_Parse(parser_, source_.text.data(), length, 1) != XML_STATUS_OK && !is_refused_) {
-      refuse("import.syntax", fmt::format("this is not XML: {}", XML_ErrorString(XML_GetErrorCode(parser_))),
-             "a profile of Mach3");
+    if (parser_.get() == nullptr) return std::nullopt;
+    if (is_latin) XML_SetEncoding(parser_.get(), "ISO-8859-1");
+    XML_SetCharacterDataHandler(parser_.get(), &XmlTree::add_text);
+    XML_SetEntityDeclHandler(parser_.get(), &XmlTree::refuse_entity);
+    if (!parser_.take(source_.text, true) && !is_refused_) {
+      refuse("import.syntax", fmt::format("this is not XML: {}", parser_.fault()), "a profile of Mach3");
     }
     if (is_refused_ || root_.children.empty()) return std::nullopt;
     return std::move(root_.children.front());
   }
 
+  void begin(const char* name, const char** /*attributes*/) {
+    if (++nodes_ > most_source_nodes || open_.size() >= deepest_source_node) {
+      refuse("import.too-large",
+             fmt::format("the file has more than {} elements, or they are nested more than {} deep", most_source_nodes,
+                         deepest_source_node),
+             "a profile of Mach3, usually some thousand elements");
+      return;
+    }
+    SourceNode& parent = current();
+    open_.push_back(parent.children.size());
+    SourceNode& node = parent.children.emplace_back();
+    node.name = std::string_view(name).substr(0, longest_text);
+    note_place(node);
+  }
+  void end(const char* /*name*/) {
+    if (!open_.empty()) open_.pop_back();
+  }
+
  private:
-  static void XMLCALL begin(void* self, const XML_Char* name, const XML_Char** /*attributes*/) {
-    static_cast<XmlTree*>(self)->open(name);
-  }
-  static void XMLCALL end(void* self, const XML_Char* /*name*/) {
-    auto& tree = *static_cast<XmlTree*>(self);
-    if (!tree.open_.empty()) tree.open_.pop_back();
-  }
   static void XMLCALL add_text(void* self, const XML_Char* text, int length) {
     auto& tree = *static_cast<XmlTree*>(self);
     SourceNode& node = tree.current();
@@ -76,38 +79,23 @@ class XmlTree {
   }
 
   void note_place(SourceNode& node) const {
-    node.line = xml_line(parser_);
-    node.column = xml_column(parser_) + 1;
-  }
-
-  void open(const char* name) {
-    if (++nodes_ > most_source_nodes || open_.size() >= deepest_source_node) {
-      refuse("import.too-large",
-             fmt::format("the file has more than {} elements, or they are nested more than {} deep", most_source_nodes,
-                         deepest_source_node),
-             "a profile of Mach3, usually some thousand elements");
-      return;
-    }
-    SourceNode& parent = current();
-    open_.push_back(parent.children.size());
-    SourceNode& node = parent.children.emplace_back();
-    node.name = std::string_view(name).substr(0, longest_text);
-    note_place(node);
+    node.line = parser_.line();
+    node.column = parser_.column();
   }
 
   void refuse(const char* code, std::string message, std::string expected) {
     if (is_refused_) return;
     is_refused_ = true;
-    add_source_error(source_, diagnostics_, code, xml_line(parser_), xml_column(parser_) + 1, std::move(message),
+    add_source_error(source_, diagnostics_, code, parser_.line(), parser_.column(), std::move(message),
                      std::move(expected));
-    XML_StopParser(parser_, XML_FALSE);
+    parser_.stop();
   }
 
   static constexpr std::size_t longest_text = 4096;
 
   const ImportSource& source_;
   Diagnostics& diagnostics_;
-  XML_Parser parser_ = nullptr;
+  XmlParser parser_{*this};
   SourceNode root_;                // its child is the outermost element
   std::vector<std::size_t> open_;  // from the root, which child is open
   std::size_t nodes_ = 0;
