@@ -25,6 +25,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/machine_results.hpp"
+#include "passo/path/hand_tool_change.hpp"
 #include "passo/path/outside_travel.hpp"
 #include "passo/path/segment.hpp"
 
@@ -85,6 +86,7 @@ struct PathMemory {
   MmPerSecond refused_feed_{0};  // the last synchronized feed that exceeded the velocity of an axis
   Seconds run_up_left_{0};       // the time until the spindle has reached its speed
 
+  HandToolChange hand_;
   OutsideTravel outside_;
   AxisSet missing_;
   std::array<bool, 4> told_{};  // findings already reported, by TorqueShortage
@@ -102,6 +104,8 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   const Frame& frame() const { return frame_; }
   // The end of the path so far, in machine coordinates.
   const Point& position() const { return position_; }
+  // The tool that comments name before the first feed; 0: none.
+  std::int32_t named_tool() const { return hand_.at_start(); }
   // Continues the path from another position. The path read so far is dropped.
   void stand_at(const Point& machine) {
     position_ = machine;
