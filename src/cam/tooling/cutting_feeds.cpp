@@ -171,7 +171,8 @@ double FeedFinder::faster(double rpm) {
   const double least = request_.spindle.least_rpm;
   if (rpm >= least) return rpm;
   if (tool_.most_rpm && *tool_.most_rpm < least) {
-    tell("spindle", fmt::format("the spindle turns at {:g} rpm or more, too fast for this tool: use another one", least));
+    tell("spindle",
+         fmt::format("the spindle turns at {:g} rpm or more, too fast for this tool: use another one", least));
     return rpm;
   }
   tell("spindle", fmt::format("at least {:g} rpm, the limit of the spindle", least));

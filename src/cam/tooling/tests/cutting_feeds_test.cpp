@@ -106,7 +106,8 @@ TEST(CuttingFeeds, of_a_large_cutter_keep_its_rim_slow_enough) {
   plastic.spindle = {8000, 24000};
   const CuttingFeeds fast = feeds_of(cutter, plastic);
   EXPECT_EQ(fast.rpm, 8000);
-  EXPECT_TRUE(has_reason(fast, "too large for this spindle: 2513 m/min instead of 245 m/min; use one of at most 9.75 mm"));
+  EXPECT_TRUE(
+      has_reason(fast, "too large for this spindle: 2513 m/min instead of 245 m/min; use one of at most 9.75 mm"));
 }
 
 TEST(CuttingFeeds, never_exceed_the_limit_of_the_tool) {

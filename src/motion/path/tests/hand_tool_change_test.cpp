@@ -1,8 +1,7 @@
 #include "passo/path/hand_tool_change.hpp"
 
-#include <gtest/gtest.h>
-
 #include "path_test.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {

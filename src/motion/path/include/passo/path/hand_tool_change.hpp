@@ -36,7 +36,7 @@ class HandToolChange {
 // The number in a comment that names a tool; 0: it names none.
 std::int32_t tool_named_in(std::string_view comment);
 
-// Whether the tool is `action.tool` after this action: M6, or a change by hand at M0.
+// Whether the tool is `action.tool` after this action: M6, or M0 with the tool that is changed by hand (otherwise 0).
 constexpr bool changes_tool(const Action& action) {
   return action.kind == Action::Kind::tool_change || (action.kind == Action::Kind::program_stop && action.tool != 0);
 }

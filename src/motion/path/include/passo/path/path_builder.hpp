@@ -86,7 +86,6 @@ struct PathMemory {
   MmPerSecond refused_feed_{0};  // the last synchronized feed that exceeded the velocity of an axis
   Seconds run_up_left_{0};       // the time until the spindle has reached its speed
 
-  HandToolChange hand_;
   OutsideTravel outside_;
   AxisSet missing_;
   std::array<bool, 4> told_{};  // findings already reported, by TorqueShortage
@@ -115,8 +114,14 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   }
   // Saves the state after the operations so far, and restores it, as if the later ones had not come. Call it when
   // next() has returned false.
-  void keep() { kept_ = *this; }
-  void roll_back() { static_cast<PathMemory&>(*this) = kept_; }
+  void keep() {
+    kept_ = *this;
+    kept_hand_ = hand_;
+  }
+  void roll_back() {
+    static_cast<PathMemory&>(*this) = kept_;
+    hand_ = kept_hand_;
+  }
 
  private:
   bool next_operation();
@@ -198,6 +203,9 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   std::size_t tap_step_ = tap_.size();
   std::deque<PathItem> held_;  // items that wait until the items before them are returned
   PathMemory kept_;
+  // A change of the tool by hand; as kept_.
+  HandToolChange hand_;
+  HandToolChange kept_hand_;
 };
 
 }  // namespace passo

@@ -109,7 +109,7 @@ struct Action {
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after the action
-  std::int32_t tool = 0;     // tool_change: the new tool; program_stop: the tool that is changed by hand, 0: none
+  std::int32_t tool = 0;
   bool probe_toward = true;  // for a probe move: until the probe is triggered, otherwise until it is open
   std::uint8_t limit = 0;    // for homing: the bit of the limit switch that acts as the probe
   Point place{};             // for a probe move: its start or its end, in machine coordinates
