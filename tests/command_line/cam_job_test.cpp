@@ -190,7 +190,7 @@ TEST_F(CamJob, a_wrong_value_points_at_its_key) {
   const Outcome made = passo("cam job " + small_job("", "", "2"));
   EXPECT_EQ(made.code, 2);
   EXPECT_THAT(made.err, HasSubstr("small.toml:22:9: error: 'pocket pockets' cannot have this depth [job.bad-value]"));
-  EXPECT_THAT(made.err, HasSubstr("expected a length below 0, e.g. -3, found '2'"));
+  EXPECT_THAT(made.err, HasSubstr("expected: a length below 0, e.g. -3, found '2'"));
   EXPECT_FALSE(std::filesystem::exists(path("small.ngc")));
 }
 
@@ -225,9 +225,8 @@ TEST_F(CamJob, each_tool_has_its_program) {
   ASSERT_EQ(passo("cam job " + example("gear") + " -o " + path("g.ngc")).code, 0);
   const std::string first = read(path("g-1-T1.ngc"));
   const std::string second = read(path("g-2-T2.ngc"));
-  EXPECT_THAT(first, HasSubstr("T1 M6"));
-  EXPECT_THAT(first, Not(HasSubstr("T2 M6")));
-  EXPECT_THAT(second, HasSubstr("T2 M6"));
+  EXPECT_THAT(first, HasSubstr("(MSG, tool 1: "));
+  EXPECT_THAT(second, HasSubstr("(MSG, tool 2: "));
   EXPECT_THAT(second, HasSubstr("M2\n"));
 }
 

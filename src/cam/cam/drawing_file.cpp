@@ -25,12 +25,17 @@ Drawing read_drawing(const std::string& path, const DrawingFileOptions& options,
     }
   }
   const bool is_svg = looks_like_svg(*bytes) && !looks_like_dxf(*bytes) && !looks_like_design_board(*bytes);
-  if (!is_svg && (!options.svg.colors.empty() || !options.svg.names.empty())) {
+  if (!is_svg && !looks_like_dxf(*bytes) && (!options.svg.colors.empty() || !options.svg.names.empty())) {
     diagnostics.add(of_file("drawing.no-colours", path, "shapes of this drawing cannot be selected by colour or name",
-                            "an SVG drawing, or --layer"));
+                            "an SVG or DXF drawing, or --layer"));
     return nothing;
   }
-  if (looks_like_dxf(*bytes)) return read_dxf(path, *bytes, options.dxf, diagnostics);
+  if (looks_like_dxf(*bytes)) {
+    DxfOptions reading = options.dxf;
+    reading.colors = options.svg.colors;
+    reading.names = options.svg.names;
+    return read_dxf(path, *bytes, reading, diagnostics);
+  }
   if (looks_like_design_board(*bytes)) return read_design_board(path, *bytes, diagnostics).drills;
   if (is_svg) return read_svg(path, *bytes, options.svg, diagnostics);
   if (looks_like_hpgl(*bytes)) return read_hpgl(path, *bytes, options.hpgl, diagnostics);

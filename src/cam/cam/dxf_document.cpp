@@ -1,6 +1,8 @@
 #include "dxf_document.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -25,6 +27,23 @@ std::string in_capitals(std::string_view name) {
   std::ranges::transform(text, text.begin(),
                          [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
   return text;
+}
+
+// Group 62 is a number of the palette, which is negative if a layer is off; group 420 is a true colour, and counts
+// more.
+void take_colour(const DxfGroup& group, DxfColour& colour) {
+  constexpr double most_of_palette = 256;
+  constexpr double most_true = 0xffffff;
+  const double value = std::abs(group.number);
+  if (group.code == 420 && value <= most_true) colour = {static_cast<std::uint32_t>(value), true};
+  if (group.code == 62 && value <= most_of_palette && !colour.is_true) colour.value = static_cast<std::uint32_t>(value);
+}
+
+// 0: not a handle.
+std::uint64_t handle_in(std::string_view text) {
+  std::uint64_t handle = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), handle, 16);
+  return error == std::errc() && end == text.data() + text.size() ? handle : 0;
 }
 
 bool is_geometry(int code) {
@@ -116,6 +135,7 @@ bool DxfDocumentReader::read_tables() {
       is_named = true;
     } else if (is_layer && is_named) {
       DxfLayer& named = document_.layers[current];
+      take_colour(group_, named.colour);
       if (group_.code == 62 && group_.number < 0) named.is_on = false;                           // off
       if (group_.code == 70 && (static_cast<int>(group_.number) & 1) != 0) named.is_on = false;  // frozen
     }
@@ -170,6 +190,8 @@ bool DxfDocumentReader::read_entity(std::vector<DxfEntity>& entities) {
   for (; goes_on && group_.code != 0; goes_on = next()) {
     if (group_.code == 8) layer_of = layer(group_.text);
     if (group_.code == 2 && entity.kind == DxfKind::insert) entity.block = block(group_.text);
+    if (group_.code == 5) entity.handle = handle_in(group_.text);
+    take_colour(group_, entity.colour);
     if (group_.code == 67) entity.is_in_paper = group_.number == 1;
     if (entity.kind != DxfKind::other && is_geometry(group_.code) && document_.numbers.size() <= most_numbers) {
       document_.numbers.push_back({group_.code, group_.number});

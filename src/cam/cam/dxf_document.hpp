@@ -33,6 +33,15 @@ enum class DxfKind : std::uint8_t {
   other
 };
 
+// A number of the palette, or red, green and blue.
+struct DxfColour {
+  std::uint32_t value = 0;
+  bool is_true = false;
+};
+inline constexpr std::uint32_t dxf_colour_of_block = 0;    // the colour of the INSERT
+inline constexpr std::uint32_t dxf_colour_of_layer = 256;  // the usual value
+inline constexpr DxfColour dxf_usual_colour{7};            // black or white
+
 struct DxfEntity {
   DxfKind kind = DxfKind::other;
   bool is_in_paper = false;
@@ -41,11 +50,14 @@ struct DxfEntity {
   std::uint32_t line = 0;   // first line of the entity; 0 in a binary file
   std::size_t first = 0;    // index of its first number in DxfDocument::numbers
   std::size_t count = 0;
+  DxfColour colour{dxf_colour_of_layer};
+  std::uint64_t handle = 0;  // 0: none
 };
 
 struct DxfLayer {
   std::string name;
   bool is_on = true;
+  DxfColour colour = dxf_usual_colour;
 };
 
 struct DxfBlock {

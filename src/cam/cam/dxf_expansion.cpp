@@ -46,6 +46,7 @@ Drawing DxfExpansion::expand() {
     builder_.note("the file does not end with EOF, so it may be truncated");
   }
   note_what_is_left_out();
+  for (std::string& words : selection_.missing()) builder_.note(std::move(words));
   Drawing drawing = builder_.take();
   const std::string words = options_.is_for_drilling ? words_on_scale(drawing) : "";
   if (!words.empty()) drawing.notes.push_back(words);
@@ -67,7 +68,8 @@ bool DxfExpansion::choose_layers() {
     constexpr std::size_t most_names = 12;
     std::string known;
     for (std::size_t i = 0; i < std::min(most_names, document_.layers.size()); ++i) {
-      known += (i == 0 ? "" : ", ") + document_.layers[i].name;
+      const std::string& other = document_.layers[i].name;
+      if (!other.empty()) known += (known.empty() ? "" : ", ") + other;
     }
     if (document_.layers.size() > most_names) known += ", ...";
     diagnostics_.add({.code = "dxf.no-layer",
@@ -141,6 +143,7 @@ void DxfExpansion::add_all(const Entities& entities, const DxfTransform& transfo
       ++on_layers_off_;
       continue;
     }
+    if (!selection_.takes(entity, own, around_)) continue;
     const std::uint32_t drawn = builder_.layer(document_.layers[own].name);
     if (entity.kind == DxfKind::polyline) {
       i = add_polyline(entities, i, transform, drawn);
@@ -257,6 +260,8 @@ void DxfExpansion::add_insert(const DxfEntity& entity, const DxfTransform& trans
   const double scale_y = value(42, 1);
   const auto copies = [&](int code) { return static_cast<std::int64_t>(std::clamp(value(code, 1), 1.0, 32767.0)); };
   open_blocks_.push_back(entity.block);
+  const DxfSelection::Around outside = around_;
+  around_ = selection_.inside(entity, layer, outside);
   const DxfTransform outer = seen(entity, transform);
   for (std::int64_t row = 0; row < copies(71); ++row) {
     for (std::int64_t column = 0; column < copies(70); ++column) {
@@ -275,6 +280,7 @@ void DxfExpansion::add_insert(const DxfEntity& entity, const DxfTransform& trans
     }
   }
   open_blocks_.pop_back();
+  around_ = outside;
 }
 
 }  // namespace passo

@@ -8,6 +8,7 @@
 #include "drawing_builder.hpp"
 #include "dxf_document.hpp"
 #include "dxf_plane.hpp"
+#include "dxf_selection.hpp"
 #include "dxf_transform.hpp"
 #include "fit_spline.hpp"
 
@@ -27,7 +28,11 @@ class DxfExpansion {
  public:
   DxfExpansion(const std::string& name, const DxfDocument& document, const DxfOptions& options,
                Diagnostics& diagnostics)
-      : document_(document), options_(options), builder_(name, diagnostics), diagnostics_(diagnostics) {}
+      : document_(document),
+        options_(options),
+        builder_(name, diagnostics),
+        diagnostics_(diagnostics),
+        selection_(document, options) {}
 
   Drawing expand();
 
@@ -87,7 +92,9 @@ class DxfExpansion {
   const DxfOptions& options_;
   DrawingBuilder builder_;
   Diagnostics& diagnostics_;
-  std::vector<bool> is_chosen_;  // of the document's layers
+  DxfSelection selection_;
+  DxfSelection::Around around_ = {};  // of the blocks that are open
+  std::vector<bool> is_chosen_;       // of the document's layers
   std::vector<std::uint32_t> open_blocks_;
   std::size_t work_ = 0;
   std::size_t on_layers_off_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -75,6 +76,7 @@ class EdgeJoiner {
   }
   void collect();
   bool is_new(const PathPoint& from, const PathPoint& to);
+  bool is_new_arc(DrawnPoint from, DrawnPoint to, DrawnPoint middle);
   void collect_open(const DrawnPath& path);
   void drop_overlaps();
   void trim(std::uint32_t index, const EdgeGrid& grid);
@@ -95,8 +97,14 @@ class EdgeJoiner {
   EdgeLoops found_;
   std::vector<DrawnPath> open_;
   std::set<std::tuple<DrawnPoint, DrawnPoint, DrawnPoint>> known_;  // ends and middles of their pieces
-  std::vector<std::optional<std::size_t>> partners_;                // of each end
-  std::vector<std::pair<std::size_t, std::size_t>> open_ends_;      // of each row that is not closed
+  struct DrawnArc {
+    DrawnPoint from;
+    DrawnPoint to;
+    DrawnPoint middle;
+  };
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<DrawnArc>> arcs_;  // by the place of their middles
+  std::vector<std::optional<std::size_t>> partners_;                             // of each end
+  std::vector<std::pair<std::size_t, std::size_t>> open_ends_;                   // of each row that is not closed
 };
 
 void EdgeJoiner::collect() {
@@ -126,7 +134,30 @@ void EdgeJoiner::collect() {
 bool EdgeJoiner::is_new(const PathPoint& from, const PathPoint& to) {
   const DrawnPoint middle =
       from.at < to.at ? point_along(from.at, to.at, from.bulge, 0.5) : point_along(to.at, from.at, -from.bulge, 0.5);
-  return known_.emplace(std::min(from.at, to.at), std::max(from.at, to.at), middle).second;
+  const bool is_exactly_new = known_.emplace(std::min(from.at, to.at), std::max(from.at, to.at), middle).second;
+  return is_exactly_new && (from.bulge == 0 || is_new_arc(from.at, to.at, middle));
+}
+
+// Arcs that are drawn by their centre and angles, or in the other direction, differ by roundings.
+bool EdgeJoiner::is_new_arc(DrawnPoint from, DrawnPoint to, DrawnPoint middle) {
+  constexpr std::size_t most_in_cell = 32;
+  constexpr std::int64_t cell = 4 * same_place.count;
+  const std::pair place{middle.x.count / cell, middle.y.count / cell};
+  for (std::int64_t x = place.first - 1; x <= place.first + 1; ++x) {
+    for (std::int64_t y = place.second - 1; y <= place.second + 1; ++y) {
+      const auto near = arcs_.find({x, y});
+      if (near == arcs_.end()) continue;
+      const bool is_known = std::ranges::any_of(near->second, [&](const DrawnArc& arc) {
+        const bool same = is_same_place(arc.from, from) && is_same_place(arc.to, to);
+        const bool turned = is_same_place(arc.from, to) && is_same_place(arc.to, from);
+        return is_same_place(arc.middle, middle) && (same || turned);
+      });
+      if (is_known) return false;
+    }
+  }
+  std::vector<DrawnArc>& here = arcs_[place];
+  if (here.size() < most_in_cell) here.push_back({from, to, middle});
+  return true;
 }
 
 // Layout programs draw an edge twice, part of it twice, or forth and back: each piece of an open path counts once.

@@ -106,13 +106,16 @@ CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor m
 }
 
 CamOption color_row(std::vector<std::string>& colors) {
-  return {"color", &colors, CamKind::text,
-          "SVG: stroke colour (without a stroke, fill colour) of shapes to read, e.g. red or #f00; can be repeated",
-          experts_of_one_job};
+  return {
+      "color", &colors, CamKind::text,
+      "SVG, DXF: colour of shapes to read, e.g. red or #f00 (SVG: of the stroke, without one of the fill; DXF: also a "
+      "number of the palette); can be repeated",
+      experts_of_one_job};
 }
 
 CamOption name_row(std::vector<std::string>& names) {
-  return {"name", &names, CamKind::text, "SVG: id or label of a shape or group to read; can be repeated",
+  return {"name", &names, CamKind::text,
+          "SVG: id or label of a shape or group to read; DXF: name of a block or layer, or handle; can be repeated",
           experts_of_one_job};
 }
 

@@ -50,7 +50,7 @@ std::string comment_of(std::string_view words) {
 
 }  // namespace
 
-JoinedProgram::JoinedProgram(const std::vector<std::string>& head) {
+JoinedProgram::JoinedProgram(const std::vector<std::string>& head, Tools tools) : tools_(tools) {
   for (const std::string& words : head) line(comment_of(words));
 }
 
@@ -67,9 +67,10 @@ void JoinedProgram::change_tool(const JoinedOperation& operation, const JoinedOp
   spindle_.clear();
   if (tool_ != -1) line("G0 " + operation.park);
   line(comment_of(fmt::format("MSG, tool {}: {}", tool.number, tool.words)));
+  tool_ = tool.number;
+  if (tools_ == Tools::in_spindle) return;
   line(fmt::format("T{} M6", tool.number));
   line(up);
-  tool_ = tool.number;
 }
 
 void JoinedProgram::add(const JoinedOperation& operation) {

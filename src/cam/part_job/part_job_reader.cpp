@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "passo/operations/cam_operation.hpp"
+#include "passo/operations/length_text.hpp"
 #include "passo/tooling/cutting_feeds.hpp"
 #include "passo/tooling/tool_library.hpp"
 
@@ -95,15 +96,54 @@ std::vector<std::string> PartJobReader::names(const TomlTable& table, TableReade
   return {};
 }
 
-std::optional<double> PartJobReader::length(TableReader& reader, std::string_view key, double least,
-                                            std::string_view example, Need need) {
-  const auto number = reader.number({key, least, longest / unit_mm_, example}, need);
-  return number ? std::optional(*number * unit_mm_) : std::nullopt;
+std::optional<double> PartJobReader::length_of(TableReader& reader, std::string_view key, const TomlValue& value,
+                                               double least, const std::string& example) const {
+  const auto refuse = [&](const char* code, const std::string& expected) {
+    reporter_.error(code, value.place, fmt::format("{} is {}", reader.full_name(key), kind_of(value)), expected);
+    return std::nullopt;
+  };
+  const auto* const number = std::get_if<double>(&value.content);
+  const auto* const text = std::get_if<std::string>(&value.content);
+  double mm = number != nullptr ? *number * unit_mm_ : 0;
+  if (text != nullptr) {
+    const Result<Mm, std::string> read = parse_length("", *text, unit_mm_);
+    if (!read) return refuse("job.bad-value", fmt::format("a length, e.g. {} or \"1/2in\"", example));
+    mm = read->value();
+  } else if (number == nullptr) {
+    return refuse("job.wrong-type", fmt::format("a length, e.g. {}", example));
+  }
+  if (mm >= least && mm <= longest) return mm;
+  return refuse("job.out-of-range",
+                fmt::format("{:.6g} to {:.6g} {}", least / unit_mm_, longest / unit_mm_, job_.units));
 }
 
-std::optional<LowHigh> PartJobReader::pair(TableReader& reader, std::string_view key, double least, Need need) {
-  const auto both = reader.low_high({key, least, longest / unit_mm_, "[100, 60]"}, need);
-  return both ? std::optional(LowHigh{both->low * unit_mm_, both->high * unit_mm_}) : std::nullopt;
+std::optional<double> PartJobReader::length(const TomlTable& table, TableReader& reader, std::string_view key,
+                                            double least, std::string_view example, Need need) {
+  const std::string line = fmt::format("{} = {}", key, example);
+  reader.know(key);
+  if (const TomlEntry* const entry = find(table, key)) return length_of(reader, key, entry->value, least, line);
+  if (need == Need::required) reader.missing(key, line);
+  return std::nullopt;
+}
+
+std::optional<LowHigh> PartJobReader::pair(const TomlTable& table, TableReader& reader, std::string_view key,
+                                           double least, Need need) {
+  const std::string line = fmt::format("{} = [100, 60]", key);
+  reader.know(key);
+  const TomlEntry* const entry = find(table, key);
+  if (entry == nullptr) {
+    if (need == Need::required) reader.missing(key, line);
+    return std::nullopt;
+  }
+  const auto* const list = std::get_if<TomlArray>(&entry->value.content);
+  if (list == nullptr || list->size() != 2) {
+    reader.error("job.wrong-type", key, fmt::format("{} is {}", reader.full_name(key), kind_of(entry->value)),
+                 fmt::format("two lengths, e.g. {}", line));
+    return std::nullopt;
+  }
+  const auto low = length_of(reader, key, list->front(), least, line);
+  const auto high = length_of(reader, key, list->back(), least, line);
+  return low && high ? std::optional(LowHigh{*low, *high}) : std::nullopt;
 }
 
 void PartJobReader::read_job(const TomlEntry& entry) {
@@ -176,12 +216,13 @@ void PartJobReader::read_program_words(const TomlTable& table, TableReader& read
 }
 
 void PartJobReader::read_stock(const TomlEntry& entry) {
-  TableReader reader(std::get<TomlTable>(entry.value.content), "stock", entry.place, reporter_);
+  const auto& table = std::get<TomlTable>(entry.value.content);
+  TableReader reader(table, "stock", entry.place, reporter_);
   PartStock stock;
-  const auto size = pair(reader, "size", 1e-3, Need::required);
-  const auto corner = pair(reader, "corner", -longest, Need::optional);
-  stock.thickness = length(reader, "thickness", 1e-3, "12", Need::required).value_or(0);
-  stock.margin_below = length(reader, "below", 0, "0.5", Need::optional).value_or(stock.margin_below);
+  const auto size = pair(table, reader, "size", 1e-3, Need::required);
+  const auto corner = pair(table, reader, "corner", -longest, Need::optional);
+  stock.thickness = length(table, reader, "thickness", 1e-3, "12", Need::required).value_or(0);
+  stock.margin_below = length(table, reader, "below", 0, "0.5", Need::optional).value_or(stock.margin_below);
   stock.material = reader.text("material", "plywood", Need::optional).value_or("");
   stock.known_material = work_material_of(stock.material);
   if (corner) {
@@ -199,15 +240,16 @@ void PartJobReader::read_clamp(const TomlTable& table, const std::string& path, 
   TableReader reader(table, path, place, reporter_);
   PartClamp clamp;
   clamp.name = reader.text("name", "left clamp", Need::optional).value_or(path);
-  const auto from = pair(reader, "from", -longest, Need::required);
-  const auto to = pair(reader, "to", -longest, Need::required);
-  const auto height = length(reader, "height", -longest, "15", Need::required);
+  const auto from = pair(table, reader, "from", -longest, Need::required);
+  const auto to = pair(table, reader, "to", -longest, Need::required);
+  const auto height = length(table, reader, "height", -longest, "15", Need::required);
   reader.finish(document_.complete, {});
   if (!from || !to || !height) return;
   if (from->low >= to->low || from->high >= to->high) {
-    reader.error("job.bad-value", "to",
-                 fmt::format("{0}.to is [{1:g}, {2:g}], not beyond {0}.from", path, to->low, to->high),
-                 fmt::format("X above {:g} and Y above {:g}", from->low, from->high));
+    reader.error(
+        "job.bad-value", "to",
+        fmt::format("{0}.to is [{1:g}, {2:g}], not beyond {0}.from", path, to->low / unit_mm_, to->high / unit_mm_),
+        fmt::format("X above {:g} and Y above {:g}", from->low / unit_mm_, from->high / unit_mm_));
     return;
   }
   clamp.x[0] = from->low;

@@ -42,10 +42,14 @@ class PartJobReader {
   void apply_tool(PartOperation& operation);
   std::int32_t tool_number(TableReader& reader, std::string_view key, Need need);
 
+  // A number in the job's unit, or a text such as "1/2in". `least`: in mm. In mm.
+  std::optional<double> length_of(TableReader& reader, std::string_view key, const TomlValue& value, double least,
+                                  const std::string& example) const;
   // A key with two lengths: [x, y]. In mm.
-  std::optional<LowHigh> pair(TableReader& reader, std::string_view key, double least, Need need);
-  std::optional<double> length(TableReader& reader, std::string_view key, double least, std::string_view example,
-                               Need need);
+  std::optional<LowHigh> pair(const TomlTable& table, TableReader& reader, std::string_view key, double least,
+                              Need need);
+  std::optional<double> length(const TomlTable& table, TableReader& reader, std::string_view key, double least,
+                               std::string_view example, Need need);
   // The names in a text or a list of texts.
   std::vector<std::string> names(const TomlTable& table, TableReader& reader, std::string_view key);
   std::string in_folder(const std::string& name) const;

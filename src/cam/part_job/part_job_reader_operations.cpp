@@ -80,7 +80,10 @@ std::string cutter_words(const Cutter& cutter) {
 
 // The kind of tool that an operation needs; empty: this one is suitable.
 std::string tool_expected(PartKind kind, CuttingShape shape) {
-  if (kind == PartKind::drill) return "";
+  if (kind == PartKind::drill) {
+    const bool leaves_round_bottom = shape == CuttingShape::ball || shape == CuttingShape::taper;
+    return leaves_round_bottom ? "a tool with shape = \"drill\", \"flat\", \"bull\" or \"vee\"" : "";
+  }
   if (kind == PartKind::relief) return shape != CuttingShape::drill ? "" : "a milling cutter";
   if (kind == PartKind::engrave || kind == PartKind::chamfer) {
     return shape == CuttingShape::vee ? "" : "a tool with shape = \"vee\"";
@@ -133,7 +136,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
     operation.first_tool = tool_number(reader, first.key, Need::optional);
   }
   if (*kind == PartKind::engrave) {
-    if (const auto at = pair(reader, "at", -1e4, Need::optional)) operation.at = {at->low, at->high};
+    if (const auto at = pair(table, reader, "at", -1e4, Need::optional)) operation.at = {at->low, at->high};
   }
   if (operation.tool > 0) {
     const std::string expected = tool_expected(*kind, job_.tools.at(operation.tool).tool.shape);
@@ -187,7 +190,7 @@ void PartJobReader::read_options(const TomlTable& table, TableReader& reader, Pa
                    fmt::format("{} is {}", reader.full_name(option.name), kind_of(entry->value)), expected);
       continue;
     }
-    operation.keys.push_back({entry->key, entry->value.place});
+    operation.keys.push_back({entry->key, entry->value.place, false});
     auto* const* text = std::get_if<std::string*>(&option.value);
     if (option.kind == CamKind::file && text != nullptr) {
       const std::string inside = in_folder(**text);
@@ -211,7 +214,7 @@ void PartJobReader::apply_defaults(PartOperation& operation) {
     if (entry == nullptr || operation.has(option.name) || is_set_by_job(option)) continue;
     const std::string expected = set_option(option, entry->value);
     if (expected.empty()) {
-      operation.keys.push_back({entry->key, entry->value.place});
+      operation.keys.push_back({entry->key, entry->value.place, true});
     } else {
       reporter_.error("job.bad-value", entry->value.place,
                       fmt::format("job.{} is {}", entry->key, kind_of(entry->value)), expected);

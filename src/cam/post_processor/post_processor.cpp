@@ -34,6 +34,7 @@ class PostProcessor::Lines {
   Lines(const ControllerWords& controller, PostProcessorOptions options, Sink sink)
       : controller_(controller), options_(std::move(options)), sink_(std::move(sink)) {
     scale_ = mm_of(options_.read_unit) / mm_of(options_.written_unit);
+    tool_ = options_.first_tool;
     decimals_ =
         options_.written_unit == LengthUnit::mm ? controller.numbers.mm_decimals : controller.numbers.inch_decimals;
     digit_ = std::pow(10.0, -decimals_);
@@ -157,8 +158,9 @@ void PostProcessor::Lines::begin() {
 // A comment that is longer than a line continues in the next one.
 void PostProcessor::Lines::write_comment(std::string_view comment) {
   std::string text = clean(comment);
-  if (text.starts_with("MSG,") && !controller_.comments.has_messages)
-    text = text.substr(text.find_first_not_of(' ', 4));
+  if (text.starts_with("MSG,") && !controller_.comments.has_messages) {
+    text.erase(0, std::min(text.find_first_not_of(' ', 4), text.size()));
+  }
   const std::size_t longest = controller_.comments.longest_line;
   constexpr std::size_t frame = 10;  // brackets and a line number
   const std::size_t room = longest == 0 ? text.size() : longest - frame;
@@ -352,6 +354,12 @@ void PostProcessor::Lines::read(std::string_view line) {
   }
   read_words(line, words_);
   if (words_.bad_column > 0) refuse(fmt::format("unexpected '{}'", line.substr(words_.bad_column - 1, 1)));
+  constexpr double largest = 1e7;
+  for (const ProgramWord& word : words_.words) {
+    if (std::abs(word.value) <= largest) continue;
+    refuse(fmt::format("{}{} is too large", word.letter, word.digits));
+    return;
+  }
   if (words_.words.empty()) {
     write_comment(words_.comment);
     return;
@@ -369,7 +377,9 @@ void PostProcessor::Lines::read(std::string_view line) {
     write_modes();
   } else if (words_.has('M', 6)) {
     const ProgramWord* const tool = words_.find('T');
-    call_tool(tool == nullptr ? 0 : static_cast<std::uint32_t>(tool->value));
+    const bool is_good = tool != nullptr && tool->value >= 0 && tool->value == std::floor(tool->value);
+    if (!is_good) refuse("expected T with a tool number");
+    call_tool(is_good ? static_cast<std::uint32_t>(tool->value) : 0);
   } else if (words_.has('M', 2)) {
     end();
   } else if (words_.has('G', 4)) {

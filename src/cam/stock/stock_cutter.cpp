@@ -148,6 +148,7 @@ class StockCutter::Implementation {
   HeightField& field_;
   StockCutterOptions options_;
   Watcher watcher_;
+  double finest_cell_;  // of the stock and of all clamps
   std::vector<Clamp> clamps_;
   std::size_t tiles_across_ = 0;
   std::vector<TileWork> tiles_;
@@ -157,7 +158,7 @@ class StockCutter::Implementation {
 };
 
 StockCutter::Implementation::Implementation(HeightField& field, const StockCutterOptions& options, Watcher watcher)
-    : field_(field), options_(options), watcher_(std::move(watcher)) {
+    : field_(field), options_(options), watcher_(std::move(watcher)), finest_cell_(field.cell()) {
   options_.threads = std::clamp(options_.threads, 1U, most_threads);
   tiles_across_ = (field_.columns() + tile_size - 1) / tile_size;
   for (const Tile& tile : tiles_of(field_)) {
@@ -169,8 +170,9 @@ StockCutter::Implementation::Implementation(HeightField& field, const StockCutte
     tiles_.push_back({.tile = tile, .top = top, .chords = {}});
   }
   for (const StockBlock& block : options_.clamps) {
-    Result<HeightField, FieldRefusal> clamp = HeightField::create(block, Mm(field_.cell()));
+    Result<HeightField, FieldRefusal> clamp = HeightField::create(block, clamp_cell(block, field_));
     if (!clamp) continue;
+    finest_cell_ = std::min(finest_cell_, clamp->cell());
     std::vector<Tile> tiles = tiles_of(*clamp);
     clamps_.push_back({std::move(*clamp), std::move(tiles)});
   }
@@ -183,7 +185,7 @@ void StockCutter::Implementation::cut(const Curve& curve, const Vector3& zero, c
   const Vector3 end = Vector3::of(curve.end()) - zero;
   // The distance of a chord of length L from a curve is at most L² curvature / 8.
   const double length = curve.length().value();
-  const double tolerance = chord_share * field_.cell();
+  const double tolerance = chord_share * finest_cell_;
   const double wanted = std::ceil(length * std::sqrt(curve.curvature() / (8 * tolerance)));
   const double count = std::clamp(wanted, 1.0, most_chords_of_a_move);
   const auto number = static_cast<std::uint32_t>(moves_.size());
@@ -330,6 +332,16 @@ void StockCutter::Implementation::finish() {
   }
   chords_.clear();
   moves_.clear();
+}
+
+Mm StockCutter::clamp_cell(const StockBlock& clamp, const HeightField& field) {
+  constexpr double most_cells = 2e5;
+  const double area = (clamp.high.x - clamp.low.x) * (clamp.high.y - clamp.low.y);
+  double cell = field.cell();
+  for (const double finer : {5.0, 2.0, 1.0, 0.5, 0.2}) {
+    if (finer < cell && area / (finer * finer) <= most_cells) cell = finer;
+  }
+  return Mm(cell);
 }
 
 StockCutter::StockCutter(HeightField& field, const StockCutterOptions& options, Watcher watcher)

@@ -77,6 +77,8 @@ class FeedFinder {
   void find_rpm();
   void find_feed();
   void find_plunge();
+  double surface_speed() const;  // m/min; 0: not limited
+  double faster(double rpm);     // if the spindle cannot turn as slowly as this
   double most_rpm() const;
   const char* limit_in_words() const;  // what sets most_rpm()
 
@@ -161,13 +163,36 @@ const char* FeedFinder::limit_in_words() const {
   return request_.spindle.most_rpm > 0 ? "the limit of the spindle" : "the usual limit of router spindles";
 }
 
+double FeedFinder::surface_speed() const {
+  return tool_.material == ToolMaterial::hss ? table_.surface_speed / 2 : table_.surface_speed;
+}
+
+double FeedFinder::faster(double rpm) {
+  const double least = request_.spindle.least_rpm;
+  if (rpm >= least) return rpm;
+  if (tool_.most_rpm && *tool_.most_rpm < least) {
+    tell("spindle",
+         fmt::format("the spindle turns at {:g} rpm or more, too fast for this tool: use another one", least));
+    return rpm;
+  }
+  tell("spindle", fmt::format("at least {:g} rpm, the limit of the spindle", least));
+  const double rim = std::numbers::pi * tool_.diameter.value() * least / mm_per_metre;
+  constexpr double clearly = 1.1;
+  if (surface_speed() > 0 && rim > clearly * surface_speed()) {
+    tell("spindle", fmt::format("the cutter is too large for this spindle: {:.0f} m/min instead of {:g} m/min; use one "
+                                "of at most {:.3g} mm",
+                                rim, surface_speed(), tool_.diameter.value() * surface_speed() / rim));
+  }
+  return least;
+}
+
 void FeedFinder::find_rpm() {
   double rpm = table_.usual_rpm > 0 ? table_.usual_rpm : most_rpm();
   std::string why = fmt::format("{:g} rpm, {}", rpm, table_.usual_rpm > 0 ? "usual for routers" : limit_in_words());
   std::string_view source = table_.usual_rpm > 0 ? chips::yeti : std::string_view();
   if (table_.surface_speed > 0) {
     const bool is_hss = tool_.material == ToolMaterial::hss;
-    const double speed = is_hss ? table_.surface_speed / 2 : table_.surface_speed;
+    const double speed = surface_speed();
     const double limit = speed * mm_per_metre / (std::numbers::pi * tool_.diameter.value());
     if (limit < rpm) {
       rpm = limit;
@@ -186,11 +211,7 @@ void FeedFinder::find_rpm() {
     rpm = most_rpm();
     tell("spindle", fmt::format("at most {:g} rpm, {}", rpm, limit_in_words()));
   }
-  const double least = std::max(request_.spindle.least_rpm, fewest_rpm);
-  if (rpm < least) {
-    rpm = least;
-    tell("spindle", fmt::format("at least {:g} rpm, the limit of the spindle", rpm));
-  }
+  rpm = faster(rpm);
   feeds_.rpm = std::max(10.0, std::floor(rpm / 10 + 1e-9) * 10);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "passo/activity/nominal_time.hpp"
+#include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
 namespace {
@@ -59,7 +60,7 @@ Point SimulatedPath::zero_of(const Segment& segment) {
 bool SimulatedPath::next(TipMove& move) {
   while (!diagnostics_.full() && (smoother_ ? smoother_->next(item_) : watched_.next(item_))) {
     if (const auto* const action = std::get_if<Action>(&item_)) {
-      if (action->kind == Action::Kind::tool_change) tool_ = action->tool;
+      if (changes_tool(*action)) tool_ = action->tool;
       const OutputState& outputs = action->outputs;
       revolutions_per_minute_ = outputs.spindle == SpindleDirection::off ? 0 : outputs.revolutions_per_minute;
       continue;
@@ -67,7 +68,7 @@ bool SimulatedPath::next(TipMove& move) {
     const Segment& segment = std::get<Segment>(item_);
     move.segment = &segment;
     move.zero = zero_of(segment);
-    move.tool = tool_;
+    move.tool = tool_ != 0 ? tool_ : builder_.named_tool();
     move.revolutions_per_minute = revolutions_per_minute_;
     move.time = Seconds(0);
     if (limits_) {

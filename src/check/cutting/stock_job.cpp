@@ -119,6 +119,7 @@ void cut_stock(const StockJob& job, const StockWishes& wishes, const FeedLook& l
                          .rapid = move.segment->rapid,
                          .time = move.time,
                          .rounding = job.machine != nullptr ? move.segment->tolerance : Mm(0)};
+    if (hooks.rapid && kind.rapid) hooks.rapid(move, kind);
     if (hooks.feed && !kind.rapid) {
       hooks.feed(cutter, move, kind);
     } else {

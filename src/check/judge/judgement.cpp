@@ -8,6 +8,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/relay.hpp"
+#include "passo/path/hand_tool_change.hpp"
 #include "passo/report/summary_builder.hpp"
 
 namespace passo {
@@ -95,7 +96,7 @@ Judgement judge(ProgramMotion& motion, const MachineDescription& machine, Second
     if (!motion.next(item)) return false;
     builder.add_up(item);
     if (const auto* action = std::get_if<Action>(&item)) {
-      judged.tool_changes += action->kind == Action::Kind::tool_change ? 1 : 0;
+      judged.tool_changes += changes_tool(*action) ? 1 : 0;
     }
     if (progress && ++items % items_between_looks == 0) progress(motion.nominal_time() / whole);
     return true;

@@ -13,7 +13,7 @@ std::string what(const OperatorWait& wait) {
   switch (wait.kind) {
     case Action::Kind::tool_change: return fmt::format("tool {} (M6)", wait.tool);
     case Action::Kind::optional_stop: return "optional stop (M1)";
-    default: return "program stop (M0)";
+    default: return wait.tool == 0 ? "program stop (M0)" : fmt::format("tool {} by hand (M0)", wait.tool);
   }
 }
 

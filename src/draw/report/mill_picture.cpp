@@ -18,8 +18,13 @@ constexpr Nanometres drawn_chords{20'000};
 const Pen sheet_pen{.colour = {0.45, 0.33, 0.18}, .width = 1.4};
 
 PlanView view_of(const MillScene& scene, const Area& area) {
-  DrawnBox box = bounds(scene.face).value_or(DrawnBox{scene.park, scene.park});
-  extend(box, scene.park);
+  DrawnPoint start = scene.park;
+  if (scene.rapids && !scene.rapids->empty()) start = scene.rapids->front().front();
+  DrawnBox box = bounds(scene.face).value_or(DrawnBox{start, start});
+  extend(box, start);
+  for (const DrawnRing& line : scene.rapids.value_or(std::vector<DrawnRing>())) {
+    for (const DrawnPoint& point : line) extend(box, point);
+  }
   if (scene.sheet) {
     extend(box, scene.sheet->least);
     extend(box, scene.sheet->most);
@@ -67,6 +72,25 @@ void draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, Dra
   canvas.stroke(rapids_pen);
 }
 
+void draw_known_rapids(Canvas& canvas, const PlanView& view, const std::vector<DrawnRing>& rapids) {
+  for (const DrawnRing& line : rapids) {
+    canvas.move_to(view.spot(line.front()));
+    for (std::size_t i = 1; i < line.size(); ++i) canvas.line_to(view.spot(line[i]));
+    canvas.stroke(rapids_pen);
+  }
+}
+
+double length_of_lines(const std::vector<DrawnRing>& lines) {
+  double length = 0;
+  for (const DrawnRing& line : lines) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      length += std::hypot(static_cast<double>(line[i].x.count - line[i - 1].x.count),
+                           static_cast<double>(line[i].y.count - line[i - 1].y.count));
+    }
+  }
+  return length;
+}
+
 void draw_mark(Canvas& canvas, Spot middle) {
   constexpr double radius = 9;
   constexpr int corners = 24;
@@ -98,6 +122,7 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
     all.milled_nm += lengths.milled_nm;
     all.rapids_nm += lengths.rapids_nm;
   }
+  if (scene.rapids) all.rapids_nm = length_of_lines(*scene.rapids);
   begin_sheet(
       canvas, options,
       fmt::format("{} down   \u00B7   {:.1f} mm milled   \u00B7   {:.1f} mm of rapids", counted(all.runs, "time"),
@@ -114,9 +139,10 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
     draw_ways(canvas, view, tool, {.colour = colour_of_tool(i), .width = width, .opacity = 0.35});
   }
   for (std::size_t i = 0; i < scene.plan.tools.size(); ++i) {
-    draw_rapids(canvas, view, scene.plan.tools[i], scene.park);
+    if (!scene.rapids) draw_rapids(canvas, view, scene.plan.tools[i], scene.park);
     draw_ways(canvas, view, scene.plan.tools[i], {.colour = colour_of_tool(i), .width = thinnest});
   }
+  if (scene.rapids) draw_known_rapids(canvas, view, *scene.rapids);
   for (const DrawnPoint& mark : scene.marks) draw_mark(canvas, view.spot(mark));
 
   constexpr std::size_t most_named = 7;

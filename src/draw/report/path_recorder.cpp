@@ -8,6 +8,7 @@
 #include "polyline_joining.hpp"
 
 #include "passo/interpreter/used_tools.hpp"
+#include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
 namespace {
@@ -55,7 +56,7 @@ void PathRecorder::watch(const MotionItem& item, const Point& machine_minus_work
     watch_move(*move, machine_minus_work);
   } else if (const auto& action = std::get<Action>(item); action.kind == Action::Kind::dwell) {
     time_ += action.dwell;
-  } else if (action.kind == Action::Kind::tool_change) {
+  } else if (changes_tool(action)) {
     change_tool(action.tool);
   }
 }

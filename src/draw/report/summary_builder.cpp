@@ -10,6 +10,7 @@
 #include "passo/interpreter/is_any_of.hpp"
 #include "passo/interpreter/tool_table.hpp"
 #include "passo/interpreter/used_tools.hpp"
+#include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
 namespace {
@@ -73,7 +74,7 @@ class SummaryBuilder::Implementation {
     if (const auto* action = std::get_if<Action>(&item)) {
       if (action->kind == Action::Kind::probe_begin) probes_ = true;
       if (action->kind == Action::Kind::probe_end) probes_ = false;
-      if (action->kind == Action::Kind::tool_change) path_tool_ = action->tool;
+      if (changes_tool(*action)) path_tool_ = action->tool;
       return;
     }
     if (probes_) return;
@@ -105,7 +106,7 @@ class SummaryBuilder::Implementation {
   }
 
   void add_up(const Action& action) {
-    if (action.kind == Action::Kind::tool_change) motion_tool_ = action.tool;
+    if (changes_tool(action)) motion_tool_ = action.tool;
     if (action.kind != Action::Kind::dwell) return;
     ++sum_.dwells;
     sum_.dwell_time += action.dwell;

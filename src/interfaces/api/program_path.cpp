@@ -7,6 +7,7 @@
 
 #include "passo/geometry/vector3.hpp"
 #include "passo/interpreter/used_tools.hpp"
+#include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
 namespace {
@@ -119,7 +120,7 @@ std::uint16_t ProgramPath::speed_flags(MmPerSecond speed) {
 
 void ProgramPath::add(const PathItem& item, const Frame& frame) {
   const auto* const action = std::get_if<Action>(&item);
-  if (action != nullptr && action->kind == Action::Kind::tool_change) tool_ = action->tool;
+  if (action != nullptr && changes_tool(*action)) tool_ = action->tool;
   const auto* const segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->takes_up_backlash || !segment->curve.has_length()) return;
   const Box box = frame.work_extents(segment->curve);

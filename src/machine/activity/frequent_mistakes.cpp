@@ -49,6 +49,7 @@ FrequentMistakes::FrequentMistakes(const MachineDescription& machine, LengthUnit
 void FrequentMistakes::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
   const OperationKind& what = operation.what;
+  hand_.watch(operation);
   if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(operation)) {
     if (!track.moves()) return;
     if (const auto* round = std::get_if<ArcFeed>(&what)) arc(operation, *round, track.from());
@@ -58,7 +59,8 @@ void FrequentMistakes::watch(const Operation& operation, const ToolTrack& track)
     probes_ |= is_any_of<StraightProbe>(operation);
     return move(operation);
   }
-  if (is_any_of<ChangeTool, SetToolNumber>(operation)) change_tool();
+  const bool is_by_hand = is_any_of<ProgramStop>(operation) && hand_.at_stop() != 0;
+  if (is_by_hand || is_any_of<ChangeTool, SetToolNumber>(operation)) change_tool();
   if (is_any_of<Finish>(operation) && left_on_) diagnostics_.add_certain(*std::exchange(left_on_, std::nullopt));
   if (const auto* tool = std::get_if<SelectTool>(&what)) return select(operation, tool->tool);
   if (const auto* turn = std::get_if<TurnSpindle>(&what)) return turn_spindle(operation, turn->direction);

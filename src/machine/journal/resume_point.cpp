@@ -9,6 +9,7 @@
 
 #include "passo/drive/program_stop.hpp"
 #include "passo/kinematics/kinematics.hpp"
+#include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
 namespace {
@@ -61,7 +62,7 @@ class Passed {
       point_.spindle_wait += action.dwell;
     }
     point_.outputs = action.outputs;
-    if (action.kind == Action::Kind::tool_change) point_.tool = action.tool;
+    if (changes_tool(action)) point_.tool = action.tool;
     if (is_program_stop(action)) ++point_.stops;
   }
 

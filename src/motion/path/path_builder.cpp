@@ -107,6 +107,7 @@ void PathBuilder::switch_off() {
 }
 
 bool PathBuilder::add(const Operation& operation, PathItem& item) {
+  hand_.watch(operation);
   if (frame_.follow(operation)) return false;
   const auto act = [&](Action::Kind kind, Seconds dwell = Seconds(0), std::int32_t tool = 0) {
     item = Action{
@@ -158,7 +159,7 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::SetFlood& flood) { return set_output(commanded_.flood, flood.on); },
           [&](const operation::Dwell& dwell) { return act(Action::Kind::dwell, dwell.time); },
           [&](const operation::ChangeTool& change) { return act(Action::Kind::tool_change, Seconds(0), change.tool); },
-          [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop); },
+          [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop, Seconds(0), hand_.at_stop()); },
           [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
           [&](const operation::ProgramEnd&) {
             switch_off();

@@ -55,6 +55,50 @@ TEST(Dxf, circles_and_points_are_holes) {
   EXPECT_TRUE(read.drawing.notes.empty());
 }
 
+// Five circles: red by its layer, by its own number, by a true colour, and by the colour of its block's INSERT.
+const std::string coloured =
+    "0 SECTION 2 TABLES 0 TABLE 2 LAYER 0 LAYER 2 CUT 70 0 62 1 0 LAYER 2 ENGRAVE 70 0 62 5 0 ENDTAB 0 ENDSEC "
+    "0 SECTION 2 BLOCKS 0 BLOCK 2 CORNER 10 0 20 0 0 CIRCLE 5 2F 8 0 62 0 10 0 20 0 40 5 0 ENDBLK 0 ENDSEC "
+    "0 SECTION 2 ENTITIES "
+    "0 CIRCLE 5 A1 8 CUT 10 0 20 0 40 1 "
+    "0 CIRCLE 5 a2 8 ENGRAVE 62 1 10 0 20 0 40 2 "
+    "0 CIRCLE 5 A3 8 ENGRAVE 62 30 420 16711680 10 0 20 0 40 3 "
+    "0 CIRCLE 5 A4 8 ENGRAVE 62 30 10 0 20 0 40 4 "
+    "0 INSERT 5 A5 8 ENGRAVE 62 1 2 CORNER 10 100 20 0 "
+    "0 ENDSEC 0 EOF";
+
+std::vector<double> radii_of(const DxfOptions& options) {
+  const ReadDxf read = read_text(in_lines(coloured), options);
+  EXPECT_FALSE(read.found.any_error());
+  std::vector<double> radii;
+  for (const DrawnHole& hole : read.drawing.holes) radii.push_back(to_mm(hole.diameter).value() / 2);
+  return radii;
+}
+
+TEST(Dxf, entities_are_selected_by_colour) {
+  using testing::ElementsAre;
+  EXPECT_THAT(radii_of({.colors = {"red"}}), ElementsAre(1, 2, 3, 5));
+  EXPECT_THAT(radii_of({.colors = {"#F00"}}), ElementsAre(1, 2, 3, 5));
+  EXPECT_THAT(radii_of({.colors = {"1"}}), ElementsAre(1, 2, 5)) << "a number of the palette is no true colour";
+  EXPECT_THAT(radii_of({.colors = {"30"}}), ElementsAre(4));
+  EXPECT_THAT(radii_of({.layers = {"ENGRAVE"}, .colors = {"red", "30"}}), ElementsAre(2, 3, 4, 5));
+  const ReadDxf none = read_text(in_lines(coloured), {.colors = {"teal"}});
+  EXPECT_TRUE(none.drawing.holes.empty());
+  EXPECT_THAT(none.drawing.notes, testing::Contains("nothing that is read has the colour 'teal'"));
+}
+
+TEST(Dxf, entities_are_selected_by_layer_block_or_handle) {
+  using testing::ElementsAre;
+  EXPECT_THAT(radii_of({.names = {"cut"}}), ElementsAre(1));
+  EXPECT_THAT(radii_of({.names = {"Corner"}}), ElementsAre(5));
+  EXPECT_THAT(radii_of({.names = {"A2", "a4"}}), ElementsAre(2, 4));
+  EXPECT_THAT(radii_of({.names = {"A5"}}), ElementsAre(5)) << "the handle of an INSERT is for all in its block";
+  EXPECT_THAT(radii_of({.names = {"2F"}}), ElementsAre(5));
+  EXPECT_THAT(radii_of({.colors = {"red"}, .names = {"ENGRAVE"}}), ElementsAre(2, 3, 5));
+  const ReadDxf none = read_text(in_lines(coloured), {.names = {"A9"}});
+  EXPECT_THAT(none.drawing.notes, testing::Contains("no layer, block or handle is 'A9'"));
+}
+
 TEST(Dxf, units_come_from_the_header_or_are_told_or_guessed) {
   const std::string circle = "0 CIRCLE 8 0 10 1 20 0 40 0.02";
   const ReadDxf inch = read_text(entities(circle, "0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC"));

@@ -103,6 +103,31 @@ TEST(EdgeLoops, parts_drawn_twice_or_forth_and_back_count_once) {
   EXPECT_NEAR(area_mm2(result.board), 1200 - 2 * (16 - 4 * M_PI), 0.01);
 }
 
+// A slot of loose lines and arcs. Its arcs are drawn again, in the other direction and with the roundings of a program.
+TEST(EdgeLoops, arcs_drawn_twice_count_once_in_spite_of_roundings) {
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  drawing.paths.push_back(open_line({{xy(0, 0)}, {xy(40, 0)}}));
+  drawing.paths.push_back(open_line({{xy(40, 0), 1}, {xy(40, 10)}}));
+  drawing.paths.push_back(open_line({{xy(40, 10)}, {xy(0, 10)}}));
+  drawing.paths.push_back(open_line({{xy(0, 10), 1}, {xy(0, 0)}}));
+  drawing.paths.push_back(open_line({{xy(40.0003, 10.0002), -1}, {xy(39.9998, -0.0004)}}));
+  drawing.paths.push_back(open_line({{xy(0.0001, 10.0005), 1}, {xy(-0.0004, 0.0001)}}));
+  const Outlined result = outlined(drawing, {});
+  EXPECT_FALSE(result.findings.any_error()) << render(result.findings, false);
+  EXPECT_EQ(result.loops.loops.size(), 1U);
+  EXPECT_NEAR(area_mm2(result.board), 400 + 25 * M_PI, 0.01);
+}
+
+// Two arcs between the same ends, one on each side, are a closed contour.
+TEST(EdgeLoops, arcs_with_common_ends_are_different_arcs) {
+  Drawing drawing{.file = "edge.dxf", .layers = {"Edge"}, .holes = {}, .paths = {}, .notes = {}};
+  drawing.paths.push_back(open_line({{xy(0, 0), 0.3}, {xy(40, 0)}}));
+  drawing.paths.push_back(open_line({{xy(40, 0), 0.3}, {xy(0, 0)}}));
+  const Outlined result = outlined(drawing, {});
+  EXPECT_FALSE(result.findings.any_error()) << render(result.findings, false);
+  EXPECT_EQ(result.loops.loops.size(), 1U);
+}
+
 TEST(EdgeLoops, a_line_of_a_closed_outline_may_be_drawn_again) {
   Drawing drawing{.file = "edge.gbr", .layers = {"0"}, .holes = {}, .paths = {}, .notes = {}};
   DrawnPath whole = open_line({{xy(0, 0)}, {xy(40, 0)}, {xy(40, 30)}, {xy(0, 30)}});

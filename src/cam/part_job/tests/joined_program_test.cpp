@@ -60,6 +60,16 @@ TEST(JoinedProgram, an_operation_of_two_tools_has_the_numbers_of_the_job) {
   EXPECT_EQ(text.find("T2 M6"), std::string::npos);
 }
 
+TEST(JoinedProgram, a_program_of_one_tool_names_it_and_does_not_change_it) {
+  JoinedProgram joined({"tool 3: cutter"}, JoinedProgram::Tools::in_spindle);
+  joined.add(operation("first", "G1 X1\n", 3));
+  joined.add(operation("second", "G1 X2\n", 3));
+  EXPECT_EQ(joined.take(),
+            "(tool 3: cutter)\n\n(first)\nG17 G21 G40 G80 G90 G94\nG0 Z5\n(MSG, tool 3: cutter)\nM3 S12000\n"
+            "G4 P2 (the spindle reaches its speed)\nG1 X1\n\n(second)\nG17 G21 G40 G80 G90 G94\nG0 Z5\nG1 X2\n\nM5\n"
+            "G0 X0 Y0\nM2\n");
+}
+
 TEST(JoinedProgram, lines_belong_to_operations) {
   JoinedProgram joined({"head"});
   joined.add(operation("first", "G1 X1\n", 3));

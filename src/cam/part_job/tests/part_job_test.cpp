@@ -101,6 +101,30 @@ TEST(PartJob, lengths_of_stock_and_clamps_are_in_the_units_of_the_job) {
   EXPECT_EQ(std::get<CamPocketArguments>(job.operations[0].arguments).units, "inch");
 }
 
+TEST(PartJob, a_length_in_quotes_has_its_own_unit) {
+  const std::string operation =
+      "[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\n[[operation]]\nkind = \"pocket\"\ntool = 1\n";
+  const std::string text = "[job]\nunits = \"cm\"\ndrawing = \"a.svg\"\n";
+  const PartJob job = job_of(text +
+                             "[stock]\nsize = [\"4in\", 5]\nthickness = \"1/2in\"\nbelow = \"1mm\"\n"
+                             "[[clamp]]\nfrom = [\"-10mm\", 0]\nto = [\"20 mm\", 3]\nheight = \"15mm\"\n" +
+                             operation);
+  EXPECT_NEAR(job.stock->width, 101.6, 1e-9);
+  EXPECT_NEAR(job.stock->length, 50, 1e-9);
+  EXPECT_NEAR(job.stock->thickness, 12.7, 1e-9);
+  EXPECT_NEAR(job.stock->margin_below, 1, 1e-9);
+  EXPECT_NEAR(job.clamps[0].x[0], -10, 1e-9);
+  EXPECT_NEAR(job.clamps[0].height, 15, 1e-9);
+  const auto error_of = [&](const std::string& stock) { return errors_of(text + "[stock]\n" + stock + operation); };
+  EXPECT_NE(error_of("size = [4, 5]\nthickness = \"1ln\"\n")
+                .find("plate.toml:6:13: error: stock.thickness is the text \"1ln\" [job.bad-value]"),
+            std::string::npos);
+  EXPECT_NE(error_of("size = [4, 5]\nthickness = 5000\n").find("expected: 0.0001 to 1000 cm"), std::string::npos);
+  EXPECT_NE(error_of("size = [4, true]\nthickness = 1\n").find("plate.toml:5:12: error: stock.size is"),
+            std::string::npos);
+  EXPECT_NE(error_of("thickness = 1\n").find("[job.missing-key]"), std::string::npos);
+}
+
 TEST(PartJob, a_missing_operation_or_tool_is_reported) {
   const std::string errors = errors_of("[job]\ndrawing = \"a.svg\"\n");
   EXPECT_NE(errors.find("[job.missing-key]"), std::string::npos) << errors;

@@ -52,6 +52,16 @@ TEST(PostProcessor, keeps_commands_out_of_comments) {
   EXPECT_EQ(text, "(" + std::string(60, 'a') + ")\n(" + std::string(60, 'b') + ")\n");
 }
 
+TEST(PostProcessor, writes_nothing_for_an_empty_message) {
+  EXPECT_EQ(written("grbl", "(MSG,)\n(MSG,  )\nG0 X1\n"), "G0 X1\n");
+}
+
+TEST(PostProcessor, refuses_numbers_that_no_controller_reads) {
+  EXPECT_EQ(written("grbl", "G0 X1e9\n").substr(0, 8), "refused:");
+  EXPECT_EQ(written("grbl", "G0 X99999999\n"), "refused: line 1: X99999999 is too large");
+  EXPECT_EQ(written("grbl", "T-1 M6\n"), "refused: line 1: expected T with a tool number");
+}
+
 TEST(PostProcessor, refuses_what_the_controller_does_not_know) {
   EXPECT_EQ(written("grbl", "G81 X1 Y1 Z-1 R1\n"), "refused: line 1: Grbl 1.1 does not know G81");
   EXPECT_EQ(written("mach3", "G1 X1 U2 F100\n"), "refused: line 1: Mach3 has no U");

@@ -195,6 +195,18 @@ TEST(StockCutter, the_volumes_of_the_moves_are_what_the_field_has_lost) {
   EXPECT_NEAR(sum, whole - done.field.volume(), 1e-5 * whole);
 }
 
+// Its cells are 5 mm wide, and the tool 2 mm: it would pass between their centres.
+TEST(StockCutter, sees_a_clamp_on_a_huge_stock) {
+  const StockBlock table{{0, 0, -10}, {6000, 3000, 0}};
+  CutBlock stock(table, HeightField::usual_cell(table).value(),
+                 {.tools = {flat_tool(2)}, .clamps = {{{1000, 1000, -10}, {1020, 1020, 8}}}});
+  ASSERT_GE(stock.field.cell(), 2);
+  stock.line(point_at(1000.5, 500, 5), point_at(1000.5, 1500, 5), {.rapid = true});
+  stock.cutter.finish();
+  ASSERT_EQ(stock.cuts.size(), 1U);
+  EXPECT_NEAR(stock.cuts[0].clamp, 3, 1e-5);
+}
+
 TEST(HeightField, refuses_what_is_too_large_with_a_reason) {
   const auto refused = HeightField::create({{0, 0, -1}, {5000, 5000, 0}}, Mm(0.1));
   ASSERT_FALSE(refused.has_value());

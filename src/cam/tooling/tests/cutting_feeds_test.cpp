@@ -94,6 +94,30 @@ TEST(CuttingFeeds, are_clipped_by_spindle_tool_and_machine_with_the_reason) {
   EXPECT_LT(feeds_of(tool, router).chip_load, kept.chip_range.least);
 }
 
+TEST(CuttingFeeds, of_a_large_cutter_keep_its_rim_slow_enough) {
+  const CuttingTool cutter = tool_of(CuttingShape::flat, 100);
+  const FeedRequest wood{.material = WorkMaterial::softwood};
+  EXPECT_EQ(feeds_of(tool_of(CuttingShape::flat, 50), wood).rpm, 18000);
+  EXPECT_EQ(feeds_of(cutter, wood).rpm, 9130) << "48 m/s";
+  // 780 rpm in plastic: no limit is invented if the spindle is unknown, and a router spindle is too fast.
+  FeedRequest plastic{.material = WorkMaterial::hdpe};
+  EXPECT_EQ(feeds_of(tool_of(CuttingShape::flat, 500), {.material = WorkMaterial::fr4}).rpm, 60);
+  EXPECT_EQ(feeds_of(cutter, plastic).rpm, 770);
+  plastic.spindle = {8000, 24000};
+  const CuttingFeeds fast = feeds_of(cutter, plastic);
+  EXPECT_EQ(fast.rpm, 8000);
+  EXPECT_TRUE(
+      has_reason(fast, "too large for this spindle: 2513 m/min instead of 245 m/min; use one of at most 9.75 mm"));
+}
+
+TEST(CuttingFeeds, never_exceed_the_limit_of_the_tool) {
+  CuttingTool tool = tool_of(CuttingShape::flat, 80);
+  tool.most_rpm = 6000;
+  const CuttingFeeds feeds = feeds_of(tool, {.material = WorkMaterial::mdf, .spindle = {8000, 24000}});
+  EXPECT_EQ(feeds.rpm, 6000);
+  EXPECT_TRUE(has_reason(feeds, "the spindle turns at 8000 rpm or more, too fast for this tool"));
+}
+
 TEST(CuttingFeeds, are_raised_in_narrow_cuts_until_the_chip_has_the_thickness_of_the_table) {
   const CuttingTool tool = tool_of(CuttingShape::flat, 6);
   const FeedRequest wide{.material = WorkMaterial::hdpe};
@@ -143,6 +167,7 @@ TEST(CuttingFeeds, are_within_every_limit_for_every_tool_and_material) {
     if (request.spindle.most_rpm > 0 && (!tool.most_rpm || *tool.most_rpm > request.spindle.least_rpm)) {
       ASSERT_LE(feeds.rpm, request.spindle.most_rpm) << trial;
     }
+    if (tool.most_rpm) ASSERT_LE(feeds.rpm, *tool.most_rpm) << trial;
     const bool is_drill = tool.shape == CuttingShape::drill;
     const MmPerSecond most = is_drill ? request.most_plunge : request.most_feed;
     if (most > MmPerSecond(0)) ASSERT_LE(feeds.feed.value(), most.value() * (1 + 1e-9)) << trial;

@@ -37,6 +37,19 @@ TEST(StockJobs, look_at_what_the_feeds_reach) {
   EXPECT_EQ(look.zero, 0);
 }
 
+// As `passo cam job` writes it for Grbl, where M6 is an error.
+TEST(StockJobs, a_tool_that_is_changed_by_hand_cuts_from_then_on) {
+  const std::string program =
+      "G21 G90 G54\n(tool 2: flat end, 5 mm)\nT2\nM0\nG0 Z5\nG1 Z-2 F300\nG0 Z5\nT1\nM0\nG1 X30 Z-1\nM2\n";
+  const FeedLook look = look_at(job_of(program), with_flat(6));
+  EXPECT_EQ(look.tools, (std::map<std::int32_t, std::uint32_t>{{1, 10}, {2, 6}}));
+}
+
+TEST(StockJobs, a_program_with_one_tool_names_it_in_a_comment) {
+  const FeedLook look = look_at(job_of("(tool: T6 flat end, 3 mm)\n" + slot), with_flat(3));
+  EXPECT_EQ(look.numbers(), std::vector<std::int32_t>{6});
+}
+
 // The place of the work does not matter: it lies at its zero.
 TEST(StockJobs, look_at_the_work_and_not_at_the_machine) {
   StockJob job = job_of(slot);

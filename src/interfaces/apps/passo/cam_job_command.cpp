@@ -8,6 +8,7 @@
 #include "cam_program.hpp"
 #include "named_files.hpp"
 #include "part_job_operation.hpp"
+#include "part_job_programs.hpp"
 #include "part_job_record.hpp"
 #include "part_job_trial.hpp"
 #include "picture_names.hpp"
@@ -80,25 +81,18 @@ JoinedOperation joined_operation(const JobRun& run, std::size_t index) {
   return joined;
 }
 
-// plate-1-T3.ngc of plate.ngc.
-std::string part_name(const std::string& output, std::size_t number, std::int32_t tool) {
-  const std::filesystem::path path(output);
-  return (path.parent_path() /
-          fmt::format("{}-{}-T{}{}", path.stem().string(), number, tool, path.extension().string()))
-      .string();
-}
-
 void join_programs(JobRun& run) {
   const PartJob& job = run.job;
   std::size_t at = 0;
   while (at < run.order.size()) {
     TrialProgram program;
     const std::int32_t tool = job.operations[run.order[at].index].tool;
-    program.file = job.one_program ? run.output : part_name(run.output, run.programs.size() + 1, tool);
+    program.file = job.one_program ? run.output : program_of_tool(run.output, run.programs.size() + 1, tool);
     std::vector<std::string> head = {
         fmt::format("{}, by passo cam job", std::filesystem::path(program.file).filename().string()),
         fmt::format("from {}, inputs {}", std::filesystem::path(job.file).filename().string(), run.fingerprint)};
-    JoinedProgram joined(head);
+    if (!job.one_program) head.push_back(fmt::format("tool {}: {}", tool, tool_words(job, tool)));
+    JoinedProgram joined(head, job.one_program ? JoinedProgram::Tools::changed : JoinedProgram::Tools::in_spindle);
     for (; at < run.order.size(); ++at) {
       const std::size_t index = run.order[at].index;
       if (!job.one_program && job.operations[index].tool != tool) break;
@@ -146,6 +140,8 @@ bool rewrite_programs(JobRun& run, Diagnostics& findings) {
     for (const auto& [number, tool] : job.tools) {
       options.tools[static_cast<std::size_t>(number) - 1] = {tool_words(job, number), tool.tool.diameter.value()};
     }
+    const std::int32_t called = first.first_tool > 0 ? first.first_tool : first.tool;
+    options.first_tool = static_cast<std::uint32_t>(called);
     std::visit([&](const auto& arguments) { options.spindle = arguments.spindle; }, first.arguments);
     options.change_height =
         std::atof(program_number(job, "change-height", option_text(first, "change-height")).c_str());
@@ -204,7 +200,7 @@ int draw(const JobRun& run, const Trial& trial) {
                               {to_nanometres(Mm(stock.x + stock.width)), to_nanometres(Mm(stock.y + stock.length))}})});
   }
   const Region nothing;
-  const MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing};
+  const MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing, .rapids = trial.rapids};
   return write_picture(run.arguments.picture, run.job.name, [&](const PictureOptions& options, OutputFile& file) {
     return draw_mill_plan(scene, options, file);
   });
@@ -311,9 +307,11 @@ void check_folder(const JobRun& run, Diagnostics& findings) {
 }
 
 // The messages after everything is written.
-void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again) {
+void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<std::string>& changes, bool is_again,
+            const std::vector<std::string>& removed) {
   if (run.arguments.json) {
     record["changes"] = changes;
+    record["removed"] = removed;
     say(record.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     return;
   }
@@ -326,6 +324,8 @@ void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<
   for (const std::string& change : changes) text += "changed: " + change + "\n";
   if (is_again && changes.empty()) text += "changed: nothing since the last run\n";
   for (const TrialProgram& program : run.programs) text += fmt::format("written: {}\n", program.file);
+  for (const std::string& file : removed)
+    text += fmt::format("removed: {}, which the job does not make any more\n", file);
   say(text);
 }
 
@@ -382,11 +382,18 @@ int make_job(JobRun& run, const WorkProgress& progress) {
   const Trial trial = try_programs(run.job, run.programs, findings);
   warn_beside_stock(run, trial, findings);
   if (!findings.any_error()) static_cast<void>(rewrite_programs(run, findings));
+  if (findings.any_error()) {
+    show(findings, run.job.file);
+    return exit_bad_program;
+  }
+  const auto before = keeps_record(run) ? read_job_record(run.output) : std::nullopt;
+  const std::vector<EarlierProgram> earlier =
+      before ? earlier_programs(*before, run.output, run.programs) : std::vector<EarlierProgram>();
+  check_edited(earlier, run.arguments.force, findings);
   show(findings, run.job.file);
-  if (findings.any_error()) return exit_bad_program;
+  if (findings.any_error()) return exit_failed;
   note_tools(run, trial);
   const nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
-  const auto before = read_job_record(run.output);
   const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();
   const std::string text = record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (const auto written = write_all(run, text); !written) return fail(exit_failed, written.error().message);
@@ -394,7 +401,7 @@ int make_job(JobRun& run, const WorkProgress& progress) {
     if (const int code = draw(run, trial); code != exit_done) return code;
   }
   progress.update(1);
-  report(run, record, changes, before.has_value());
+  report(run, record, changes, before.has_value(), remove_old_programs(earlier));
   return exit_done;
 }
 

@@ -6,6 +6,7 @@
 
 #include "cam_tools.hpp"
 #include "command_table.hpp"
+#include "idle_options.hpp"
 #include "number_range.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
@@ -114,7 +115,9 @@ std::function<int()> with_tools(CLI::App& command) {
   add_cam_options(command, *arguments);
   return [arguments, &command] {
     const RecordedMessages shown_ones;
-    const int code = use_tools(*arguments, [&](const char* option) { return command.count(option) > 0; });
+    const IsGiven is_given = [&](const char* option) { return command.count(option) > 0; };
+    show_idle_options(idle_options_of(*arguments, is_given));
+    const int code = use_tools(*arguments, is_given);
     return code == exit_done ? run_with_progress(*arguments, run) : code;
   };
 }
@@ -129,7 +132,9 @@ std::function<int()> remembered_of(CLI::App& command) {
     const RecordedMessages shown_ones;
     if (const int code = use_remembered(command, *all); code != exit_done) return code;
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype((*all).*part)>, CamDrillArguments>) {
-      const int code = use_tools((*all).*part, [&](const char* option) { return command.count(option) > 0; });
+      const IsGiven is_given = [&](const char* option) { return command.count(option) > 0; };
+      show_idle_options(idle_options_of((*all).*part, is_given));
+      const int code = use_tools((*all).*part, is_given);
       if (code != exit_done) return code;
     }
     return run_with_progress((*all).*part, [](const auto& arguments, const WorkProgress& progress) {

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "cam_commands.hpp"
-#include "length_argument.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json_fwd.hpp>
 
 #include "passo/carve/relief_program.hpp"
 #include "passo/carve/relief_surface.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/operations/length_text.hpp"
 
 namespace passo {
 

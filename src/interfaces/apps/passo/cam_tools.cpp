@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "chamfer_cut.hpp"
-#include "length_argument.hpp"
 #include "program_input.hpp"
 #include "tool_limits.hpp"
 #include "tool_warning_words.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/operations/length_text.hpp"
 #include "passo/tooling/cutting_feeds.hpp"
 #include "passo/tooling/tool_library.hpp"
 #include "passo/tooling/tool_warnings.hpp"
@@ -244,6 +244,12 @@ int use_for_chamfer(ToolShelf& shelf, const CuttingTool* tool, CamProfileArgumen
 }
 
 constexpr std::initializer_list<CuttingShape> end_mills = {CuttingShape::flat, CuttingShape::ball, CuttingShape::bull};
+// Reliefs are carved by any cutter that can move sideways.
+constexpr std::initializer_list<CuttingShape> milling_shapes = {
+    CuttingShape::flat, CuttingShape::ball, CuttingShape::bull, CuttingShape::vee, CuttingShape::taper};
+// A hole has straight walls, or is a centre mark or a countersink, which V-bits make.
+constexpr std::initializer_list<CuttingShape> drilling_shapes = {CuttingShape::drill, CuttingShape::flat,
+                                                                 CuttingShape::bull, CuttingShape::vee};
 
 ToolUse relief_use(const ToolShelf& shelf, const CamReliefArguments& a, const std::string& feed) {
   ToolUse use = use_of(shelf, a);
@@ -308,17 +314,14 @@ int use_tools(CamEngraveArguments& a, const IsGiven& is_given) {
   ToolShelf shelf(a, a.units);
   const bool wants = is_tool_number(a.tool) || is_tool_number(a.clear);
   if (const int code = shelf.open(wants); code != exit_done || !shelf.is_open()) return code;
-  const CuttingTool* const tool =
-      a.on_line ? shelf.find("--tool", a.tool) : shelf.find("--tool", a.tool, {CuttingShape::vee});
+  const CuttingTool* const tool = shelf.find("--tool", a.tool, {CuttingShape::vee});
   const CuttingTool* const clearing = shelf.find("--clear", a.clear, end_mills);
   if (shelf.code() != exit_done) return shelf.code();
   const double depth = a.depth.empty() ? 0 : -shelf.mm("--depth", a.depth);
   if (tool != nullptr) {
     a.tool = mm_text(tool->diameter.value());
-    if (tool->shape == CuttingShape::vee) {
-      if (!is_given("--angle")) a.angle = tool->angle.value * degrees_of_radian;
-      if (!is_given("--tip")) a.tip = mm_text(tool->tip.value());
-    }
+    if (!is_given("--angle")) a.angle = tool->angle.value * degrees_of_radian;
+    if (!is_given("--tip")) a.tip = mm_text(tool->tip.value());
     if (const auto feeds = fill_in_feeds(shelf, *tool, {.depth = Mm(depth)}, a, is_given)) {
       fill_in(a.plunge_feed, "--plunge-feed", descent_of(*feeds), is_given);
     }
@@ -351,8 +354,8 @@ int use_tools(CamDrillArguments& a, const IsGiven& is_given) {
   ToolShelf shelf(a, a.units);
   const bool wants = is_tool_number(a.drill) || is_tool_number(a.mill);
   if (const int code = shelf.open(wants); code != exit_done || !shelf.is_open()) return code;
-  const CuttingTool* const drill = shelf.find("--drill", a.drill);
-  const CuttingTool* const mill = shelf.find("--mill", a.mill, {CuttingShape::flat});
+  const CuttingTool* const drill = shelf.find("--drill", a.drill, drilling_shapes);
+  const CuttingTool* const mill = shelf.find("--mill", a.mill, {CuttingShape::flat, CuttingShape::bull});
   if (shelf.code() != exit_done) return shelf.code();
   const Mm depth(-shelf.mm("--depth", a.depth));
   if (drill != nullptr) {
@@ -388,9 +391,9 @@ int use_tools(CamReliefArguments& a, const IsGiven& is_given) {
   ToolShelf shelf(a, "mm");
   const bool wants = is_tool_number(a.cutter) || is_tool_number(a.rough) || is_tool_number(a.rest);
   if (const int code = shelf.open(wants); code != exit_done || !shelf.is_open()) return code;
-  const CuttingTool* const finish = shelf.find("--cutter", a.cutter);
-  const CuttingTool* const rough = shelf.find("--rough", a.rough);
-  const CuttingTool* const rest = shelf.find("--rest", a.rest);
+  const CuttingTool* const finish = shelf.find("--cutter", a.cutter, milling_shapes);
+  const CuttingTool* const rough = shelf.find("--rough", a.rough, milling_shapes);
+  const CuttingTool* const rest = shelf.find("--rest", a.rest, milling_shapes);
   if (shelf.code() != exit_done) return shelf.code();
   if (finish != nullptr) {
     a.cutter = cutter_text(*finish);

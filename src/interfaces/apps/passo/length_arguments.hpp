@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "length_argument.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/drawing.hpp"
+#include "passo/operations/length_text.hpp"
 
 namespace passo {
 

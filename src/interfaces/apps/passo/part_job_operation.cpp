@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cam_job.hpp"
+#include "idle_options.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -78,7 +79,9 @@ void check_layers(const PartJob& job, const PartOperation& operation, const std:
       if (!name.empty()) named.push_back(name);
     }
     findings.add(job.finding("job.no-such-layer", place_of_key(operation, "layer"),
-                             fmt::format("{} has no layer '{}'", fmt::join(operation.files, ", "), layer),
+                             layer.empty()
+                                 ? "the name of the layer is empty"
+                                 : fmt::format("{} has no layer '{}'", fmt::join(operation.files, ", "), layer),
                              named.empty()  ? "no layer: this drawing has none"
                              : near.empty() ? fmt::format("{}", fmt::join(named, ", "))
                                             : fmt::format("perhaps {}", near)));
@@ -161,13 +164,32 @@ Diagnostic finding_of(const PartJob& job, const PartOperation& operation, const 
   if (failure.starts_with("--")) {
     const std::size_t end = std::min(failure.find_first_of(": "), failure.size());
     const std::string key = failure.substr(2, end - 2);
-    const std::size_t words = failure.find_first_not_of(": ", end);
-    if (operation.has(key) && words != std::string::npos) {
+    const std::size_t at = failure.find_first_not_of(": ", end);
+    if (operation.has(key) && at != std::string::npos) {
+      std::string words = failure.substr(at);
+      if (constexpr std::string_view label = "expected "; words.starts_with(label)) words.erase(0, label.size());
       return job.finding("job.bad-value", place_of_key(operation, key),
-                         fmt::format("'{}' cannot have this {}", operation.title, key), failure.substr(words));
+                         fmt::format("'{}' cannot have this {}", operation.title, key), words);
     }
   }
   return job.finding("job.operation", operation.place, fmt::format("'{}': {}", operation.title, failure), "");
+}
+
+// Keys of the operation itself; those of [job] are for all operations that need them.
+void warn_of_idle_keys(const PartJob& job, const PartOperation& operation, Diagnostics& findings) {
+  const IsGiven is_given = [&](const char* option) {
+    const auto key = std::ranges::find(operation.keys, std::string_view(option + 2), &PartKey::name);
+    return key != operation.keys.end() && !key->is_of_job;
+  };
+  const auto idle =
+      std::visit([&](const auto& arguments) { return idle_options_of(arguments, is_given); }, operation.arguments);
+  for (const IdleOption& option : idle) {
+    Diagnostic finding =
+        job.finding("job.no-effect", place_of_key(operation, option.name),
+                    fmt::format("'{}': {} has no effect: {}", operation.title, option.name, option.why), "");
+    finding.severity = Severity::warning;
+    findings.add(std::move(finding));
+  }
 }
 
 // A job selects layers and states which circles are bores, so notes about board drawings do not apply.
@@ -217,6 +239,7 @@ std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperat
                                             const std::string& folder, Diagnostics& findings,
                                             const WorkProgress& progress) {
   MadeOperation made;
+  warn_of_idle_keys(job, operation, findings);
   OperationRun run(job, operation, zero, folder);
   KeptMessages messages;
   const int code = run.run(progress);

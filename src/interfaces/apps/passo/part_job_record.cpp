@@ -103,6 +103,54 @@ std::string listed(const std::vector<std::string>& contours, const char* what) {
                      fmt::join(contours.begin(), contours.begin() + static_cast<std::ptrdiff_t>(shown), ", "), rest);
 }
 
+// The text without the comment that names the fingerprint of the inputs, which changes with every comment of a file.
+std::string without_inputs(std::string_view text, std::string fingerprint) {
+  std::string rest;
+  std::string capitals = fingerprint;
+  std::ranges::transform(capitals, capitals.begin(),
+                         [](char c) { return c >= 'a' && c <= 'f' ? char(c - 'a' + 'A') : c; });
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    const bool is_found =
+        line.find(fingerprint) != std::string_view::npos || line.find(capitals) != std::string_view::npos;
+    if (fingerprint.empty() || !is_found) rest += line;
+    text.remove_prefix(end);
+  }
+  return rest;
+}
+
+// "plate-1-T1.ngc, plate-2-T2.ngc"
+std::string names_in(const Json& record, const char* list, const char* key) {
+  std::string names;
+  for (const Json& item : list_of(record, list)) {
+    names += (names.empty() ? "" : ", ") + value_of<std::string>(item, key, "");
+  }
+  return names;
+}
+
+// The differences between whole programs. Records of earlier versions lack some keys.
+void add_changes_of_programs(const Json& before, const Json& now, std::vector<std::string>& lines) {
+  const auto text = [](const Json& record, const char* key) { return value_of<std::string>(record, key, ""); };
+  if (before.contains("for") && text(before, "for") != text(now, "for")) {
+    lines.push_back(fmt::format("controller {} -> {}", text(before, "for"), text(now, "for")));
+  }
+  const std::string old_names = names_in(before, "programs", "file");
+  const std::string new_names = names_in(now, "programs", "file");
+  if (old_names != new_names) {
+    lines.push_back(fmt::format("programs {} -> {}", old_names, new_names));
+    return;
+  }
+  if (lines.empty() && names_in(before, "operations", "title") != names_in(now, "operations", "title")) {
+    lines.emplace_back("the order of the operations");
+  }
+  const std::string old_words = names_in(before, "programs", "words");
+  const bool knows_words = old_words.find_first_not_of(", ") != std::string::npos;
+  if (lines.empty() && knows_words && old_words != names_in(now, "programs", "words")) {
+    lines.push_back(fmt::format("the words of {}", new_names));
+  }
+}
+
 // The differences between two entries of the same operation. Empty: none.
 std::string changes_of_operation(const Json& before, const Json& now) {
   std::vector<std::string> changes;
@@ -179,10 +227,12 @@ Json record_of(const MadeJob& made) {
   Json programs = Json::array();
   for (const TrialProgram& program : made.programs) {
     programs.push_back({{"file", std::filesystem::path(program.file).filename().string()},
-                        {"fingerprint", fingerprint_of_text(program.text)}});
+                        {"fingerprint", fingerprint_of_text(program.text)},
+                        {"words", fingerprint_of_text(without_inputs(program.text, made.fingerprint))}});
   }
   return {{"job", job.name},
           {"fingerprint", made.fingerprint},
+          {"for", job.program.controller},
           {"programs", std::move(programs)},
           {"tool_changes", tool_changes(job, made.order)},
           {"operations", std::move(operations)},
@@ -197,18 +247,26 @@ std::optional<Json> read_job_record(const std::string& output) {
   return record;
 }
 
+std::vector<RecordedProgram> programs_of_record(const Json& record) {
+  std::vector<RecordedProgram> programs;
+  for (const Json& program : list_of(record, "programs")) {
+    programs.push_back({std::filesystem::path(value_of<std::string>(program, "file", "")).filename().string(),
+                        value_of<std::string>(program, "fingerprint", "")});
+  }
+  return programs;
+}
+
 std::string out_of_date(const Json& record, const std::string& fingerprint, const std::string& output) {
   if (value_of<std::string>(record, "fingerprint", "") != fingerprint) {
     return "the job file, a drawing or the version of Passo has changed";
   }
-  const Json& programs = list_of(record, "programs");
+  const std::vector<RecordedProgram> programs = programs_of_record(record);
   if (programs.empty()) return "the record lists no program";
-  for (const Json& program : programs) {
-    const std::string name = std::filesystem::path(value_of<std::string>(program, "file", "")).filename().string();
-    const std::string file = (std::filesystem::path(output).parent_path() / name).string();
+  for (const RecordedProgram& program : programs) {
+    const std::string file = (std::filesystem::path(output).parent_path() / program.name).string();
     const auto text = bytes_of(file);
     if (!text) return fmt::format("{} is missing", file);
-    if (fingerprint_of_text(*text) != value_of<std::string>(program, "fingerprint", "")) {
+    if (fingerprint_of_text(*text) != program.fingerprint) {
       return fmt::format("{} was edited", file);
     }
   }
@@ -234,6 +292,7 @@ std::vector<std::string> changes_of(const Json& before, const Json& now) {
     old.erase(found);
   }
   for (const auto& [title, operation] : old) lines.push_back(fmt::format("'{}' was removed", title));
+  add_changes_of_programs(before, now, lines);
   return lines;
 }
 

@@ -34,6 +34,13 @@ nlohmann::ordered_json record_of(const MadeJob& made);
 // Empty: there is none, or it cannot be read.
 std::optional<nlohmann::ordered_json> read_job_record(const std::string& output);
 
+// A program that a record lists: its name, without a folder, and the fingerprint of its text.
+struct RecordedProgram {
+  std::string name;
+  std::string fingerprint;
+};
+std::vector<RecordedProgram> programs_of_record(const nlohmann::ordered_json& record);
+
 // Why the programs on disk are out of date. Empty: they are up to date.
 std::string out_of_date(const nlohmann::ordered_json& record, const std::string& fingerprint,
                         const std::string& output);

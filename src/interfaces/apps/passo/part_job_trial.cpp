@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -44,10 +45,12 @@ class ProgramTrial {
   void record(const MoveCut& cut);
   void judge(const MoveCut& cut, const PartOperation& operation);
   void judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool);
+  void report_below();
   bool clamps_are_small();
   void report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
               std::string expected);
   void draw(const Curve& curve, const Vector3& zero, std::uint32_t line);
+  void draw_rapid(const Curve& curve, const Vector3& zero);
   std::size_t operation_at(std::uint32_t line) const;
   const PartClamp* clamp_at(const Vector3& place) const;
 
@@ -57,8 +60,16 @@ class ProgramTrial {
   Diagnostics& findings_;
   std::vector<ToolShape> tools_;
   std::vector<std::int32_t> numbers_;
-  std::map<std::string, std::size_t> reported_;  // what was reported of an operation
+  // How far below the stock an operation goes with a tool.
+  struct Below {
+    double depth = 0;
+    Vector3 place{};
+    std::uint32_t line = 0;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Below> deepest_;  // by operation and tool
+  std::map<std::string, std::size_t> reported_;                   // what was reported of an operation
   std::size_t points_ = 0;
+  bool is_somewhere_ = false;  // the program has moved to a position in X and Y; before, the tool may be anywhere
 };
 
 StockWishes ProgramTrial::wishes() const {
@@ -131,7 +142,8 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
   }
 }
 
-// Where the material is gone already, a feed below the stock cuts into the table all the same.
+// Where the material is gone already, a feed below the stock cuts into the table all the same. Of the layers of an
+// operation, the deepest one is reported.
 void ProgramTrial::judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool) {
   if (!job_.stock) return;
   const PartStock& stock = *job_.stock;
@@ -139,10 +151,19 @@ void ProgramTrial::judge_depth(const Vector3& low, const Vector3& high, std::uin
   const bool is_over_stock =
       high.x > stock.x && low.x < stock.x + stock.width && high.y > stock.y && low.y < stock.y + stock.length;
   if (below <= stock.margin_below + least_depth || !is_over_stock) return;
-  const MoveCut cut{.move = {.line = line, .tool = tool}};
-  report("job.below", cut, job_.operations[operation_at(line)],
-         fmt::format("the tip goes {:.2f} mm below the stock at {}", below, place_words(low)),
-         fmt::format("at most {:g} mm, or a larger stock.below", stock.margin_below));
+  Below& deepest = deepest_[{operation_at(line), tool}];
+  if (below <= deepest.depth) return;
+  deepest = {below, low, line};
+}
+
+void ProgramTrial::report_below() {
+  for (const auto& [whose, deepest] : deepest_) {
+    const auto& [operation, tool] = whose;
+    report("job.below", MoveCut{.move = {.line = deepest.line, .tool = tool}}, job_.operations[operation],
+           fmt::format("the tip goes {:.2f} mm below the stock at {}", deepest.depth, place_words(deepest.place)),
+           fmt::format("at most {:g} mm: a depth of {:g} mm or less, or a larger stock.below", job_.stock->margin_below,
+                       job_.stock->thickness + job_.stock->margin_below));
+  }
 }
 
 void ProgramTrial::record(const MoveCut& cut) {
@@ -183,12 +204,27 @@ void ProgramTrial::draw(const Curve& curve, const Vector3& zero, std::uint32_t l
   points_ += static_cast<std::size_t>(pieces);
 }
 
+// Adds a rapid to the picture, except the first one, which begins where the machine happens to be.
+void ProgramTrial::draw_rapid(const Curve& curve, const Vector3& zero) {
+  const auto point = [&](const Vector3& at) {
+    return DrawnPoint{to_nanometres(Mm(at.x - zero.x)), to_nanometres(Mm(at.y - zero.y))};
+  };
+  const DrawnPoint from = point(Vector3::of(curve.start()));
+  const DrawnPoint to = point(Vector3::of(curve.end()));
+  if (from == to || points_ > most_points) return;
+  if (!std::exchange(is_somewhere_, true)) return;
+  const bool goes_on = !trial_.rapids.empty() && trial_.rapids.back().back() == from;
+  if (!goes_on) trial_.rapids.push_back({from});
+  trial_.rapids.back().push_back(to);
+  ++points_;
+}
+
 // The cutter passes over clamps that have too many cells, so there must be none.
 bool ProgramTrial::clamps_are_small() {
   bool are_small = true;
   const StockWishes wanted = wishes();
   for (std::size_t i = 0; i < wanted.clamps.size(); ++i) {
-    if (HeightField::create(wanted.clamps[i], Mm(trial_.field->cell()))) continue;
+    if (HeightField::create(wanted.clamps[i], StockCutter::clamp_cell(wanted.clamps[i], *trial_.field))) continue;
     findings_.add(of_file("job.clamp-size", job_.file, fmt::format("'{}' is too large", job_.clamps[i].name),
                           "a clamp only as large as the part of it that the tools can reach"));
     are_small = false;
@@ -222,8 +258,12 @@ void ProgramTrial::run() {
     draw(move.segment->curve, zero, kind.line);
     cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
   };
+  hooks.rapid = [this](const TipMove& move, const StockMove&) {
+    draw_rapid(move.segment->curve, Vector3::of(move.zero));
+  };
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   cut_stock(stock_job, wanted, look, tools_, threads, *trial_.field, hooks);
+  report_below();
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ struct TrialProgram {
 struct Trial {
   std::vector<TriedOperation> operations = {};  // as in PartJob::operations
   std::optional<HeightField> field = {};        // what is left; empty: nothing was cut
+  std::vector<DrawnRing> rapids = {};           // lines in X and Y, for the picture
 };
 
 // Rapids at this speed, where no machine is known.

@@ -3,8 +3,9 @@
 #include <charconv>
 #include <vector>
 
-#include "length_argument.hpp"
 #include <fmt/format.h>
+
+#include "passo/operations/length_text.hpp"
 
 namespace passo {
 namespace {

@@ -30,6 +30,8 @@ namespace passo {
 struct DxfOptions {
   std::optional<Mm> unit = {};           // length of one drawing unit; overrides $INSUNITS
   std::vector<std::string> layers = {};  // the layers to read; empty: all layers that are on
+  std::vector<std::string> colors = {};  // "red", "#f00" or "30", a number of the palette; empty: all
+  std::vector<std::string> names = {};   // layers, blocks or handles; empty: all
   Mm tolerance{0.005};                   // chord tolerance for ellipses and splines
   // The circles are holes of a circuit board: the inner circle of a DONUT is read, and a note warns about a drawing
   // that seems to be ten times too large or too small.

@@ -212,6 +212,7 @@ struct CamJobArguments {
   std::string picture;             // .svg or .png; empty: none
   bool check = false;              // only checks whether the programs on disk are up to date
   bool json = false;               // prints the report as JSON on standard output
+  bool force = false;              // overwrites programs that were edited after the last run
   bool only_folder = false;        // for untrusted job files: reads only files in their folder
 };
 std::vector<CamOption> cam_options_of(CamJobArguments& arguments);

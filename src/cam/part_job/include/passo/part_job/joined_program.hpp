@@ -28,8 +28,11 @@ struct JoinedOperation {
 
 class JoinedProgram {
  public:
+  // in_spindle: all operations have the same tool, which the operator has inserted before the start. The program names
+  // it in a message, and has no T word.
+  enum class Tools : std::uint8_t { changed, in_spindle };
   // `head`: comments, one per line.
-  explicit JoinedProgram(const std::vector<std::string>& head);
+  explicit JoinedProgram(const std::vector<std::string>& head, Tools tools = Tools::changed);
 
   void add(const JoinedOperation& operation);
   // Ends the program, and returns its text.
@@ -43,6 +46,7 @@ class JoinedProgram {
   // `up`: the rapid with which the operation begins.
   void change_tool(const JoinedOperation& operation, const JoinedOperation::Tool& tool, std::string_view up);
 
+  Tools tools_;
   std::string text_;
   std::uint32_t lines_ = 0;
   std::vector<std::uint32_t> first_lines_;

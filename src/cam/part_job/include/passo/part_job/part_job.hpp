@@ -64,7 +64,8 @@ struct PartTool {
 // A key of an operation, and its position.
 struct PartKey {
   std::string name;
-  SourceLocation place;  // of the value
+  SourceLocation place;    // of the value
+  bool is_of_job = false;  // given in [job], for all operations
 };
 
 using PartArguments =

@@ -32,6 +32,7 @@ struct PostProcessorOptions {
   LengthUnit read_unit = LengthUnit::mm;
   LengthUnit written_unit = LengthUnit::mm;
   std::vector<ProgramTool> tools = {};  // tool 1 comes first
+  std::uint32_t first_tool = 1;         // in the text for the start
   std::optional<std::uint32_t> spindle = {};
   double spindle_seconds = 0;
   double park_x = 0;  // in the unit that is written, as are the following

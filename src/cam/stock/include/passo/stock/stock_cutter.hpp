@@ -72,6 +72,10 @@ class StockCutter {
   StockCutter(const StockCutter&) = delete;
   StockCutter& operator=(const StockCutter&) = delete;
 
+  // The cells in which a clamp is checked: at most as wide as those of the stock, and usually at most 0.5 mm, so that
+  // no tool passes between their centres.
+  static Mm clamp_cell(const StockBlock& clamp, const HeightField& field);
+
   // Moves the tip along `curve`. `zero`: the offset of the curve's coordinates: stock = curve - zero.
   void cut(const Curve& curve, const Vector3& zero, const StockMove& move);
   // Cuts the last batch. Must be called at the end; the field is complete only then.

@@ -87,6 +87,8 @@ struct CutHooks {
   // Cuts a feed move, e.g. in pieces. Empty: the move is cut as a whole.
   std::function<void(StockCutter& cutter, const TipMove& move, const StockMove& kind)> feed = {};
   std::function<void(double share)> progress = {};  // called from time to time
+  // Sees each rapid before it is cut.
+  std::function<void(const TipMove& move, const StockMove& kind)> rapid = {};
 };
 // Cuts the field by the program. `look` and `tools` must be those of this program. `threads`: 1 to 64.
 void cut_stock(const StockJob& job, const StockWishes& wishes, const FeedLook& look,

@@ -22,6 +22,8 @@ struct MillScene {
   DrawnPoint park = {};                // where the rapids begin and end
   std::string warned_name = {};        // "Not reached"; empty: omitted from the legend
   std::optional<DrawnBox> sheet = {};  // the sheet of material
+  // The rapids, if they are known. Empty: those of each tool from the park position and back.
+  std::optional<std::vector<DrawnRing>> rapids = {};
 };
 
 // Draws into `file`; the caller commits it.

@@ -11,6 +11,7 @@
 
 #include "passo/activity/operation_watcher.hpp"
 #include "passo/activity/tool_track.hpp"
+#include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
 
@@ -44,6 +45,7 @@ class FrequentMistakes : OperationWatcher {
   // From its first probe move until a tool change, the tool is a probe. A probe does not rotate during a feed.
   bool probes_ = false;
   bool changes_tools_ = false;
+  HandToolChange hand_;
   std::optional<Diagnostic> idle_tool_;  // a T word without a tool change so far
 };
 

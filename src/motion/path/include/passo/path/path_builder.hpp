@@ -25,6 +25,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/machine_results.hpp"
+#include "passo/path/hand_tool_change.hpp"
 #include "passo/path/outside_travel.hpp"
 #include "passo/path/segment.hpp"
 
@@ -102,6 +103,8 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   const Frame& frame() const { return frame_; }
   // The end of the path so far, in machine coordinates.
   const Point& position() const { return position_; }
+  // The tool that comments name before the first feed; 0: none.
+  std::int32_t named_tool() const { return hand_.at_start(); }
   // Continues the path from another position. The path read so far is dropped.
   void stand_at(const Point& machine) {
     position_ = machine;
@@ -111,8 +114,14 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   }
   // Saves the state after the operations so far, and restores it, as if the later ones had not come. Call it when
   // next() has returned false.
-  void keep() { kept_ = *this; }
-  void roll_back() { static_cast<PathMemory&>(*this) = kept_; }
+  void keep() {
+    kept_ = *this;
+    kept_hand_ = hand_;
+  }
+  void roll_back() {
+    static_cast<PathMemory&>(*this) = kept_;
+    hand_ = kept_hand_;
+  }
 
  private:
   bool next_operation();
@@ -194,6 +203,9 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   std::size_t tap_step_ = tap_.size();
   std::deque<PathItem> held_;  // items that wait until the items before them are returned
   PathMemory kept_;
+  // A change of the tool by hand; as kept_.
+  HandToolChange hand_;
+  HandToolChange kept_hand_;
 };
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Lengths on the command line: a number with an optional unit: 0.2, -0.3cm, 30mil, 1/32in.
+// Lengths on the command line and in job files: a number with an optional unit: 0.2, -0.3cm, 30mil, 1/32in.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include "length_argument.hpp"
+#include "passo/operations/length_text.hpp"
 
 #include <array>
 #include <charconv>
