@@ -22,6 +22,8 @@ Examples:
   passo cam profile sheet.svg --layer cut --zero lower-left -p sheet.png -o sheet.ngc
   passo cam profile bracket.dxf --depth -6 --tool-table tools.toml --tool T1 --material plywood -o bracket.ngc
                                                            feeds, spindle speed and depth of a pass from a tool library
+  passo cam profile hook.svg --nest 600,400 --quantity 20 --tool 3 --depth -6 -p hooks.png -o hooks.ngc
+                                                           20 copies of each part, close together on as few sheets as possible
   passo cam profile sheet.svg --for linuxcnc -o sheet.ngc  for another controller
 
 All options: docs/manual/parts.md.)";

@@ -31,6 +31,29 @@ std::vector<CamOption> finish_rows(CamFinishArguments& a) {
   };
 }
 
+// A job file has a table for this.
+std::vector<CamOption> nest_rows(CamNestArguments& a) {
+  using enum CamKind;
+  const CamTraits of_nest{.matters_to = cli, .is_of_job = true};
+  return {
+      {"nest", &a.nest, length,
+       "W,H: nest the parts of the drawing on sheets of this size, with a program for each sheet", of_nest},
+      {"quantity",
+       &a.quantity,
+       number,
+       "nesting: copies of each part",
+       {.range = CamRange{1, 1000}, .matters_to = cli, .is_of_job = true}},
+      {"gap", &a.gap, length,
+       "nesting: gap between two parts (default: the cutter's diameter, the lead-in and 1 mm)", of_nest},
+      {"nest-margin", &a.nest_margin, length, "nesting: margin at the edge of the sheet (default: as --gap)", of_nest},
+      {"rotations",
+       &a.rotations,
+       number,
+       "nesting: permitted rotations, equally spaced: 1 as drawn, 2 also half a turn (grain), 4 quarter turns",
+       {.range = CamRange{1, 72}, .matters_to = cli, .is_of_job = true}},
+  };
+}
+
 std::vector<CamOption> chamfer_rows(CamProfileArguments& a) {
   using enum CamKind;
   return {
@@ -62,6 +85,7 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
       chamfer_rows(a),
       mill_rows(a, CamFor::everyone),
       {sheet_row(a.sheet)},
+      nest_rows(a),
   });
 }
 

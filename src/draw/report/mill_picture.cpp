@@ -16,6 +16,7 @@ constexpr Colour face_colour{0.93, 0.80, 0.62};
 constexpr Colour warning_colour{0.80, 0.05, 0.05};
 constexpr Nanometres drawn_chords{20'000};
 const Pen sheet_pen{.colour = {0.45, 0.33, 0.18}, .width = 1.4};
+const Pen offcut_pen{.colour = {0.45, 0.33, 0.18}, .width = 1.4, .dashes = {6, 4}};
 
 PlanView view_of(const MillScene& scene, const Area& area) {
   DrawnPoint start = scene.park;
@@ -130,6 +131,11 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
   const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
   const PlanView view = view_of(scene, area);
   if (scene.sheet) draw_sheet(canvas, view, *scene.sheet);
+  if (scene.sheet && scene.offcut) {
+    canvas.move_to(view.spot({*scene.offcut, scene.sheet->least.y}));
+    canvas.line_to(view.spot({*scene.offcut, scene.sheet->most.y}));
+    canvas.stroke(offcut_pen);
+  }
   fill_region(canvas, view, scene.face, face_colour);
   fill_region(canvas, view, scene.warned, warning_colour);
   constexpr double thinnest = 0.6;
@@ -148,6 +154,7 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
   constexpr std::size_t most_named = 7;
   Legend legend(canvas, {sheet::margin, options.height - 40.0});
   if (scene.sheet) legend.line(sheet_pen, "Sheet");
+  if (scene.sheet && scene.offcut) legend.line(offcut_pen, "Offcut");
   if (!scene.face.empty()) legend.patch(face_colour, scene.face_name);
   for (std::size_t i = 0; i < std::min(most_named, scene.plan.tools.size()); ++i) {
     legend.patch(colour_of_tool(i), scene.plan.tools[i].words);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cam_part.hpp"
+#include "cam_profile_nest.hpp"
 #include "cam_program.hpp"
 #include "cam_tools.hpp"
 #include "chamfer_cut.hpp"
@@ -116,7 +117,8 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
                           .mark_name = "Tab",
                           .park = job.program.park,
                           .warned_name = "Not reached",
-                          .sheet = job.sheet};
+                          .sheet = job.sheet,
+                          .offcut = result.offcut};
     const int code = write_picture(
         arguments.picture, job.program.name,
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
@@ -124,7 +126,8 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
   }
   progress.update(1);
   if (arguments.json) {
-    say(with_warnings(result.json, arguments) + "\n");
+    if (!result.json.empty()) say(with_warnings(result.json, arguments) + "
+");
     return exit_done;
   }
   return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,
@@ -270,6 +273,90 @@ std::string tight_words(std::size_t count, Nanometres cutter) {
                      to_mm(tight_cut_tolerance(cutter)).value());
 }
 
+// What is cut of a drawing, or of a sheet.
+struct CutProfile {
+  ProfilePlan plan = {};
+  std::string words = {};
+  nlohmann::ordered_json json = {};
+};
+
+std::optional<CutProfile> cut_profile(const CamProfileArguments& arguments, const PartDrawing& part,
+                                      const ProfileOptions& options) {
+  Diagnostics findings;
+  CutProfile made{.plan = plan_profile(part.loops.loops, part.loops.open, options, findings)};
+  show(findings, listed(arguments.files));
+  if (findings.any_error()) return std::nullopt;
+  const ProfilePlan& plan = made.plan;
+  const OutlinePlan& cut = plan.outline;
+  std::string& words = made.words;
+  nlohmann::ordered_json& json = made.json;
+  words = size_words(part);
+  json = lengths_json(cut.mill, options.cut.park);
+  if (options.side == ProfileSide::on) {
+    words += fmt::format("{} and {}, {}\n", counted(cut.outsides, "closed line"), open_lines(plan),
+                         counted(cut.tabs.size(), "tab"));
+    json["closed"] = cut.outsides;
+    json["open"] = plan.lines;
+    json["dots"] = plan.dots;
+    json["tabs"] = cut.tabs.size();
+  } else {
+    words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
+                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), told_loss(cut.lost_mm2));
+    words += !arguments.chamfer.empty() ? chamfer_words(arguments, options.cut) : unreached_words(plan.unreached_mm2);
+    words += tight_words(cut.tight, options.cut.cutter) + finish_words(arguments, options.cut.allowance, cut.finished);
+    words += unfinished_words(cut.unfinished, "contour") + milling_words(options.cut.climb);
+    json["outsides"] = cut.outsides;
+    json["insides"] = cut.openings;
+    json["tabs"] = cut.tabs.size();
+    json["lost_mm2"] = cut.lost_mm2;
+    json["unreached_mm2"] = plan.unreached_mm2;
+    json["tight"] = cut.tight;
+    json["finished"] = cut.finished;
+    json["unfinished"] = cut.unfinished;
+    json["climb"] = options.cut.climb;
+  }
+  words += joined_words(part.loops);
+  return made;
+}
+
+// A program for each sheet; all are planned before the first is written.
+int cut_sheets(const CamProfileArguments& arguments, MillJob& job, const ProfileOptions& options,
+               const NestedDrawing& nested, const WorkProgress& progress) {
+  const std::size_t sheets = nested.sheets.size();
+  if (sheets > 1 && (arguments.output.empty() || arguments.output == "-")) {
+    return fail(exit_bad_program, fmt::format("{} sheets have a program each; --output must name a file", sheets));
+  }
+  std::vector<CutProfile> cuts;
+  std::vector<CamProfileArguments> orders(sheets, arguments);
+  for (std::size_t i = 0; i < sheets; ++i) {
+    orders[i].output = sheet_file(arguments.output, i, sheets);
+    orders[i].picture = sheet_file(arguments.picture, i, sheets);
+    if (sheets > 1 && !outputs_are_good(orders[i], "")) return exit_bad_program;
+    auto cut = cut_profile(arguments, nested.sheets[i], options);
+    if (!cut) return exit_bad_program;
+    cuts.push_back(std::move(*cut));
+  }
+  nlohmann::ordered_json all = cuts.front().json;
+  if (sheets > 1) {
+    all = {{"programs", nlohmann::ordered_json::array()}};
+    for (const CutProfile& cut : cuts) all["programs"].push_back(cut.json);
+  }
+  all["nest"] = nest_json(nested.nest, nested.options);
+  job.sheet = DrawnBox{{}, nested.options.sheet};
+  for (std::size_t i = 0; i < sheets; ++i) {
+    const CutProfile& cut = cuts[i];
+    const bool is_last = i + 1 == sheets;
+    const std::string name = sheets > 1 ? fmt::format("{}:\n", orders[i].output) : "";
+    const std::string words = name + cut.words + (is_last ? nest_words(nested) : "");
+    const int code = deliver(orders[i], job,
+                             {cut.plan.outline.mill, cut.plan.face, cut.plan.unreached, cut.plan.outline.tabs, words,
+                              is_last ? all.dump(2) : "", nested.nest.sheets[i].used + nested.options.margin},
+                             progress.stage(i, sheets));
+    if (code != exit_done) return code;
+  }
+  return exit_done;
+}
+
 }  // namespace
 
 int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progress) {
@@ -284,6 +371,8 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
   take_finish_feed(arguments, job.program, lengths);
   if (is_chamfer) take_chamfer(arguments, options.cut, lengths);
   const Nanometres join = join_of(arguments.join, lengths);
+  const bool is_nested = !arguments.nest.empty();
+  const NestOptions nesting = is_nested ? nest_options_of(arguments, options.cut, lengths) : NestOptions{};
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
   const bool is_on = options.side == ProfileSide::on;
   if (is_on && (!options.cut.tab_places.empty() || options.cut.lead.count > 0 || options.cut.dog_bones ||
@@ -294,39 +383,19 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
 
   const std::optional<PartDrawing> part = read_part(arguments, job, join, is_on ? OpenRows::kept : OpenRows::refused);
   if (!part) return exit_bad_program;
-  Diagnostics findings;
-  const ProfilePlan plan = plan_profile(part->loops.loops, part->loops.open, options, findings);
-  show(findings, listed(arguments.files));
-  if (findings.any_error()) return exit_bad_program;
-  const OutlinePlan& cut = plan.outline;
-  std::string words = size_words(*part);
-  nlohmann::ordered_json json = lengths_json(cut.mill, options.cut.park);
-  if (is_on) {
-    words += fmt::format("{} and {}, {}\n", counted(cut.outsides, "closed line"), open_lines(plan),
-                         counted(cut.tabs.size(), "tab"));
-    json["closed"] = cut.outsides;
-    json["open"] = plan.lines;
-    json["dots"] = plan.dots;
-    json["tabs"] = cut.tabs.size();
-  } else {
-    words += fmt::format("{} and {}, {}; {:g} mm² of the part lost\n", counted(cut.outsides, "outside"),
-                         counted(cut.openings, "inside"), counted(cut.tabs.size(), "tab"), told_loss(cut.lost_mm2));
-    words += is_chamfer ? chamfer_words(arguments, options.cut) : unreached_words(plan.unreached_mm2);
-    words += tight_words(cut.tight, options.cut.cutter) + finish_words(arguments, options.cut.allowance, cut.finished);
-    words += unfinished_words(cut.unfinished, "contour") + milling_words(options.cut.climb);
-    json["outsides"] = cut.outsides;
-    json["insides"] = cut.openings;
-    json["tabs"] = cut.tabs.size();
-    json["lost_mm2"] = cut.lost_mm2;
-    json["unreached_mm2"] = plan.unreached_mm2;
-    json["tight"] = cut.tight;
-    json["finished"] = cut.finished;
-    json["unfinished"] = cut.unfinished;
-    json["climb"] = options.cut.climb;
+  if (is_nested) {
+    const auto nested =
+        nest_drawing(*part, listed(arguments.files), arguments.quantity, nesting, progress.part(0.02, 0.6));
+    if (!nested) return exit_bad_program;
+    return cut_sheets(arguments, job, options, *nested, progress.part(0.6, 1));
   }
-  words += joined_words(part->loops);
-  return deliver(arguments, job, {cut.mill, plan.face, plan.unreached, cut.tabs, words, json.dump(2)},
-                 progress.part(0.8, 1));
+  const std::optional<CutProfile> cut = cut_profile(arguments, *part, options);
+  if (!cut) return exit_bad_program;
+  const ProfilePlan& plan = cut->plan;
+  return deliver(
+      arguments, job,
+      {plan.outline.mill, plan.face, plan.unreached, plan.outline.tabs, cut->words, cut->json.dump(2)},
+      progress.part(0.8, 1));
 }
 
 int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress) {

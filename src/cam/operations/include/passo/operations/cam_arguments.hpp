@@ -147,7 +147,16 @@ struct CamFinishArguments {
   std::uint32_t spring_passes = 0;
 };
 
-struct CamProfileArguments : CamOutlineArguments, CamFinishArguments {
+// Copies of the parts of a drawing, nested on sheets.
+struct CamNestArguments {
+  std::string nest;            // W,H of the sheets; empty: no nesting
+  std::uint32_t quantity = 1;  // copies of each part
+  std::string gap;             // between two parts; empty: what the cutter needs, and 1 mm
+  std::string nest_margin;     // at the edge of the sheet; empty: as `gap`
+  std::uint32_t rotations = 4;
+};
+
+struct CamProfileArguments : CamOutlineArguments, CamFinishArguments, CamNestArguments {
   std::string side = "part";  // outside, inside or on
   std::string chamfer;        // width; empty: no chamfer
   double angle = 90;          // included angle of the chamfer's V-bit, degrees

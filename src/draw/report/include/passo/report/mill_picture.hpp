@@ -24,6 +24,7 @@ struct MillScene {
   std::optional<DrawnBox> sheet = {};  // the sheet of material
   // The rapids, if they are known. Empty: those of each tool from the park position and back.
   std::optional<std::vector<DrawnRing>> rapids = {};
+  std::optional<Nanometres> offcut = {};  // X from which the sheet stays whole
 };
 
 // Draws into `file`; the caller commits it.

@@ -1,0 +1,39 @@
+// passo cam profile --nest: copies of the parts of a drawing, nested on sheets.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cam_part.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/nesting/nesting.hpp"
+
+namespace passo {
+
+struct NestedDrawing {
+  std::vector<PartDrawing> sheets = {};  // the contours on each
+  Nest nest = {};
+  NestOptions options = {};
+  std::size_t parts = 0;  // of the drawing
+
+  std::size_t copies() const;
+};
+
+// The options of nesting; `cut` has the cutter and its lead-in.
+NestOptions nest_options_of(const CamProfileArguments& arguments, const OutlineOptions& cut, LengthArguments& lengths);
+
+// A part is an outermost contour with everything in it. Shows errors "nest.…", and returns nothing then.
+std::optional<NestedDrawing> nest_drawing(const PartDrawing& drawing, const std::string& file, std::uint32_t quantity,
+                                          const NestOptions& options, const WorkProgress& progress);
+
+// The least gap with which the cutter of one part does not touch another part.
+Nanometres least_gap(const OutlineOptions& cut);
+
+std::string nest_words(const NestedDrawing& nested);
+nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options);
+// plate-2.ngc of plate.ngc, if there are several sheets.
+std::string sheet_file(const std::string& file, std::size_t sheet, std::size_t sheets);
+
+}  // namespace passo
