@@ -4,10 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "toml_tree.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include "toml_tree.hpp"
 
 namespace passo {
 namespace {

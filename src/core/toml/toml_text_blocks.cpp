@@ -191,7 +191,8 @@ Status<TomlTextError> TomlText::insert_table(std::string_view list, std::size_t 
   std::vector<std::size_t> numbers = all_numbers(blocks->size());
   numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(number) - 1, 0);
   const std::string blank(end);
-  if (number <= blocks->size()) return take(put_before(text_, (*blocks)[number - 1].first, block, blank), list, numbers);
+  if (number <= blocks->size())
+    return take(put_before(text_, (*blocks)[number - 1].first, block, blank), list, numbers);
   const Line last = blocks->empty() ? TomlPlaces(text_).line_count() : blocks->back().last;
   return take(put_after(text_, last, block, text_.empty() ? "" : blank), list, numbers);
 }

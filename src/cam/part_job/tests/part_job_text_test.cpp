@@ -4,9 +4,8 @@
 #include <random>
 #include <sstream>
 
-#include <gtest/gtest.h>
-
 #include "kit/seed.hpp"
+#include <gtest/gtest.h>
 
 #include "passo/part_job/part_job.hpp"
 #include "passo/part_job/part_kinds.hpp"
@@ -90,8 +89,7 @@ TEST(PartJobText, sets_keys_of_operations) {
     all.replace(all.find(was), was.size(), is);
     return all;
   };
-  EXPECT_EQ(edited(text, words("operation.1.depth", "-4.25")),
-            line_of(text, "-3   # aligned", "-4.25 # aligned"));
+  EXPECT_EQ(edited(text, words("operation.1.depth", "-4.25")), line_of(text, "-3   # aligned", "-4.25 # aligned"));
   EXPECT_EQ(edited(text, words("operation.2.depth", "-1")),
             line_of(text, "extra.more = 3\n", "extra.more = 3\ndepth = -1\n"));
   EXPECT_EQ(edited(text, words("operation.2.extra.dotted", "\"x\"")), line_of(text, "dotted = 2", "dotted = \"x\""));
@@ -165,7 +163,10 @@ TEST(PartJobText, copies_inserts_and_removes_operations) {
             "# B\n[[operation]]\nn = 2\n");
   EXPECT_EQ(edited(text, removal(1)), "# B\n[[operation]]\nn = 2\n");
   EXPECT_EQ(edited(text, removal(2)), "# A\n[[operation]]\nn = 1\n[operation.sub]\nm = 2\n");
-  EXPECT_EQ(edited("[job]\n", [](TomlText& toml) { return toml.insert_table("operation", 1, {{"n", "1"}}); }),
+  EXPECT_EQ(edited("[job]\n",
+                   [](TomlText& toml) {
+                     return toml.insert_table("operation", 1, {{"n", "1"}});
+                   }),
             "[job]\n\n[[operation]]\nn = 1\n");
   const auto insert = [&](std::size_t number) {
     return edited(text, [=](TomlText& toml) { return toml.insert_table("operation", number, {{"n", "3"}}); });
@@ -178,12 +179,18 @@ TEST(PartJobText, copies_inserts_and_removes_operations) {
   EXPECT_EQ(edited(in_line, move(1, 2)), "refused: the tables of operation have no heads [[operation]]");
 }
 
-// Any file that is built from awkward pieces: after each edit the reader finds the change, and all other lines are there.
+// Any file that is built from awkward pieces: after each edit the reader finds the change, and all other lines are
+// there.
 TEST(PartJobText, survives_random_edits) {
-  const std::vector<std::string> pieces = {
-      "# comment\n", "\n", "[[operation]]\nkind = \"drill\"\n", "[[operation]] # [[operation]]\n  tab = [\n  [1, 2],\n # x\n]\n",
-      "[[ operation ]]\na.b = 1\na.c = '[x]' # y\n", "[other{}]\nz = \"[[operation]]\"\n", "  # indented\n",
-      "[[operation]]\n", "[[list]]\nq = [[1], [2]]\n"};
+  const std::vector<std::string> pieces = {"# comment\n",
+                                           "\n",
+                                           "[[operation]]\nkind = \"drill\"\n",
+                                           "[[operation]] # [[operation]]\n  tab = [\n  [1, 2],\n # x\n]\n",
+                                           "[[ operation ]]\na.b = 1\na.c = '[x]' # y\n",
+                                           "[other{}]\nz = \"[[operation]]\"\n",
+                                           "  # indented\n",
+                                           "[[operation]]\n",
+                                           "[[list]]\nq = [[1], [2]]\n"};
   std::mt19937_64 random(test::seed());
   const auto below = [&](std::size_t most) { return static_cast<std::size_t>(random() % most); };
   for (int trial = 0; trial < 300; ++trial) {
@@ -199,7 +206,8 @@ TEST(PartJobText, survives_random_edits) {
     const std::size_t count = [&] {
       std::size_t all = 0;
       std::istringstream stream(text);
-      for (std::string line; std::getline(stream, line);) all += line.starts_with("[[") && line.find("oper") < 4 ? 1U : 0U;
+      for (std::string line; std::getline(stream, line);)
+        all += line.starts_with("[[") && line.find("oper") < 4 ? 1U : 0U;
       return all;
     }();
     if (count == 0) continue;
@@ -209,7 +217,8 @@ TEST(PartJobText, survives_random_edits) {
     EXPECT_EQ(lines_of(moved), lines_of(text)) << text << "\n---" << from << " to " << to << "\n" << moved;
     EXPECT_EQ(edited(moved, move(to, from)).starts_with("refused"), false);
     const std::string set = edited(text, words("operation." + std::to_string(from) + ".depth", "-1"));
-    EXPECT_EQ(edited(set, without("operation." + std::to_string(from) + ".depth")), text.ends_with('\n') ? text : text + "\n");
+    EXPECT_EQ(edited(set, without("operation." + std::to_string(from) + ".depth")),
+              text.ends_with('\n') ? text : text + "\n");
   }
 }
 

@@ -13,7 +13,7 @@ struct PartKindKeys {
   std::string_view command;     // whose options it has: "pocket" for face
   std::string_view first_tool;  // the key of its second tool, e.g. "rough-tool"; empty: it has one tool
   std::vector<std::string_view> options;
-  std::string_view file;  // the key of what it cuts: "drawing", or "file" for a relief
+  std::string_view file;   // the key of what it cuts: "drawing", or "file" for a relief
   bool has_place = false;  // at = [X, Y]
 };
 
