@@ -8,6 +8,7 @@ import { cam, operations as commands, partKinds, type PartKind } from '../machin
 import { isLive } from '../machine/connection';
 import { edit, jobFile, newJobFile, openJobFile, past, replaceText, undo, type CutOperation, type JobFile, type JobOperation, type JobReport, type Value } from '../machine/job_file';
 import { Button } from '../parts/button';
+import { Reported } from '../parts/reported';
 import { Typed } from '../parts/typed';
 import { forms, type Field } from './cam_forms';
 import { current, hovered } from './cam_job_picture';
@@ -49,16 +50,23 @@ function saidOf(file: JobFile, index: number): string[] {
 function Errors({ findings, said = [] }: { findings: readonly Finding[]; said?: readonly string[] }) {
   if (findings.length + said.length === 0) return null;
   return (
-    <ul class="job-errors" lang="en">
+    <ul class="job-errors">
       {findings.map((one) => (
         <li key={`${one.line} ${one.message}`}>
           {one.line > 0 && <b>{say('job.line', { line: one.line })}: </b>}
-          {one.message}
-          {one.expected !== '' && ` (${one.expected})`} <code class="dim">{one.code}</code>
+          <Reported words={one.message} sentence={one.message_sentence} code={one.code} />
+          {one.expected !== '' && (
+            <>
+              {' '}
+              (<Reported words={one.expected} sentence={one.expected_sentence} />)
+            </>
+          )}
         </li>
       ))}
       {said.map((words) => (
-        <li key={words}>{words}</li>
+        <li key={words} lang="en">
+          {words}
+        </li>
       ))}
     </ul>
   );
@@ -76,7 +84,7 @@ function Figures({ operation, index }: { operation: JobOperation; index: number 
   const seconds = cut.cut_s + (cut.rapid_mm / 3000) * 60;
   const left = leftOf(cut);
   return (
-    <p class="job-figures" data-testid="job-figures">
+    <p class="job-cut" data-testid="job-figures">
       <span>{say('job.figure.time', { time: durationText(seconds) })}</span> <span>{say('job.figure.depth', { depth: `${lengthText(cut.depth_mm)} ${lengthUnit()}` })}</span>{' '}
       {left !== '' && <span>{say('job.figure.left', { left })}</span>}{' '}
       {place !== index && (
@@ -120,7 +128,7 @@ function Row({ file, index }: { file: JobFile; index: number }) {
       onMouseEnter={() => (hovered.value = index)}
       onMouseLeave={() => (hovered.value = null)}
     >
-      <button type="button" class="job-name" aria-pressed={index === current.value} onClick={() => (current.value = index)} onFocus={() => (hovered.value = index)} onBlur={() => (hovered.value = null)}>
+      <button type="button" class="job-open" aria-pressed={index === current.value} onClick={() => (current.value = index)} onFocus={() => (hovered.value = index)} onBlur={() => (hovered.value = null)}>
         <b>{name}</b>
         <span class="dim">
           {[typeof values.title === 'string' ? kindTitle(String(values.kind ?? '')) : '', values.tool === undefined ? '' : `T${textOf(values.tool)}`, selected === '' ? say('job.all') : selected, depth === undefined ? '' : say('job.figure.depth', { depth: textOf(depth) })]

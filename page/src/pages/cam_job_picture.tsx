@@ -129,7 +129,7 @@ export function JobPicture() {
           {drawn.map((one, index) => (
             <g key={index} class={isShown(one) ? 'job-shape on' : 'job-shape'} data-layer={one.shape.layer} onClick={() => click(one)}>
               <path class="job-hit" d={one.shape.d} fill={one.shape.closed ? 'transparent' : 'none'} />
-              <path class="job-line" d={one.shape.d} />
+              <path class="job-stroke" d={one.shape.d} />
               <title>{[one.shape.layer, one.shape.color, ...one.shape.names].filter((word) => word !== '').join(' · ')}</title>
             </g>
           ))}

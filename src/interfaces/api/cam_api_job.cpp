@@ -54,13 +54,13 @@ WebAnswer CamApi::edit_job_file(const ApiCall& call) {
   const auto before = is_kept(maker, *name) ? maker.content(*name, longest_job_text) : std::nullopt;
   if (!before) return no_job_file();
   if (stamp_of_job(*before) != *stamp) {
-    return error_answer(409, "cam-job.changed", "the job file was changed in the meantime: open it again");
+    return error_answer(409, "make.job-changed", "the job file was changed in the meantime: open it again");
   }
   std::string text = text_member(said, "text").value_or(*before);
   if (text.size() > longest_job_text) return bad_body(fmt::format("\"text\": at most {} bytes", longest_job_text));
   if (said.contains("edits")) {
     auto edited = edited_job(text, said["edits"]);
-    if (!edited) return error_answer(409, "cam-job.cannot-edit", edited.error());
+    if (!edited) return error_answer(409, "make.cannot-edit", edited.error());
     text = std::move(*edited);
   }
   if (text != *before && !maker.keep(*name, text)) {
