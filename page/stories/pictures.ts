@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { Daemon, example, openBrowser, sleep, visit } from './kit';
 
 const folder = process.argv[2] ?? 'pictures';
-const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'probe', 'files', 'cam', 'console', 'pins', 'machine', 'lab'];
+const pages = process.argv[3]?.split(',') ?? ['run', 'jog', 'probe', 'files', 'cam', 'job', 'console', 'pins', 'machine', 'lab'];
 const patience = 120_000; // ms, on a busy computer
 const sizes = [
   { name: 'wide', width: 1440, height: 900 },
@@ -60,6 +60,18 @@ async function board(browser: import('playwright-core').Browser, daemon: Daemon)
   for (const picture of await page.locator('.board-step img').all()) await picture.evaluate((one) => one.setAttribute('loading', 'eager'));
   await sleep(2500);
   await page.screenshot({ path: join(folder, 'page-board.png'), timeout: patience });
+  await context.close();
+}
+
+// The operations of a job file, beside its drawing.
+async function jobFile(browser: import('playwright-core').Browser, daemon: Daemon, name: string, theme: 'light' | 'dark', size: { width: number; height: number }): Promise<void> {
+  const { page, context } = await visit(browser, daemon, 'cam', { theme, size });
+  await page.setInputFiles('input[type=file]', ['plate.svg', 'plate.toml'].map((one) => example(`jobs/${one}`)));
+  await page.getByTestId('job-figures').nth(3).waitFor({ timeout: patience });
+  await page.getByRole('button', { name: /^2\. Pocket/ }).click();
+  await page.mouse.move(0, 0);
+  await sleep(300);
+  await page.screenshot({ path: join(folder, name), timeout: patience, fullPage: true });
   await context.close();
 }
 
@@ -163,7 +175,7 @@ for (const theme of ['dark', 'light'] as const) {
   for (const size of sizes) {
     const density = size.name === 'phone' ? 2 : 1;
     const { page, context } = await visit(browser, daemon, pages[0] ?? 'run', { theme, size, density });
-    for (const path of pages) {
+    for (const path of pages.filter((one) => one !== 'job')) {
       if (path === 'run' || path === 'files') await choose(page, daemon, 'engrave.ngc');
       await page.goto(`${daemon.address}#/${path === 'probe' ? 'jog' : path}`);
       await sleep(900);
@@ -187,6 +199,8 @@ for (const theme of ['dark', 'light'] as const) {
     await context.close();
   }
   if (theme === 'light' && pages.includes('cam')) await board(browser, daemon);
+  if (theme === 'light' && pages.includes('job')) await jobFile(browser, daemon, 'page-job.png', 'light', { width: 1440, height: 1300 });
+  if (theme === 'dark' && pages.includes('job')) await jobFile(browser, daemon, 'page-job-phone.png', 'dark', { width: 360, height: 740 });
   await daemon.end();
 }
 await sheets(browser);

@@ -13,7 +13,7 @@ afterEach(() => {
 const valuesOf = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
 
 // Codes whose words say more than the page could: what exactly is wrong with a body, or with a value that was set.
-const ownWords = ['http.bad-body', 'http.wrong-type', 'machine-file.cannot-set', 'reentry.shifted', 'surface.height-map'];
+const ownWords = ['http.bad-body', 'http.wrong-type', 'machine-file.cannot-set', 'make.cannot-edit', 'reentry.shifted', 'surface.height-map'];
 // Of a run on a terminal alone; of faults of the board, which are sent by the code of the link.
 const isElsewhere = (code: string): boolean => code === 'run.waits' || code.startsWith('board.');
 

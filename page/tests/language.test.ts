@@ -5,6 +5,7 @@ import { console as consoleWords } from '../src/lang/en/console';
 import { files } from '../src/lang/en/files';
 import { frame } from '../src/lang/en/frame';
 import { en } from '../src/lang/en/index';
+import { job } from '../src/lang/en/job';
 import { machine } from '../src/lang/en/machine';
 import { operations } from '../src/lang/en/operations';
 import { pins } from '../src/lang/en/pins';
@@ -26,7 +27,7 @@ describe('languages', () => {
   });
 
   it('says each thing once: no file hides a word of another', () => {
-    const all = [cam, consoleWords, files, frame, machine, operations, pins, run, set_up].flatMap((one) => Object.keys(one));
+    const all = [cam, consoleWords, files, frame, job, machine, operations, pins, run, set_up].flatMap((one) => Object.keys(one));
     expect(all.length).toBe(Object.keys(en).length);
     expect(new Set(all).size).toBe(all.length);
   });

@@ -2,6 +2,7 @@
 // bodies do.
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <set>
 #include <sstream>
@@ -86,8 +87,17 @@ class NotedStudies final : public Studies {
 // Says how far it is, and makes nothing.
 class SlowMaker final : public CamService {
  public:
-  std::vector<std::string> files() const override { return {"holes.drl"}; }
-  bool keep(const std::string&, std::string_view) override { return true; }
+  std::vector<std::string> files() const override { return {"holes.drl", "plate.toml"}; }
+  bool keep(const std::string& name, std::string_view bytes) override {
+    kept[name] = bytes;
+    return true;
+  }
+  std::optional<std::string> content(const std::string& name, std::size_t most) const override {
+    const auto found = kept.find(name);
+    return found != kept.end() && found->second.size() <= most ? std::optional(found->second) : std::nullopt;
+  }
+  std::string folder() const override { return "/nowhere/"; }
+  CamShapes shapes(const std::string&) override { return drawn; }
   void clear() override {}
   bool begin(const CamOrder& order) override {
     now = {.state = CamResult::State::running, .job = order.job};
@@ -98,6 +108,8 @@ class SlowMaker final : public CamService {
   std::string picture(std::optional<std::size_t>) const override { return ""; }
   std::string page() const override { return ""; }
   CamResult now;
+  CamShapes drawn;
+  std::map<std::string, std::string> kept;
 };
 
 TEST(ApiCam, shows_the_progress_of_its_job) {
@@ -114,6 +126,85 @@ TEST(ApiCam, shows_the_progress_of_its_job) {
   maker.now.names = {"holes-drill.ngc"};
   maker.now.progress = 1;
   EXPECT_EQ(run.get("/cam")["progress"], 1);
+}
+
+TEST(ApiCam, edits_a_job_file_and_keeps_all_else) {
+  SlowMaker maker;
+  const std::string text =
+      "# A plate.\n[job]\ndrawing = \"plate.svg\"\nmine = 1 # unknown\n\n[tool.1]\nshape = \"flat\"\ndiameter_mm = "
+      "6\n\n"
+      "[[operation]] # one\nkind = \"pocket\"\ntool = 1\ndeph = -3 # aligned\n\n[[operation]]\nkind = "
+      "\"profile\"\ntool = 1\n";
+  maker.kept["plate.toml"] = text;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, &maker);
+  Json draft = run.get("/cam/job?name=plate.toml");
+  EXPECT_EQ(run.status, 200U);
+  expect_members(openapi()["components"]["schemas"]["CamJobFile"], draft, "CamJobFile");
+  EXPECT_EQ(draft["text"], text);
+  EXPECT_EQ(draft["editable"], true);
+  EXPECT_EQ(draft["good"], false);
+  EXPECT_EQ(draft["operations"][0]["values"]["deph"], -3);
+  EXPECT_EQ(draft["operations"][0]["lines"]["deph"], 13);
+  bool finds_line = false;
+  for (const Json& finding : draft["findings"])
+    finds_line = finds_line || (finding["line"] == 13 && finding["column"] == 1);
+  EXPECT_TRUE(finds_line) << draft["findings"];
+  const auto edit = [&](const Json& stamp, const std::string& edits) {
+    return run.post("/cam/job",
+                    fmt::format(R"({{"name": "plate.toml", "stamp": {}, "edits": [{}]}})", stamp.dump(), edits));
+  };
+  draft = edit(draft["stamp"], R"({"do": "unset", "path": "operation.1.deph"}, {"do": "unset", "path": "job.mine"},
+                                  {"do": "set", "path": "operation.2.tab", "value": [[1, 2], [3, 4]]},
+                                  {"do": "move", "number": 2, "to": 1})");
+  EXPECT_EQ(run.status, 200U) << draft;
+  EXPECT_EQ(draft["good"], true) << draft["findings"];
+  EXPECT_EQ(maker.kept["plate.toml"],
+            "# A plate.\n[job]\ndrawing = \"plate.svg\"\n\n[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\n\n"
+            "[[operation]]\nkind = \"profile\"\ntool = 1\ntab = [[1, 2], [3, 4]]\n\n"
+            "[[operation]] # one\nkind = \"pocket\"\ntool = 1\n");
+  EXPECT_EQ(draft["tools"][0]["number"], 1);
+  const std::string good = maker.kept["plate.toml"];
+  // Someone else has changed the file meanwhile; an edit fails; a value is no value.
+  edit("0", R"({"do": "remove", "number": 1})");
+  EXPECT_EQ(run.status, 409U);
+  for (const char* const wrong : {R"({"do": "copy", "number": 1}, {"do": "copy", "number": 9})",
+                                  R"({"do": "set", "path": "operation.1.x", "value": null})",
+                                  R"({"do": "set", "path": "operation.1.x y", "value": 1})",
+                                  R"({"do": "insert", "number": 1, "values": {"a\nb": 1}})", R"({"do": "shred"})", "7",
+                                  R"({"do": "set", "path": 7, "value": [[[[1]]]]})"}) {
+    edit(draft["stamp"], wrong);
+    EXPECT_EQ(run.status, 409U) << wrong;
+    EXPECT_EQ(maker.kept["plate.toml"], good) << wrong;
+  }
+  // A text with errors is kept, so that it can be mended.
+  draft = run.post("/cam/job",
+                   fmt::format(R"({{"name": "plate.toml", "stamp": {}, "text": "[job\n"}})", draft["stamp"].dump()));
+  EXPECT_EQ(draft["editable"], false);
+  EXPECT_EQ(draft["findings"][0]["line"], 1);
+  edit(draft["stamp"], R"({"do": "copy", "number": 1})");
+  EXPECT_EQ(run.status, 409U);
+}
+
+TEST(ApiCam, reads_no_tool_library_that_was_not_sent) {
+  SlowMaker maker;
+  maker.kept["plate.toml"] = "[job]\ntools = \"/dev/zero\"\n[[operation]]\nkind = \"drill\"\ntool = 1\n";
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, &maker);
+  EXPECT_EQ(run.get("/cam/job?name=plate.toml")["findings"][0]["code"], "job.outside");
+  run.get("/cam/job?name=other.toml");
+  EXPECT_EQ(run.status, 404U);
+}
+
+TEST(ApiCam, tells_the_shapes_of_a_drawing) {
+  SlowMaker maker;
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, &maker);
+  EXPECT_EQ(run.get("/cam/shapes?name=holes.drl")["state"], "running");
+  maker.drawn = {.state = CamResult::State::done, .json = R"({"shapes": []})", .words = "note"};
+  const Json shapes = run.get("/cam/shapes?name=holes.drl");
+  expect_members(openapi()["components"]["schemas"]["CamShapes"], shapes, "CamShapes");
+  EXPECT_EQ(shapes["state"], "done");
+  EXPECT_TRUE(shapes["drawing"]["shapes"].is_array());
+  run.get("/cam/shapes?name=other.svg");
+  EXPECT_EQ(run.status, 404U);
 }
 
 TEST(ApiStudies, are_ordered_with_all_that_they_need) {

@@ -70,6 +70,7 @@ export interface CamOption {
   enum?: string[];
   examples?: string[];
   default?: string | number;
+  type: string | string[];
 }
 export interface CamOperation {
   title: string; // "drill"
@@ -80,12 +81,24 @@ export interface CamOperation {
   properties: Record<string, CamOption>;
 }
 export const operations = signal<readonly CamOperation[]>([]);
+// A kind of operation of a job file.
+export interface PartKind {
+  kind: string;
+  command: string; // the operation whose options it has
+  options: string[];
+  first_tool: string; // the key of its second tool; empty: it has one tool
+  file: string; // the key of what it cuts
+  has_place: boolean;
+}
+export const partKinds = signal<readonly PartKind[]>([]);
 
 // They do not change while the daemon runs.
 export async function needOperations(): Promise<void> {
   if (operations.value.length > 0) return;
   await attempt(async () => {
-    operations.value = (await get<{ operations: CamOperation[] }>('/cam/operations')).operations;
+    const all = await get<{ operations: CamOperation[]; part_kinds: PartKind[] }>('/cam/operations');
+    operations.value = all.operations;
+    partKinds.value = all.part_kinds;
   });
 }
 

@@ -6,32 +6,40 @@ import { lengthUnit } from '../core/units';
 import { isLive } from '../machine/connection';
 import { needFile } from '../machine/machine_file';
 import { clearDrawings, cam, madeCount } from '../machine/cam';
+import { forgetShapes, jobFile } from '../machine/job_file';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { ProgressBar } from '../parts/progress_bar';
 import { Choice } from '../parts/view_dialog';
-import { forms, usualOf, withUnit, type Field, type Form } from './cam_forms';
+import { forms, taken, usualOf, withUnit, type Field, type Form } from './cam_forms';
 import { BoardLayers, BoardSteps } from './cam_board';
-import { ask, fieldsOf, formNow, job, layers, lookAtCam, partsOf, pick, picked, set, takeDrawings, valuesOf } from './cam_order';
+import { JobPanels } from './cam_job';
+import { JobPicture } from './cam_job_picture';
+import { ask, fieldsOf, formNow, job, jobForm, layers, lookAtCam, partsOf, pick, picked, set, takeDrawings, valuesOf } from './cam_order';
 
 function Drawings({ form }: { form: Form }) {
   const files = cam.value?.files ?? [];
   const why = isLive.value ? '' : say('why.lost');
+  const isJob = form.job === jobForm;
   return (
     <section class="panel" aria-label={say('cam.files')}>
       <h2>{say('cam.files')}</h2>
-      <DropZone choose={say('files.choose')} why={why} accept={form.files} take={takeDrawings}>
+      <DropZone choose={say('files.choose')} why={why} {...(isJob ? {} : { accept: form.files })} take={takeDrawings}>
         {say('cam.drop')}
       </DropZone>
       {form.job === 'wire' && <p class="dim">{say('cam.wire.sides')}</p>}
       <ul class="cam-files">
         {files.map((name) => (
           <li key={name}>
-            <label>
-              <input type="checkbox" checked={picked.value.includes(name)} onChange={(event) => pick(name, event.currentTarget.checked)} />{' '}
-              {name}
-            </label>
+            {isJob ? (
+              name
+            ) : (
+              <label>
+                <input type="checkbox" checked={taken(form, picked.value).includes(name)} onChange={(event) => pick(name, event.currentTarget.checked)} />{' '}
+                {name}
+              </label>
+            )}
           </li>
         ))}
       </ul>
@@ -42,6 +50,8 @@ function Drawings({ form }: { form: Form }) {
           onClick={() => {
             picked.value = [];
             layers.value = {};
+            jobFile.value = null;
+            forgetShapes();
             return clearDrawings();
           }}
         >
@@ -155,6 +165,11 @@ export function CamPage() {
     void needFile();
   }, [isLive.value]);
   const form = formNow();
+  // A job is made again after each edit without errors.
+  const stamp = jobFile.value?.good === true ? `${jobFile.value.name} ${jobFile.value.stamp}` : '';
+  useEffect(() => {
+    if (stamp !== '' && formNow()?.job === jobForm) ask(formNow());
+  }, [stamp]);
   if (form === undefined) return null;
   return (
     <div class="cam">
@@ -171,7 +186,8 @@ export function CamPage() {
           />
         </section>
         <Drawings form={form} />
-        <section class="panel" aria-label={say(form.title)}>
+        {form.job === jobForm && <JobPanels />}
+        {form.fields.length + form.more.length > 0 && <section class="panel" aria-label={say(form.title)}>
           <h2>{say(form.title)}</h2>
           <Fields form={form} fields={form.fields} />
           {form.more.length > 0 && (
@@ -189,10 +205,13 @@ export function CamPage() {
             </details>
           ))}
           <p class="dim">{say('cam.lengths', { unit: lengthUnit() })}</p>
-        </section>
+        </section>}
         {form.job === 'board' && <BoardLayers />}
       </div>
-      <Result />
+      <div class="pins-side">
+        {form.job === jobForm && <JobPicture />}
+        <Result />
+      </div>
     </div>
   );
 }

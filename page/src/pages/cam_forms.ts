@@ -112,5 +112,7 @@ export function formFor(names: readonly string[], atHand: Form | undefined): For
   const all = (first: Form | undefined): readonly Form[] => (first === undefined ? byFiles : [first, ...byFiles]);
   return all(several ?? atHand).find(fits) ?? all(atHand).find((form) => takes(form, kinds.at(-1) ?? '')) ?? atHand;
 }
+// Those of the files that a form takes.
+export const taken = (form: Form, names: readonly string[]): string[] => names.filter((name) => takes(form, kindOf(name)));
 // Whether a file is a drawing or a picture, and no G-code.
 export const isDrawing = (name: string): boolean => kindOf(name) !== '.txt' && forms.value.some((form) => takes(form, kindOf(name)));

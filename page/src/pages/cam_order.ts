@@ -2,7 +2,8 @@
 import { signal } from '@preact/signals';
 import { kept } from '../core/kept';
 import { cam, needOperations, order, refreshCam, sendDrawing, type Options } from '../machine/cam';
-import { formFor, forms, ofMachine, withUnit, type Field, type Form } from './cam_forms';
+import { forgetShapes, jobFile, openJobFile } from '../machine/job_file';
+import { formFor, forms, ofMachine, taken, withUnit, type Field, type Form } from './cam_forms';
 
 type Values = Record<string, string | boolean>;
 const isTable = (value: unknown): value is Record<string, Values> => typeof value === 'object' && value !== null;
@@ -40,11 +41,12 @@ function optionsOf(form: Form, without: (field: Field) => boolean = () => false)
 export function ask(form: Form | undefined): void {
   if (form === undefined) return;
   const options = optionsOf(form);
+  if (form.job === jobForm) return jobFile.value?.good === true ? order({ job: form.job, files: [jobFile.value.name], options }) : undefined;
   // Letters need no drawing, and have none.
   const hasText = form.withoutFiles !== undefined && options[form.withoutFiles] !== undefined;
   // What a field names is no drawing: a board's edge, a font.
   const named = fieldsOf(form).filter((field) => field.kind === 'file' || field.kind === 'name').map((field) => options[field.option]);
-  const files = hasText ? [] : picked.value.filter((one) => !named.includes(one)).slice(0, form.most);
+  const files = hasText ? [] : taken(form, picked.value).filter((one) => !named.includes(one)).slice(0, form.most);
   if (files.length === 0 && !hasText) return;
   if (form.parts.length === 0) return order({ job: form.job, files, options });
   const known = new Set(cam.value?.job === form.job ? cam.value.report?.files.map((one) => one.name) : []);
@@ -63,6 +65,10 @@ export function setLayer(name: string, layer: string): void {
   ask(formNow());
 }
 
+// A job file with its operations and drawings, as a list (cam_job.tsx).
+export const jobForm = 'job';
+const isJobFile = async (file: File): Promise<boolean> => file.name.endsWith('.toml') && /^\s*(\[\[\s*"?operation\b|operation\s*=)/m.test(await file.text());
+
 function takeForm(names: readonly string[]): void {
   job.value = formFor(names, formNow())?.job ?? job.value;
 }
@@ -75,7 +81,16 @@ export function pick(name: string, isPicked: boolean): void {
 
 // A drawing that the job at hand cannot use leads to the first one that can. Several files of a board make one.
 export async function takeDrawings(files: readonly File[]): Promise<void> {
-  for (const file of files) await sendDrawing(file);
+  for (const file of files) {
+    forgetShapes(file.name);
+    await sendDrawing(file);
+  }
+  for (const file of files) {
+    if (!(await isJobFile(file))) continue;
+    job.value = jobForm;
+    await openJobFile(file.name);
+  }
+  if (formNow()?.job === jobForm) return;
   const known = new Set(cam.value?.files ?? []);
   const names = files.map((file) => file.name).filter((name) => known.has(name));
   if (files.length > 0) takeForm(files.map((file) => file.name));

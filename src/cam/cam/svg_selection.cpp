@@ -50,6 +50,16 @@ bool is_no_paint(std::string_view paint) {
   return paint.empty() || is_css_word(paint, "none") || is_css_word(paint, "transparent");
 }
 
+void add_names(const SvgElement& element, std::string& names) {
+  constexpr std::size_t longest = 1000;
+  for (const char* const attribute : {"id", "inkscape:label"}) {
+    std::string name(element.attribute(attribute));
+    if (name.empty() || names.size() + name.size() > longest) continue;
+    std::ranges::replace(name, '\n', ' ');
+    names += "\n" + name;
+  }
+}
+
 }  // namespace
 
 std::string svg_colour(std::string_view text) {
@@ -75,10 +85,11 @@ void SvgSelection::enter(const SvgElement& element, Paint& paint) {
     const std::string_view own = element.property(property);
     if (!own.empty() && !is_css_word(own, "inherit")) value = own;
   };
-  if (!colours_.empty()) {
+  if (!colours_.empty() || options_.tells_shapes) {
     inherit("stroke", paint.stroke);
     inherit("fill", paint.fill);
   }
+  if (options_.tells_shapes) add_names(element, paint.names);
   for (const std::string& name : options_.names) {
     if (element.attribute("id") != name && element.attribute("inkscape:label") != name) continue;
     paint.is_named = true;
@@ -86,11 +97,15 @@ void SvgSelection::enter(const SvgElement& element, Paint& paint) {
   }
 }
 
+std::string SvgSelection::colour_of(const Paint& paint) {
+  const std::string_view area = paint.fill.empty() ? "black" : paint.fill;
+  return svg_colour(is_no_paint(paint.stroke) ? area : paint.stroke);
+}
+
 bool SvgSelection::takes(const Paint& paint) {
   if (!options_.names.empty() && !paint.is_named) return false;
   if (colours_.empty()) return true;
-  const std::string_view area = paint.fill.empty() ? "black" : paint.fill;
-  const std::string colour = svg_colour(is_no_paint(paint.stroke) ? area : paint.stroke);
+  const std::string colour = colour_of(paint);
   if (std::ranges::find(colours_, colour) == colours_.end()) return false;
   found_.insert(colour);
   return true;

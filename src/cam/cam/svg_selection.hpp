@@ -25,10 +25,13 @@ class SvgSelection {
     bool is_named = false;  // by one of the wanted names
     std::string_view stroke = {};
     std::string_view fill = {};
+    std::string names = {};  // each after a line end; only with SvgOptions::tells_shapes
   };
   // `paint`: that of the group around the element. The element must outlive it.
   void enter(const SvgElement& element, Paint& paint);
   bool takes(const Paint& paint);
+  // As "#rrggbb", or "none".
+  static std::string colour_of(const Paint& paint);
   // Returns a note for each colour and name that was not found.
   std::vector<std::string> missing() const;
 

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "passo/part_job/part_kinds.hpp"
+
 namespace passo {
 namespace {
 
@@ -25,6 +27,15 @@ PartArguments arguments_of(PartKind kind) {
     case PartKind::relief: return CamReliefArguments();
   }
   return CamProfileArguments();
+}
+
+std::string_view command_of(PartKind kind) {
+  switch (kind) {
+    case PartKind::face: return "pocket";
+    case PartKind::bore: return "drill";
+    case PartKind::chamfer: return "engrave";
+    default: return name_of(kind);
+  }
 }
 
 // Options that a job sets for all operations, or by their tools.
@@ -92,6 +103,26 @@ std::string tool_expected(PartKind kind, CuttingShape shape) {
 }
 
 }  // namespace
+
+std::vector<PartKindKeys> keys_of_part_kinds() {
+  std::vector<PartKindKeys> all;
+  for (const std::string_view name : names_of_part_kinds()) {
+    PartOperation operation;
+    operation.kind = *part_kind_of(name);
+    operation.arguments = arguments_of(operation.kind);
+    PartKindKeys keys{.kind = operation.kind,
+                      .command = command_of(operation.kind),
+                      .first_tool = first_tool_of(operation.kind).key,
+                      .options = {},
+                      .file = operation.kind == PartKind::relief ? "file" : "drawing",
+                      .has_place = operation.kind == PartKind::engrave};
+    for (const CamOption& option : cam_options_of(operation)) {
+      if (!is_set_by_job(option)) keys.options.push_back(option.name);
+    }
+    all.push_back(std::move(keys));
+  }
+  return all;
+}
 
 std::int32_t PartJobReader::tool_number(TableReader& reader, std::string_view key, Need need) {
   const auto number = reader.whole_number({key, 1, 99'999, "1"}, need);

@@ -37,9 +37,12 @@ constexpr ApiRoute routes[] = {
     {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin},
     {"POST", "/cam/files", "sendCamFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/cam/files", "clearCamFiles", anybody, none, &CamApi::clear_files, Needs::maker},
+    {"GET", "/cam/job", "getCamJobFile", anybody, none, &CamApi::job_file, Needs::maker},
+    {"POST", "/cam/job", "editCamJobFile", anybody, json, &CamApi::edit_job_file, Needs::maker},
     {"GET", "/cam/operations", "getCamOperations", anybody, none, &CamApi::operations},
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
+    {"GET", "/cam/shapes", "getCamShapes", anybody, none, &CamApi::shapes, Needs::maker},
 
     {"GET", "/interrupted", "getInterrupted", anybody, none, &JobsApi::get_interrupted, Needs::history},
     {"DELETE", "/interrupted", "dropInterrupted", owner, none, &JobsApi::drop_interrupted, Needs::history},

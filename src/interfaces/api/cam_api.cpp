@@ -6,6 +6,7 @@
 
 #include "api_json.hpp"
 #include "cam_schema.hpp"
+#include "part_job_draft.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -141,7 +142,7 @@ WebAnswer CamApi::get(const ApiCall&) {
 WebAnswer CamApi::operations(const ApiCall&) {
   Json all = Json::array();
   for (const CamOperation& operation : cam_operations()) all.push_back(schema_of(operation));
-  return json_answer(200, {{"operations", std::move(all)}});
+  return json_answer(200, {{"operations", std::move(all)}, {"part_kinds", part_kinds_json()}});
 }
 
 WebAnswer CamApi::picture(const ApiCall& call) {

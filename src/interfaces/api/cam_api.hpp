@@ -25,12 +25,16 @@ class CamApi {
   WebAnswer clear_files(const ApiCall& call);
   WebAnswer picture(const ApiCall& call);
   WebAnswer page(const ApiCall& call);
+  WebAnswer shapes(const ApiCall& call);
+  WebAnswer job_file(const ApiCall& call);
+  WebAnswer edit_job_file(const ApiCall& call);
 
   // Adds generated programs to the program store. A program generated again from the same drawing replaces the previous
   // one, even if a board now has other steps.
   void poll();
 
  private:
+  WebAnswer draft_answer(const std::string& name) const;
   WebAnswer state_answer(unsigned status = 200);
 
   const ApiShared& shared_;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "passo/base/fingerprint.hpp"
-#include "passo/machine_file/toml_text.hpp"
+#include "passo/toml/toml_text.hpp"
 
 namespace passo {
 namespace {

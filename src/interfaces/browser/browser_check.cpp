@@ -17,7 +17,7 @@
 #include "passo/judge/judgement.hpp"
 #include "passo/judge/proposals.hpp"
 #include "passo/machine_file/machine_kind.hpp"
-#include "passo/machine_file/toml_text.hpp"
+#include "passo/toml/toml_text.hpp"
 
 namespace passo {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_settings.hpp"
-#include "passo/machine_file/toml_text.hpp"
+#include "passo/toml/toml_text.hpp"
 
 namespace passo {
 namespace {

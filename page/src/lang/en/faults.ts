@@ -79,6 +79,8 @@ export const faults = {
   'data.unwritten.job': 'the job cannot be saved: {why}',
   'make.none': 'this server cannot generate programs',
   'make.busy': 'another program is being generated: wait',
+  'job.outside': 'the tool library of this job was not sent',
+  'make.job-changed': 'another client changed the job file: open it again',
   'make.no-room': 'there is no room for this file: remove other files, or free disk space',
   'study.none': 'this server cannot run analyses',
   'study.busy': 'the analysis cannot start now: try again',

@@ -3,10 +3,11 @@ import { cam } from './cam';
 import { console } from './console';
 import { files } from './files';
 import { frame } from './frame';
+import { job } from './job';
 import { machine } from './machine';
 import { operations } from './operations';
 import { pins } from './pins';
 import { run } from './run';
 import { set_up } from './set_up';
 
-export const en = { ...cam, ...console, ...files, ...frame, ...machine, ...operations, ...pins, ...run, ...set_up };
+export const en = { ...cam, ...console, ...files, ...frame, ...job, ...machine, ...operations, ...pins, ...run, ...set_up };

@@ -3,6 +3,7 @@ import { cam } from './cam';
 import { console } from './console';
 import { files } from './files';
 import { frame } from './frame';
+import { job } from './job';
 import { machine } from './machine';
 import { operations } from './operations';
 import { pins } from './pins';
@@ -10,4 +11,4 @@ import { run } from './run';
 import { set_up } from './set_up';
 import type { Words } from '../same';
 
-export const fr: Words = { ...cam, ...console, ...files, ...frame, ...machine, ...operations, ...pins, ...run, ...set_up };
+export const fr: Words = { ...cam, ...console, ...files, ...frame, ...job, ...machine, ...operations, ...pins, ...run, ...set_up };

@@ -35,6 +35,7 @@ struct CamShowArguments {
   std::vector<std::string> files;  // Gerber and drill files, folders, zip archives
   std::string picture;             // .svg or .png; empty: none
   bool json = false;
+  bool shapes = false;  // prints the shapes of a drawing as JSON
 };
 
 int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, const CamSources* given = nullptr,

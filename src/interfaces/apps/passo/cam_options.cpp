@@ -34,6 +34,8 @@ void add_show_options(CLI::App& show, CamShowArguments& arguments) {
   show.add_option("-p,--picture", arguments.picture,
                   "picture of the board from above and from below (FILE.svg or FILE.png)");
   show.add_flag("--json", arguments.json, "print the list as JSON");
+  show.add_flag("--shapes", arguments.shapes,
+                "print the shapes of a drawing (SVG, DXF, HPGL, drill file) with layer, colour and names, as JSON");
   show.footer(show_examples);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "cam_job.hpp"
+#include "cam_show_shapes.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
@@ -87,6 +88,7 @@ void print_table(const BoardJob& job) {
 }  // namespace
 
 int cam_show(const CamShowArguments& arguments) {
+  if (arguments.shapes) return cam_show_shapes(arguments);
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);
   files.writes("--picture", arguments.picture);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "part_job_record.hpp"
 #include <sys/wait.h>
 
 #include "passo/operations/cam_operation.hpp"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* made_folder = ".made";
 constexpr const char* board_profile = ".made/profile.toml";
 constexpr const char* board_machine = ".made/machine.toml";
+constexpr const char* shapes_folder = ".shapes";
 constexpr std::string_view board_job = "board";
 constexpr std::string_view part_job = "job";  // its file names other files
 
@@ -46,22 +48,74 @@ bool ServedMaker::keep(const std::string& name, std::string_view bytes) {
   const auto same = std::ranges::find(kept_, name, &Kept::name);
   if (all > most_bytes || (same == kept_.end() && kept_.size() >= most_files)) return false;
   if (!folder_.make()) return false;
-  if (!write_content(folder_.path(name), bytes)) {  // half a drawing is none
-    std::error_code none;
-    fs::remove(folder_.path(name), none);
-    std::erase_if(kept_, [&](const Kept& one) { return one.name == name; });
+  // Whoever reads the file meanwhile sees all of the old one or all of the new one. Names that are kept begin with no
+  // dot.
+  const std::string temporary = folder_.path(".new");
+  std::error_code failed;
+  if (write_content(temporary, bytes)) fs::rename(temporary, folder_.path(name), failed);
+  if (failed || fs::exists(temporary)) {
+    fs::remove(temporary, failed);
     return false;
   }
+  if (name == read_name_) {
+    reader_.end();
+    read_name_.clear();
+  }
   if (same != kept_.end()) {
-    same->bytes = bytes.size();
+    *same = {.name = name, .bytes = bytes.size()};
   } else {
     kept_.push_back({name, bytes.size()});
   }
   return true;
 }
 
+std::vector<ServedMaker::Kept>::const_iterator ServedMaker::find(const std::string& name) const {
+  return std::ranges::find(kept_, name, &Kept::name);
+}
+
+std::optional<std::string> ServedMaker::content(const std::string& name, std::size_t most) const {
+  const auto found = find(name);
+  if (found == kept_.end() || found->bytes > most) return std::nullopt;
+  return content_of(folder_.path(name));
+}
+
+std::string ServedMaker::folder() const {
+  return folder_.name() + "/";
+}
+
+CamShapes ServedMaker::shapes(const std::string& name) {
+  poll_shapes();
+  const auto found = find(name);
+  if (found == kept_.end()) return {.state = CamResult::State::failed};
+  if (found->shapes.state != CamResult::State::none || reader_.runs()) return found->shapes;
+  std::error_code none;
+  fs::create_directory(folder_.path(shapes_folder), none);
+  read_name_ = name;
+  const bool begun =
+      reader_.begin(folder_.path(shapes_folder), {"passo", "cam", "show", "--shapes", "--", "../" + name});
+  return {.state = begun ? CamResult::State::running : CamResult::State::failed};
+}
+
+void ServedMaker::poll_shapes() {
+  const std::optional<int> end = reader_.poll();
+  const auto found = std::ranges::find(kept_, read_name_, &Kept::name);
+  if (!end || found == kept_.end()) return;
+  constexpr std::uintmax_t longest = std::uintmax_t{16} << 20;
+  const std::string folder = folder_.path(shapes_folder) + "/";
+  std::error_code none;
+  const bool good = WIFEXITED(*end) && WEXITSTATUS(*end) == exit_done &&
+                    fs::file_size(folder + BackgroundProcess::printed_file, none) <= longest;
+  CamShapes& shapes = found->shapes;
+  shapes.state = good ? CamResult::State::done : CamResult::State::failed;
+  shapes.words = content_of(folder + BackgroundProcess::said_file).substr(0, BackgroundProcess::longest_words);
+  if (good) shapes.json = content_of(folder + BackgroundProcess::printed_file);
+  if (!good && shapes.words.empty()) shapes.words = words_of_end(*end);
+}
+
 void ServedMaker::clear() {
   process_.end();
+  reader_.end();
+  read_name_.clear();
   folder_.remove();
   kept_.clear();
   result_ = {};
@@ -117,6 +171,8 @@ const CamResult& ServedMaker::result() {
   const int code = WIFEXITED(*end) ? WEXITSTATUS(*end) : -1;
   bool good = code == exit_done || (code == exit_failed && may_join);
   if (makes_folder_) poll_folder();
+  if (result_.job == part_job)
+    result_.report = content_of(folder_.path(record_file_of(program_file(result_.names.front()))));
   std::error_code none;
   good = good && !made_.empty() && fs::exists(folder_.path(made_.front()), none);
   result_.state = good ? CamResult::State::done : CamResult::State::failed;

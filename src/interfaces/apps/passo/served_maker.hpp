@@ -18,6 +18,9 @@ class ServedMaker final : public CamService {
 
   std::vector<std::string> files() const override;
   bool keep(const std::string& name, std::string_view bytes) override;
+  std::optional<std::string> content(const std::string& name, std::size_t most) const override;
+  std::string folder() const override;
+  CamShapes shapes(const std::string& name) override;
   void clear() override;
   bool begin(const CamOrder& order) override;
   const CamResult& result() override;
@@ -31,7 +34,10 @@ class ServedMaker final : public CamService {
   struct Kept {
     std::string name;
     std::size_t bytes = 0;
+    CamShapes shapes = {};
   };
+  std::vector<Kept>::const_iterator find(const std::string& name) const;
+  void poll_shapes();
 
   TemporaryFolder folder_;
   std::vector<Kept> kept_;
@@ -40,6 +46,8 @@ class ServedMaker final : public CamService {
   CamResult result_;
   std::vector<std::string> made_;  // the program files in the folder
   BackgroundProcess process_;
+  BackgroundProcess reader_;  // of the shapes of one drawing
+  std::string read_name_;     // that drawing
 };
 
 }  // namespace passo

@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/machine_plant.hpp"
-#include "passo/machine_file/toml_text.hpp"
 #include "passo/operations/study_arguments.hpp"
 #include "passo/report/line_chart.hpp"
+#include "passo/toml/toml_text.hpp"
 #include "passo/tuning/tuning_run.hpp"
 
 namespace passo {

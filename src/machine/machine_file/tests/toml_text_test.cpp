@@ -1,5 +1,5 @@
 // TomlText: values are set, and all else stays.
-#include "passo/machine_file/toml_text.hpp"
+#include "passo/toml/toml_text.hpp"
 
 #include <fstream>
 #include <sstream>

@@ -34,6 +34,9 @@ struct SvgOptions {
   std::vector<std::string> colors = {};  // colours of the shapes to read, e.g. "red", "#f00"; empty: all
   std::vector<std::string> names = {};   // ids or Inkscape labels of the shapes or groups to read; empty: all
   Mm tolerance{0.005};                   // chord tolerance for curves
+  // Drawing::layers then has an entry for each combination of layer, colour and names of shapes: the layer's name, the
+  // colour as "#rrggbb", and the ids and labels of the shape and its groups, each on a line.
+  bool tells_shapes = false;
 };
 
 // Reports errors in `diagnostics`; the drawing then contains what was read before the error.

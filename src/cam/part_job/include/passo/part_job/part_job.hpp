@@ -27,7 +27,7 @@
 //
 // The options of an operation are those of its command: the reader fills in the rows of cam_options_of(), so it knows
 // every option of every command. Numbers without a unit are in `units`. Every key keeps its position in the file, for
-// later findings "job.…". The file is never rewritten.
+// later findings "job.…". TomlText edits the file.
 #pragma once
 
 #include <array>

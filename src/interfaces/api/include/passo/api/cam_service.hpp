@@ -34,6 +34,13 @@ struct CamResult {
   bool has_page = false;                // for a board: a page with instructions
 };
 
+// The geometry of a drawing, as `passo cam show --shapes` prints it.
+struct CamShapes {
+  CamResult::State state = CamResult::State::none;  // none: another drawing is being read; ask again
+  std::string json = {};
+  std::string words = {};  // why there is none
+};
+
 class CamService {
  public:
   static constexpr std::size_t longest_file = std::size_t{48} << 20;  // bytes
@@ -43,6 +50,12 @@ class CamService {
   // Keeps a file for orders; replaces one of the same name. `name`: letters, digits and " ._-()". Returns false if
   // there is no room.
   virtual bool keep(const std::string& name, std::string_view bytes) = 0;
+  // The content of a kept file. Empty: there is none, or it has more than `most` bytes.
+  virtual std::optional<std::string> content(const std::string& name, std::size_t most) const = 0;
+  // Where the kept files are; ends with '/'.
+  virtual std::string folder() const = 0;
+  // Reads a kept drawing, in a process of its own. The first call begins, later ones tell how it goes.
+  virtual CamShapes shapes(const std::string& name) = 0;
   // Deletes all files, and ends the running order.
   virtual void clear() = 0;
   // Starts an order. Returns false if an order is running, or if it cannot be started.

@@ -1,62 +1,15 @@
-#include "passo/machine_file/toml_text.hpp"
+#include "passo/toml/toml_text.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "toml_tree.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "passo/toml/toml_parse.hpp"
-
 namespace passo {
 namespace {
-
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-Failure<TomlTextError> refusal(std::string message) {
-  return Failure{TomlTextError{std::move(message)}};
-}
-
-// What the parser tells of a text, or why it is not TOML.
-Result<toml::table, TomlTextError> parsed(std::string_view text) {
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  auto table = parsed_toml(text);
-  if (table) return std::move(*table);
-  const toml::parse_error& error = table.error();
-  return refusal(fmt::format("this is not TOML: {}, in line {}", error.description(), error.source().begin.line));
-}
-
-// Where the parser's places are in the text, in bytes. The parser counts characters.
-class Places {
- public:
-  explicit Places(std::string_view text) : text_(text) {
-    starts_.push_back(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (text[i] == '\n') starts_.push_back(i + 1);
-    }
-  }
-
-  std::size_t of(const toml::source_position& position) const {
-    std::size_t at = starts_[std::min<std::size_t>(position.line, starts_.size()) - 1];
-    for (toml::source_index left = position.column - 1; left > 0 && at < text_.size(); --left) {
-      ++at;
-      while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0U) == 0x80U) ++at;
-    }
-    return at;
-  }
-  // Where the line begins, and where it ends with its line end.
-  std::size_t start(toml::source_index line) const { return starts_[line - 1]; }
-  std::size_t end(toml::source_index line) const { return line < starts_.size() ? starts_[line] : text_.size(); }
-  bool begins_with_bracket(toml::source_index line) const {
-    const std::size_t first = text_.find_first_not_of(" \t", start(line));
-    return first != std::string_view::npos && text_[first] == '[';
-  }
-
- private:
-  std::string_view text_;
-  std::vector<std::size_t> starts_;  // of the lines
-};
 
 std::string quoted(std::string_view text) {
   std::string result = "\"";
@@ -102,6 +55,72 @@ std::vector<std::string_view> parts_of(std::string_view path) {
   }
 }
 
+// 0: it is no number.
+std::size_t number_of(std::string_view digits) {
+  constexpr std::size_t most_digits = 6;
+  if (digits.empty() || digits.size() > most_digits) return 0;
+  std::size_t number = 0;
+  for (const char c : digits) {
+    if (c < '0' || c > '9') return 0;
+    number = number * 10 + static_cast<std::size_t>(c - '0');
+  }
+  return number;
+}
+
+bool has_comment(std::string_view text) {
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != 0) {
+      if (c == '\\' && quote == '"') ++i;
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Sets the value of a path, or erases it: the tree that a changed text must have.
+void change_tree(toml::table& root, const std::vector<std::string_view>& parts, const toml::node* value) {
+  toml::table* table = &root;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    toml::node* next = table->get(parts[i]);
+    if (next == nullptr) {
+      table->insert(parts[i], toml::table());
+      next = table->get(parts[i]);
+    }
+    if (toml::array* const list = next->as_array()) {
+      const std::size_t index = number_of(parts[++i]);
+      next = index > 0 ? list->get(index - 1) : nullptr;
+    }
+    table = next != nullptr ? next->as_table() : nullptr;
+    if (table == nullptr) return;
+  }
+  if (value != nullptr) {
+    table->insert_or_assign(parts.back(), *value);
+  } else {
+    table->erase(parts.back());
+  }
+}
+
+// Whether two trees differ at most by tables without content.
+bool is_same_but_empty(const toml::table& some, const toml::table& all) {
+  for (const auto& [key, node] : all) {
+    const toml::table* const inner = node.as_table();
+    const toml::node* const other = some.get(key.str());
+    if (other == nullptr && (inner == nullptr || !inner->empty())) return false;
+    if (other == nullptr) continue;
+    const bool is_same = inner != nullptr && other->is_table()
+                             ? is_same_but_empty(*other->as_table(), *inner)
+                             : some.size() <= all.size() && toml::node_view(*other) == toml::node_view(node);
+    if (!is_same) return false;
+  }
+  return some.size() <= all.size();
+}
+
 // One change of the text.
 struct Change {
   std::size_t at = 0;
@@ -115,6 +134,8 @@ class Setter {
       : text_(text), places_(text), root_(root), path_(path), parts_(parts_of(path)) {}
 
   Result<Change, TomlTextError> change(const std::string& words) const;
+  // Removes the key with its value. Empty: there is no such key.
+  Result<std::optional<Change>, TomlTextError> removal() const;
 
  private:
   enum class Kind : std::uint8_t {
@@ -125,9 +146,13 @@ class Setter {
   };
   struct Found {
     const toml::table* table = nullptr;
-    std::optional<toml::source_region> key;  // empty: the root
+    std::optional<toml::source_region> key;  // of an element of a list: the element itself; empty: the root
     std::string path;
+    bool is_element = false;  // of a list: [[operation]]
+    bool is_in_list = false;  // an element, or inside of one
   };
+
+  Result<Found, TomlTextError> element_of(const toml::array& list, const Found& around, std::string_view number) const;
 
   Kind kind_of(const Found& found) const;
   Result<Change, TomlTextError> replace(const toml::node& node, const std::string& words) const;
@@ -137,10 +162,11 @@ class Setter {
   Change after_line(toml::source_index line, const std::string& added) const;
   toml::source_index last_line_of(const toml::table& table) const;
   std::string indent_of(toml::source_index line) const;
-  std::string_view line_end() const { return text_.find("\r\n") != std::string_view::npos ? "\r\n" : "\n"; }
+  std::string_view line_end() const { return line_end_of(text_); }
+  Change out_of_line(const toml::key& key, const toml::node& value) const;
 
   std::string_view text_;
-  Places places_;
+  TomlPlaces places_;
   const toml::table& root_;
   std::string_view path_;
   std::vector<std::string_view> parts_;
@@ -149,9 +175,22 @@ class Setter {
 Setter::Kind Setter::kind_of(const Found& found) const {
   if (!found.key) return Kind::headed;
   if (found.table->is_inline()) return Kind::in_line;
+  if (found.is_element) return Kind::headed;
   if (!places_.begins_with_bracket(found.key->begin.line)) return Kind::dotted;
   const std::size_t next = text_.find_first_not_of(" \t", places_.of(found.key->end));
   return next != std::string_view::npos && text_[next] == ']' ? Kind::headed : Kind::implied;
+}
+
+Result<Setter::Found, TomlTextError> Setter::element_of(const toml::array& list, const Found& around,
+                                                        std::string_view number) const {
+  const std::size_t index = number_of(number);
+  const toml::table* const table = index > 0 && index <= list.size() ? list[index - 1].as_table() : nullptr;
+  if (table == nullptr) return text_refusal(fmt::format("{} has no table number {}", around.path, number));
+  return Found{.table = table,
+               .key = table->source(),
+               .path = fmt::format("{}.{}", around.path, number),
+               .is_element = true,
+               .is_in_list = true};
 }
 
 Result<Change, TomlTextError> Setter::change(const std::string& words) const {
@@ -162,27 +201,78 @@ Result<Change, TomlTextError> Setter::change(const std::string& words) const {
     if (next == found.table->end()) {
       const auto first = static_cast<std::size_t>(parts_[i].data() - path_.data());
       if (last) return add_to(found, std::string(parts_[i]), words);
-      const bool within = found.key && (kind_of(found) == Kind::in_line || kind_of(found) == Kind::dotted);
+      const bool within =
+          found.is_in_list || (found.key && (kind_of(found) == Kind::in_line || kind_of(found) == Kind::dotted));
       if (within) return add_to(found, std::string(path_.substr(first)), words);
       const std::string_view table = path_.substr(0, path_.size() - parts_.back().size() - 1);
       return add_table(std::string(table), std::string(parts_.back()), words);
     }
     if (last) return replace(next->second, words);
-    const toml::table* table = next->second.as_table();
     found.path += found.path.empty() ? parts_[i] : fmt::format(".{}", parts_[i]);
-    if (table == nullptr) return refusal(fmt::format("{} is not a table", found.path));
+    found.is_element = false;
+    if (const toml::array* const list = next->second.as_array()) {
+      auto element = element_of(*list, found, parts_[++i]);
+      if (!element) return Failure{element.error()};
+      if (i + 1 == parts_.size()) return text_refusal(fmt::format("{} is a table", path_));
+      found = std::move(*element);
+      continue;
+    }
+    const toml::table* table = next->second.as_table();
+    if (table == nullptr) return text_refusal(fmt::format("{} is not a table", found.path));
     found.table = table;
     found.key = next->first.source();
   }
-  return refusal("an empty path");
+  return text_refusal("an empty path");
+}
+
+Result<std::optional<Change>, TomlTextError> Setter::removal() const {
+  const toml::table* table = &root_;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const auto next = table->find(parts_[i]);
+    if (next == table->end()) return std::optional<Change>();
+    if (i + 1 == parts_.size()) {
+      const toml::table* const whole = next->second.as_table();
+      if (whole != nullptr && !whole->is_inline()) return text_refusal(fmt::format("{} is a table", path_));
+      if (next->second.is_array_of_tables() && places_.begins_with_bracket(next->second.source().begin.line)) {
+        return text_refusal(fmt::format("{} is a list of tables", path_));
+      }
+      return std::optional(out_of_line(next->first, next->second));
+    }
+    table = next->second.as_table();
+    if (const toml::array* const list = next->second.as_array()) {
+      const std::size_t index = number_of(parts_[++i]);
+      table = index > 0 && index <= list->size() ? (*list)[index - 1].as_table() : nullptr;
+    }
+    if (table == nullptr) return std::optional<Change>();
+  }
+  return std::optional<Change>();
+}
+
+// Whole lines, or the entry of a table in one line with one of the commas beside it.
+Change Setter::out_of_line(const toml::key& key, const toml::node& value) const {
+  const toml::source_index first = key.source().begin.line;
+  const std::size_t start = places_.start(first);
+  const std::size_t at = places_.of(key.source().begin);
+  const std::size_t end = places_.of(value.source().end);
+  std::size_t before = at;
+  while (before > start && text_[before - 1] != ',' && text_[before - 1] != '{') --before;
+  if (before == start) return {.at = start, .length = places_.end(value.source().end.line) - start, .words = ""};
+  const std::size_t next = std::min(text_.find_first_not_of(" \t", end), text_.size());
+  if (next < text_.size() && text_[next] == ',') {
+    const std::size_t entry = std::min(text_.find_first_not_of(" \t", before), text_.size());
+    const std::size_t other = std::min(text_.find_first_not_of(" \t", next + 1), text_.size());
+    return {.at = entry, .length = other - entry, .words = ""};
+  }
+  if (text_[before - 1] == ',') --before;
+  return {.at = before, .length = end - before, .words = ""};
 }
 
 Result<Change, TomlTextError> Setter::replace(const toml::node& node, const std::string& words) const {
-  if (node.is_table()) return refusal(fmt::format("{} is a table", path_));
+  if (node.is_table()) return text_refusal(fmt::format("{} is a table", path_));
   Change change{.at = places_.of(node.source().begin), .words = words};
   change.length = places_.of(node.source().end) - change.at;
-  if (text_.substr(change.at, change.length).find('#') != std::string_view::npos && node.is_array()) {
-    return refusal(fmt::format("{} is a list with comments inside", path_));
+  if (node.is_array() && has_comment(text_.substr(change.at, change.length))) {
+    return text_refusal(fmt::format("{} is a list with comments inside", path_));
   }
   // A comment keeps its column.
   const std::size_t end = change.at + change.length;
@@ -231,7 +321,9 @@ Result<Change, TomlTextError> Setter::add_to(const Found& found, const std::stri
   const std::string line = fmt::format("{} = {}", key, words);
   switch (kind_of(found)) {
     case Kind::in_line: return in_line(found, key, words);
-    case Kind::implied: return add_table(found.path, key, words);
+    case Kind::implied:
+      if (found.is_in_list) break;
+      return add_table(found.path, key, words);
     case Kind::dotted: {
       // What stands before the key of another value of this table: "torque." or "  axis.X.".
       const auto value = std::ranges::find_if(*found.table, [](const auto& entry) { return !entry.second.is_table(); });
@@ -242,10 +334,10 @@ Result<Change, TomlTextError> Setter::add_to(const Found& found, const std::stri
     }
     case Kind::headed:
       if (last > 0) return after_line(last, indent_of(last) + line);
-      if (found.key) return after_line(found.key->end.line, indent_of(found.key->end.line) + line);
+      if (found.key) return after_line(found.key->begin.line, indent_of(found.key->begin.line) + line);
       return Change{.at = places_.start(1), .words = line + std::string(line_end())};
   }
-  return refusal(fmt::format("{} cannot hold {}", found.path, key));
+  return text_refusal(fmt::format("{} cannot hold {}", found.path, key));
 }
 
 Change Setter::in_line(const Found& found, const std::string& key, const std::string& words) const {
@@ -295,34 +387,62 @@ void collect(const toml::table& table, const std::string& before, std::vector<Pl
 }  // namespace
 
 Result<TomlText, TomlTextError> TomlText::read(std::string text) {
-  if (auto tree = parsed(text); !tree) return Failure{tree.error()};
+  if (auto tree = tree_of(text); !tree) return Failure{tree.error()};
   return TomlText(std::move(text));
 }
 
 std::vector<TomlText::Value> TomlText::values() const {
   std::vector<Placed> all;
-  if (const auto tree = parsed(text_)) collect(*tree, "", all);
+  if (const auto tree = tree_of(text_)) collect(*tree, "", all);
   std::ranges::stable_sort(all, [](const Placed& a, const Placed& b) { return a.at < b.at; });
   std::vector<Value> values;
   for (Placed& one : all) values.push_back(std::move(one.value));
   return values;
 }
 
+std::string TomlText::words_of(const Setting& setting) {
+  return describe(setting);
+}
+
 Status<TomlTextError> TomlText::set(std::string_view path, const Setting& setting) {
   const std::string words = describe(setting);
-  if (words.empty()) return refusal(fmt::format("{} must be finite", path));
-  if (!std::ranges::all_of(parts_of(path), is_plain)) return refusal(fmt::format("'{}' is not a key", path));
-  const auto tree = parsed(text_);
+  if (words.empty()) return text_refusal(fmt::format("{} must be finite", path));
+  return set_words(path, words);
+}
+
+Status<TomlTextError> TomlText::set_words(std::string_view path, const std::string& words) {
+  const std::vector<std::string_view> parts = parts_of(path);
+  if (!std::ranges::all_of(parts, is_plain)) return text_refusal(fmt::format("'{}' is not a key", path));
+  const bool is_one_line = words.find_first_of("\r\n") == std::string::npos && !has_comment(words);
+  const auto value = tree_of("x = " + words);
+  if (!is_one_line || !value || value->size() != 1) return text_refusal(fmt::format("{} cannot be {}", path, words));
+  auto tree = tree_of(text_);
   if (!tree) return Failure{tree.error()};
   const auto change = Setter(text_, *tree, path).change(words);
   if (!change) return Failure{change.error()};
   std::string changed = text_;
   changed.replace(change->at, change->length, change->words);
-  // The parser has the last word: the file is still TOML, and the value is there.
-  const auto again = parsed(changed);
-  if (!again) return refusal(fmt::format("{} cannot be set: {}", path, again.error().message));
-  const auto there = again->at_path(path);
-  if (!there || there.is_table()) return refusal(fmt::format("{} cannot be set at its position in the file", path));
+  // The parser has the last word: the file is still TOML, the value is there, and nothing else has changed.
+  const auto again = tree_of(changed);
+  if (!again) return text_refusal(fmt::format("{} cannot be set: {}", path, again.error().message));
+  change_tree(*tree, parts, value->get("x"));
+  if (*again != *tree) return text_refusal(fmt::format("{} cannot be set at its position in the file", path));
+  text_ = std::move(changed);
+  return Unit{};
+}
+
+Status<TomlTextError> TomlText::remove(std::string_view path) {
+  auto tree = tree_of(text_);
+  if (!tree) return Failure{tree.error()};
+  const auto change = Setter(text_, *tree, path).removal();
+  if (!change) return Failure{change.error()};
+  if (!*change) return Unit{};
+  std::string changed = text_;
+  changed.erase((*change)->at, (*change)->length);
+  const auto again = tree_of(changed);
+  change_tree(*tree, parts_of(path), nullptr);
+  // A table of which only dotted keys are written is gone with the last of them.
+  if (!again || !is_same_but_empty(*again, *tree)) return text_refusal(fmt::format("{} cannot be removed", path));
   text_ = std::move(changed);
   return Unit{};
 }
