@@ -83,6 +83,27 @@ TEST_F(CamJob, every_example_cuts_its_stock_and_nothing_else) {
   }
 }
 
+// 60 x 50 x 4 mm of stock, of which the pocket of 10 x 10 x 2 mm takes 200 mm³ less the corners that 1.5 mm of radius
+// leave.
+TEST_F(CamJob, the_report_says_how_much_stock_each_operation_leaves) {
+  const Outcome made = passo("cam job " + small_job() + " -o " + path("p.ngc"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const nlohmann::json job = record("p");
+  constexpr double stock = 60 * 50 * 4;
+  constexpr double pi = 3.14159265358979;
+  constexpr double pocket = (100 - 1.5 * 1.5 * (4 - pi)) * 2;
+  EXPECT_NEAR(job["stock_mm3"], stock, 1);
+  const auto& first = job["operations"][0];
+  EXPECT_EQ(first["kind"], "pocket");
+  EXPECT_NEAR(first["stock_left_mm3"], stock - pocket, 0.01 * pocket);
+  EXPECT_NEAR(first["stock_left_percent"], 100 * (stock - pocket) / stock, 0.02);
+  const auto& last = job["operations"][1];
+  EXPECT_NEAR(last["stock_left_mm3"].get<double>(),
+              first["stock_left_mm3"].get<double>() - last["removed_mm3"].get<double>(), 0.01);
+  EXPECT_THAT(made.out, HasSubstr("stock %"));
+  EXPECT_THAT(made.out, HasSubstr("98.3"));
+}
+
 // Where the cutter's centre may be while its tip is in the plate of examples/jobs/plate.svg, with 3 mm of radius.
 bool may_cut_the_plate(double x, double y) {
   constexpr double slack = 0.01;

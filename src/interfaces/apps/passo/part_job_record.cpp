@@ -202,11 +202,14 @@ Json record_of(const MadeJob& made) {
   const PartJob& job = made.job;
   Json operations = Json::array();
   double total_s = 0;
+  double stock_left = made.trial.stock_mm3;
   for (const OrderedOperation& ordered : made.order) {
     const PartOperation& operation = job.operations[ordered.index];
     const TriedOperation& tried = made.trial.operations[ordered.index];
     const MadeOperation& one = made.made[ordered.index];
     total_s += total_seconds(tried);
+    stock_left = std::max(0.0, stock_left - tried.removed_mm3);
+    const double share_left = made.trial.stock_mm3 > 0 ? stock_left / made.trial.stock_mm3 : 0;
     Json json = {{"title", operation.title},
                  {"kind", std::string(name_of(operation.kind))},
                  {"written", ordered.index + 1},
@@ -218,6 +221,8 @@ Json record_of(const MadeJob& made) {
                  {"cut_s", rounded(tried.cut_s)},
                  {"rapid_mm", rounded(tried.rapid_mm)},
                  {"removed_mm3", rounded(tried.removed_mm3)},
+                 {"stock_left_mm3", rounded(stock_left)},
+                 {"stock_left_percent", rounded(100 * share_left)},
                  {"reason", ordered.reason},
                  {"contours", one.contours},
                  {"notes", one.notes}};
@@ -234,6 +239,7 @@ Json record_of(const MadeJob& made) {
           {"fingerprint", made.fingerprint},
           {"for", job.program.controller},
           {"programs", std::move(programs)},
+          {"stock_mm3", rounded(made.trial.stock_mm3)},
           {"tool_changes", tool_changes(job, made.order)},
           {"operations", std::move(operations)},
           {"total_s", rounded(total_s)}};
@@ -301,17 +307,19 @@ std::string report_of(const Json& record) {
   for (const Json& operation : list_of(record, "operations")) {
     widest = std::max(widest, value_of<std::string>(operation, "title", "").size());
   }
-  std::string text = fmt::format("{:>2}  {:<{}}  {:<7}  {:>4}  {:>7}  {:>6}  {:>8}  {:>9}  {:>8}\n", "#", "operation",
-                                 widest, "kind", "tool", "deep mm", "moves", "cut time", "cut mm", "rapid mm");
+  std::string text =
+      fmt::format("{:>2}  {:<{}}  {:<11}  {:>4}  {:>7}  {:>6}  {:>8}  {:>9}  {:>8}  {:>7}\n", "#", "operation", widest,
+                  "kind", "tool", "deep mm", "moves", "cut time", "cut mm", "rapid mm", "stock %");
   std::string reasons;
   std::size_t number = 0;
   for (const Json& operation : list_of(record, "operations")) {
     const std::string title = value_of<std::string>(operation, "title", "");
-    text += fmt::format("{:>2}  {:<{}}  {:<7}  {:>4}  {:>7.2f}  {:>6}  {:>8}  {:>9.0f}  {:>8.0f}\n", ++number, title,
-                        widest, value_of<std::string>(operation, "kind", ""),
+    text += fmt::format("{:>2}  {:<{}}  {:<11}  {:>4}  {:>7.2f}  {:>6}  {:>8}  {:>9.0f}  {:>8.0f}  {:>7.2f}\n",
+                        ++number, title, widest, value_of<std::string>(operation, "kind", ""),
                         fmt::format("T{}", value_of(operation, "tool", 0)), value_of(operation, "depth_mm", 0.0),
                         value_of(operation, "moves", std::uint64_t{0}), time_words(value_of(operation, "cut_s", 0.0)),
-                        value_of(operation, "cut_mm", 0.0), value_of(operation, "rapid_mm", 0.0));
+                        value_of(operation, "cut_mm", 0.0), value_of(operation, "rapid_mm", 0.0),
+                        value_of(operation, "stock_left_percent", 0.0));
     const std::string reason = value_of<std::string>(operation, "reason", "");
     if (!reason.empty() && number != value_of(operation, "written", std::size_t{0})) {
       reasons += fmt::format("order: '{}' is number {} instead of {}: {}\n", title, number,

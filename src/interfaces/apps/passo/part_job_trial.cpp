@@ -170,12 +170,12 @@ void ProgramTrial::record(const MoveCut& cut) {
   const std::size_t index = operation_at(cut.move.line);
   TriedOperation& tried = trial_.operations[index];
   ++tried.moves;
+  tried.removed_mm3 += cut.volume;
   if (cut.move.rapid) {
     tried.rapid_mm += cut.way;
   } else {
     tried.cut_mm += cut.way;
     tried.cut_s += cut.move.time.value();
-    tried.removed_mm3 += cut.volume;
     if (cut.volume > 0) {
       tried.pass_mm = std::max(tried.pass_mm, cut.depth);
       tried.plunges = tried.plunges || (cut.way_level <= 1e-6 && cut.depth > least_depth);
@@ -247,6 +247,7 @@ void ProgramTrial::run() {
     auto field = stock_field(wanted, look);
     if (!field) return;
     trial_.field.emplace(std::move(*field));
+    trial_.stock_mm3 = trial_.field->volume();
   }
   if (!clamps_are_small()) return;
   CutHooks hooks;

@@ -19,8 +19,8 @@ struct TriedOperation {
   double cut_mm = 0;  // length of the feeds
   double cut_s = 0;   // at the programmed feeds
   double rapid_mm = 0;
-  double depth_mm = 0;  // of the deepest feed below Z0
-  double removed_mm3 = 0;
+  double depth_mm = 0;             // of the deepest feed below Z0
+  double removed_mm3 = 0;          // of the stock
   double pass_mm = 0;              // the deepest cut of a feed
   bool plunges = false;            // a feed goes straight down in the stock
   std::vector<MillRun> ways = {};  // the feeds, for the picture
@@ -38,6 +38,7 @@ struct Trial {
   std::vector<TriedOperation> operations = {};  // as in PartJob::operations
   std::optional<HeightField> field = {};        // what is left; empty: nothing was cut
   std::vector<DrawnRing> rapids = {};           // lines in X and Y, for the picture
+  double stock_mm3 = 0;                         // before the first operation
 };
 
 // Rapids at this speed, where no machine is known.
