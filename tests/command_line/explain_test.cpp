@@ -29,6 +29,41 @@ TEST_F(Explain, says_what_a_line_does_where_it_is_and_under_which_modes) {
   EXPECT_THAT(passo("explain " + file + ":8").out, HasSubstr("never executed\n"));
 }
 
+TEST_F(Explain, the_machine_file_says_what_the_feed_counts_on_a_cylinder) {
+  constexpr const char* machine = R"(name = "Cylinder"
+path_tolerance_deg = 0.1
+[board]
+clock_hz = 16_000_000
+max_event_rate_hz = 200_000
+[axis.X]
+steps_per_mm = 100
+travel_mm = [-50, 50]
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+[axis.A]
+steps_per_deg = 100
+travel_deg = [-360, 360]
+max_velocity_deg_s = 180
+max_acceleration_deg_s2 = 3000
+)";
+  const std::string file = write("a.ngc", "G64 G93 F2 G1 A0\nG94 F600 G1 A90\nX10 Z20 A180\nG93 F2 G1 A90\nM2\n");
+  EXPECT_THAT(passo("explain " + file + ":2").out, HasSubstr("feed     90.000 degrees, 9.000 s at"));
+  const std::string fixed = " -m " + write("r.toml", std::string(machine) + "radius_mm = 20\n");
+  // A quarter of a turn at a radius of 20 mm is 31.416 mm.
+  const Outcome turn = passo("explain " + file + ":2" + fixed);
+  EXPECT_THAT(turn.out, HasSubstr("feed     31.416 mm on the surface at a radius of 20 mm (A), 3.142 s at"));
+  EXPECT_THAT(turn.out, HasSubstr("blended path, A B C within 0.1 degrees"));
+  EXPECT_THAT(passo("explain " + file + ":4" + fixed).out, HasSubstr("radius of 20 mm (A), 30.000 s at"));
+  // With X and Z: the root of 10² + 20² + 15.708² at the mean radius of 10 mm.
+  const std::string by_tool = " -m " + write("t.toml", std::string(machine) + "radius_mm = \"tool\"\n");
+  EXPECT_THAT(passo("explain " + file + ":3" + by_tool).out,
+              HasSubstr("feed     27.330 mm on the surface at a radius of 10 mm (A), 2.733 s at"));
+  const nlohmann::json json = nlohmann::json::parse(passo("explain " + file + ":2 --json" + fixed).out);
+  EXPECT_EQ(json["lines"][0]["moves"]["feed_unit"], "mm");
+  EXPECT_EQ(json["lines"][0]["moves"]["surface_radius_mm"]["A"], 20);
+  EXPECT_EQ(passo("explain " + file + ":2 -m " + write("bad.toml", "name = 1\n")).code, 3);
+}
+
 TEST_F(Explain, a_wrong_line_is_shown_with_its_diagnostic) {
   const Outcome line = passo("explain " + write("p.ngc", program) + ":6");
   EXPECT_EQ(line.code, 2);

@@ -339,11 +339,13 @@ TEST(HardPrograms, need_few_cells_for_ramps_of_microseconds) {
 // A motion within jerk limits is also allowed without them. So on the same path no machine is slower without them,
 // except for its cells: they have an even acceleration and a velocity limit each, and a wide corner has 24 of them,
 // where the jerk law has hundreds of phases. In number 99183 (mixed) this costs 0.44 %. On the path that is smoothed
-// for it, none of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799), but number 551247 (as
-// drawn) takes 1.0606 times as long: its own path, which does not swing wide where an axis reverses, takes 1.11 times
-// as long as the other.
+// for it, none of 685 machines took more than 1.0121 times as long (numbers 50000 to 50799). A few do: number 551247
+// (as drawn) takes 1.0606 times as long, because its own path, which does not swing wide where an axis reverses,
+// takes 1.11 times as long as the other.
 TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {
+  constexpr double rarely_more = 1.013;
   int compared = 0;
+  int above = 0;
   double worst = 0;
   const auto compare = [&](std::uint64_t, const test::RandomJob& job, test::Random&) {
     if (!has_jerk_limit(job.machine)) return;
@@ -355,10 +357,12 @@ TEST(LawsOfSpeed, are_never_slower_without_limits_of_jerk) {
     const double own = plan(job.program, without, smoothness(without)).time;
     EXPECT_LE(own, slow.time * 1.07);
     if (slow.time > 0) worst = std::max(worst, own / slow.time);
+    if (own > slow.time * rarely_more) ++above;
     ++compared;
   };
   test::for_each_job(test::fewer(200, 4), compare);
   test::for_each_job(test::fewer(200, 4), compare, test::Machines::mixed);
+  EXPECT_LE(above, std::max(1, compared / 50)) << "more than " << rarely_more << " times as long";
   std::printf("%d machines compared, at worst %.4f times as long without limits of jerk\n", compared, worst);
 }
 

@@ -23,7 +23,8 @@ ProofOptions proof_options(const MachineDescription& machine) {
                             .jerk = axis.jerk,
                             .start_stop = axis.start_stop,
                             .backlash = Mm(axis.screw ? axis.screw->backlash : 0),
-                            .acceleration_at = proven_limit(axis)});
+                            .acceleration_at = proven_limit(axis),
+                            .surface_radius = axis.surface_radius});
   }
   options.tick_rate = machine.board.clock;
   return options;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "block_in_words.hpp"
 #include "block_watcher.hpp"
+#include <fmt/format.h>
 
 #include "passo/geometry/curve.hpp"
 #include "passo/geometry/nurbs.hpp"
@@ -15,15 +17,19 @@
 namespace passo {
 namespace {
 
-double length_of_arc(const Point& start, const operation::ArcFeed& arc) {
+// mm. The tool may be on the rotation axis, where the surface stands still.
+constexpr double least_radius = 0.01;
+
+double length_of_arc(const Point& start, const operation::ArcFeed& arc, const SurfaceScale& surface) {
   const auto [first, second, normal] = axes_of(arc.plane);
   const double center_first = arc.first_center.value();
   const double center_second = arc.second_center.value();
-  if (arc.turns == 0) return Curve::line(start, arc.end).length().value();
+  if (arc.turns == 0) return Curve::line(start, arc.end, surface).length().value();
   const double sweep =
       sweep_between(std::atan2(start[second] - center_second, start[first] - center_first),
                     std::atan2(arc.end[second] - center_second, arc.end[first] - center_first), arc.turns);
-  return Curve::arc(start, arc.end, first, second, center_first, center_second, sweep).length().value();
+  const Curve::ArcData along = Curve::arc(start, arc.end, first, second, center_first, center_second, sweep).arc_data();
+  return Curve::arc(start, arc.end, along, surface).length().value();
 }
 
 // Measured along so many chords that no digit which is shown is wrong.
@@ -50,8 +56,8 @@ double length_of_spline(const operation::NurbsFeed& spline) {
 // Fills in the explanations of the lines of a range while the program runs.
 class Explainer final : public BlockWatcher {
  public:
-  Explainer(std::string file, LineRange range, Explanations& result)
-      : file_(std::move(file)), range_(range), result_(result), unseen_(result.lines.size()) {}
+  Explainer(std::string file, LineRange range, const ExplainedMachine& machine, Explanations& result)
+      : file_(std::move(file)), range_(range), machine_(machine), result_(result), unseen_(result.lines.size()) {}
 
   void before(const Block& block, std::string_view file, const ProgramState& state, const Parameters& parameters,
               const SymbolTable& symbols) override {
@@ -72,6 +78,11 @@ class Explainer final : public BlockWatcher {
     current_->after = {state.position, state.machine_position()};
     current_->words = words_in_words(words_, state_before_, state);
     current_->modes = modes_in_words(state_before_, state);
+    for (Explanation::Mode& mode : current_->modes) {
+      if (mode.code == "G64" && machine_.angle_tolerance) {
+        mode.meaning += fmt::format(", A B C within {:g} degrees", *machine_.angle_tolerance);
+      }
+    }
   }
 
   // Follows the feed of the whole program, and the moves of the current block.
@@ -86,7 +97,10 @@ class Explainer final : public BlockWatcher {
     if (const auto* move = std::get_if<StraightTraverse>(&what)) rapid(move->end);
     if (const auto* move = std::get_if<StraightFeed>(&what)) line(move->end);
     if (const auto* move = std::get_if<StraightProbe>(&what)) line(move->end);
-    if (const auto* arc = std::get_if<ArcFeed>(&what)) feed(length_of_arc(place_, *arc), arc->end, false);
+    if (const auto* arc = std::get_if<ArcFeed>(&what)) {
+      const SurfaceScale surface = surface_to(arc->end);
+      feed({.length = length_of_arc(place_, *arc, surface), .timed = length_of_arc(place_, *arc, {})}, arc->end);
+    }
     if (const auto* curve = std::get_if<NurbsFeed>(&what)) spline(*curve);
     if (const auto* tap = std::get_if<RigidTap>(&what)) {
       const Point start = place_;
@@ -109,22 +123,53 @@ class Explainer final : public BlockWatcher {
   void line(const Point& end) {
     bool turns_only = true;
     for (const Axis axis : all_axes) turns_only &= is_rotary(axis) || end[axis] == place_[axis];
-    feed(Curve::line(place_, end).length().value(), end, turns_only);
+    const SurfaceScale surface = surface_to(end);
+    feed({.length = Curve::line(place_, end, surface).length().value(),
+          .timed = Curve::line(place_, end).length().value(),
+          .turns_only = turns_only,
+          .in_degrees = turns_only && !(surface.square_of(end - place_) > 0)},
+         end);
   }
   // The end of a spline is its last control point.
   void spline(const operation::NurbsFeed& curve) {
     Point end = place_;
     end[Axis::x] = curve.points.back().x;
     end[Axis::y] = curve.points.back().y;
-    feed(length_of_spline(curve), end, false);
+    const double length = length_of_spline(curve);
+    feed({.length = length, .timed = length}, end);
   }
-  void feed(double length, const Point& end, bool turns_only) {
+  // Threads keep to their pitch along X, Y and Z.
+  SurfaceScale surface_to(const Point& end) {
+    SurfaceScale scale;
+    for (const Axis axis : {Axis::a, Axis::b, Axis::c}) {
+      const std::optional<Mm>& given = machine_.surface_radius[axis];
+      if (!given || pitch_ || end[axis] == place_[axis]) continue;
+      double radius = given->value();
+      if (radius == 0) radius = (std::abs(place_[Axis::z]) + std::abs(end[Axis::z])) / 2;
+      radius = std::max(radius, least_radius);
+      scale[axis] = radius * std::numbers::pi / 180;
+      current_->moves.surface_radius[axis] = radius;
+    }
+    return scale;
+  }
+  struct FeedMove {
+    double length = 0;  // mm or degrees; with the surfaces
+    double timed = 0;   // the same without the surfaces, to which inverse time applies
+    bool turns_only = false;
+    bool in_degrees = false;
+  };
+  void feed(const FeedMove& move, const Point& end) {
     Explanation::Moves& moves = current_->moves;
-    moves.feed_length += length;
+    moves.feed_length += move.length;
+    moves.in_degrees = move.in_degrees;
     place_ = end;
     const auto* per_turn = std::get_if<operation::FeedPerRevolution>(&feed_);
-    double rate = std::visit([&](const auto& feed) { return turns_only ? feed.rotary : feed.linear.value(); }, feed_);
+    const auto* timed = std::get_if<operation::FeedPerSecond>(&feed_);
+    const bool by_time = timed != nullptr && timed->by_time;
+    const bool rotary = by_time ? move.turns_only : move.in_degrees;
+    double rate = std::visit([&](const auto& feed) { return rotary ? feed.rotary : feed.linear.value(); }, feed_);
     if (pitch_ || per_turn != nullptr) rate = pitch_.value_or(rate) * spindle_speed_ / seconds_per_minute;
+    const double length = by_time ? move.timed : move.length;
     if (rate > 0 && moves.feed_time) {
       *moves.feed_time += length / rate;
     } else if (length > 0) {
@@ -134,6 +179,7 @@ class Explainer final : public BlockWatcher {
 
   std::string file_;
   LineRange range_;
+  const ExplainedMachine& machine_;
   Explanations& result_;
   std::variant<operation::FeedPerSecond, operation::FeedPerRevolution> feed_;
   std::optional<double> pitch_;
@@ -174,11 +220,11 @@ std::string call_alone(const std::string& printed) {
 }  // namespace
 
 Explanations explain(ProgramReader program, const InterpreterOptions& options, LineRange range,
-                     Diagnostics& diagnostics, const ExplainLimits& limits) {
+                     Diagnostics& diagnostics, const ExplainLimits& limits, const ExplainedMachine& machine) {
   Explanations result;
   const std::string file = program.name();
   read_lines(program.again(), range, result);
-  Explainer explainer(file, range, result);
+  Explainer explainer(file, range, machine, result);
   Interpreter interpreter(std::move(program), options, diagnostics);
   interpreter.watch(explainer);
 

@@ -115,7 +115,7 @@ class MotionProver::Implementation {
       deviation_.went(backlash_.way_of_tool(), peaks_.now());
     }
     bound_.watch(move, curve);
-    peaks_.watch(move, curve);
+    peaks_.watch(move, curve, deviation_.programmed_speed());
   }
   MotionProof finish() {
     deviation_.finish(peaks_.now());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace passo::proof {
 namespace {
@@ -41,6 +42,7 @@ void PathDeviation::programmed(const PathItem& item) {
                                                           .tolerance = tolerance,
                                                           .degree = tolerance / turn_tolerance,
                                                           .line = segment->source.line,
+                                                          .speed = segment->speed.value(),
                                                           .pieces = count});
   last_tolerance_ = own;
   last_turn_tolerance_ = own_turn;
@@ -59,7 +61,10 @@ void PathDeviation::planned(const PlannedMove& move, const ExactCurve& curve, Se
   if (move.segment.takes_up_backlash) return;  // the tool stays where it is
   const double from = move.from().value();
   const double way = move.to.value() - from;
-  if (reached_ == 0) begin(curve.place(from), time);
+  if (reached_ == 0) {
+    begin(curve.place(from), time);
+    note_speed();
+  }
   const int count = least_strides - 1 + pieces_of(curve, way / curve.length());
   double at = from;
   for (int i = 1; i <= count; ++i) {
@@ -67,6 +72,12 @@ void PathDeviation::planned(const PlannedMove& move, const ExactCurve& curve, Se
     step({.curve = curve, .from = at, .to = next, .time = time});
     at = next;
   }
+  note_speed();
+}
+
+void PathDeviation::note_speed() {
+  speed_before_ = std::exchange(speed_, 0);
+  for (std::size_t i = 0; i < reached_; ++i) speed_ = std::max(speed_, pieces_[i].of->speed);
 }
 
 void PathDeviation::went(std::span<const Point> places, Seconds time) {

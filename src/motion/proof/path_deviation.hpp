@@ -14,6 +14,7 @@
 // except for rounding.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,9 @@ class PathDeviation {
   void planned(const PlannedMove& move, const ExactCurve& curve, Seconds time);
   // The same for a tool that moved along a polyline.
   void went(std::span<const Point> places, Seconds time);
+  // Returns the greatest speed that is programmed where the two points can be now, or could be before the last move. 0:
+  // nothing was programmed.
+  double programmed_speed() const { return std::max(speed_before_, speed_); }
   // Processes an action of the planned motion, or its end: everything programmed before it must have been executed.
   void rest(Seconds time);
   // Ends the measurement: any remaining programmed path was never executed.
@@ -46,7 +50,8 @@ class PathDeviation {
     double tolerance;
     double degree;  // millimetres for which a degree counts: the tolerance divided by that of A, B and C
     std::uint32_t line;
-    int pieces;  // the number of pieces kept
+    double speed;  // mm/s
+    int pieces;    // the number of pieces kept
   };
   // The worst point so far on the best match of the two paths.
   struct Worst {
@@ -79,6 +84,7 @@ class PathDeviation {
   void give_up();
   void drop_front();
   void end_stretch(Seconds time);
+  void note_speed();
   double distance_from_last(const Point& place, const Programmed& of) const;
 
   MotionProof& proof_;
@@ -91,6 +97,8 @@ class PathDeviation {
   double last_tolerance_ = 0;
   double last_turn_tolerance_ = 0;
   std::optional<Point> place_;  // the last point of the planned path
+  double speed_before_ = 0;
+  double speed_ = 0;
 };
 
 }  // namespace passo::proof

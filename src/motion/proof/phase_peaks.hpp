@@ -25,8 +25,9 @@ class PhasePeaks {
   // Writes its findings into `proof`, whose axes and limits are already set.
   PhasePeaks(MotionProof& proof, const ProofOptions& options, const std::vector<SpeedLimit>& limits);
 
-  // `curve` is that of the move, which has a length and phases.
-  void watch(const PlannedMove& move, const ExactCurve& curve);
+  // `curve` is that of the move, which has a length and phases. `programmed_speed`: the greatest one that may apply; 0:
+  // that of the segment.
+  void watch(const PlannedMove& move, const ExactCurve& curve, double programmed_speed = 0);
   // Processes an action, or the end, at which the machine stops.
   void rest(Seconds dwell);
 
@@ -77,6 +78,8 @@ class PhasePeaks {
   double worst(std::size_t i, Kind kind) const;
   void see(std::size_t i, const Motion& motion, double t, Kind kind);
   void see_feed(const Segment& segment, const Phase& phase);
+  bool counts_surface(const Segment& segment, const ExactCurve& curve) const;
+  void see_surface_feed(const Segment& segment, const ExactCurve& curve, const Phase& phase, double speed);
   void join(const ExactCurve& curve, const Phase& phase, bool rests);
   bool stands() const;
   void meet(std::size_t i, const Motion& motion, bool rests);
@@ -101,6 +104,7 @@ class PhasePeaks {
   std::vector<SpeedLimit> limits_;  // by axis
   std::vector<double> start_stop_;  // by axis
   PerAxis<double> backlash_;
+  PerAxis<std::optional<double>> surface_radius_;
   AxisSet downs_;                // the axes whose backlash is taken up for the negative direction
   std::vector<Motion> before_;   // by axis, at the end of the last phase
   std::vector<double> stopped_;  // by axis: the velocity just before the latest stop without duration

@@ -42,8 +42,6 @@ class PhaseClock {
     Moment operator[](std::size_t i) const { return {time[i], speed[i], acceleration[i]}; }
   };
   std::size_t at(const Lanes& s, std::size_t first, std::size_t end, Moments& moments);
-  // Returns the s at which the phase of the last call ends.
-  double phase_end() const { return end_; }
   // Returns the duration of the whole move.
   double duration() const;
   bool ends_at_rest() const { return move_->ends_at_rest(); }

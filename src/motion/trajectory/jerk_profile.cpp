@@ -178,11 +178,7 @@ void JerkProfile::guess(double share, double growth) {
   guess_.assign(n + 1, 0.0);
   const double start = most_at_start();
   const double end = stop_at(false).square;
-  const double least_inside = ends_.in_motion ? 0 : std::min(start, end);
-  for (std::size_t k = 0; k < n; ++k) {
-    const double cap = std::min(entry_cap_[k], node_cap_[k]);
-    guess_[k] = std::max(share * cap, std::min(cap, least_inside));
-  }
+  for (std::size_t k = 0; k < n; ++k) guess_[k] = share * std::min(entry_cap_[k], node_cap_[k]);
   guess_[0] = start;
   guess_[n] = end;
   guess_from(n, true, growth);

@@ -133,6 +133,7 @@ int canon(const CanonArguments& arguments);
 
 struct ExplainArguments {
   ProgramArguments program;  // its member `program` is FILE, FILE:LINE or FILE:FROM-TO
+  std::string machine;       // machine file; empty: none
   bool json = false;
 };
 int explain(const ExplainArguments& arguments);

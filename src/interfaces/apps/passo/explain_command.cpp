@@ -12,6 +12,7 @@
 #include "passo/base/counted.hpp"
 #include "passo/diagnostics/findings_json.hpp"
 #include "passo/interpreter/explain.hpp"
+#include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
 namespace {
@@ -53,6 +54,23 @@ bool read_place(const std::string& text, ExplainedPlace& place) {
   place.lines = {1, most_lines};
   place.whole_file = true;
   return true;
+}
+
+// The rotary axes whose surfaces count in the length, with their radii.
+std::vector<std::pair<char, double>> surfaces_of(const Explanation::Moves& moves) {
+  std::vector<std::pair<char, double>> surfaces;
+  for (const Axis axis : {Axis::a, Axis::b, Axis::c}) {
+    if (moves.surface_radius[axis] > 0) surfaces.emplace_back(letter_of(axis), moves.surface_radius[axis]);
+  }
+  return surfaces;
+}
+std::string surfaces_in_words(const Explanation::Moves& moves) {
+  std::string words;
+  for (const auto& surface : surfaces_of(moves)) {
+    words += fmt::format("{} radius of {:.4g} mm ({})", words.empty() ? " on the surface at a" : " and a",
+                         surface.second, surface.first);
+  }
+  return words;
 }
 
 class Writer {
@@ -120,7 +138,8 @@ class Writer {
     const std::string time = moves.feed_time
                                  ? fmt::format("{:.3f} s at the programmed feed, without ramps", *moves.feed_time)
                                  : std::string("for a time that does not follow from the feed rate");
-    out_ += fmt::format("    {:<9}{:.3f} mm, {}\n", "feed", moves.feed_length, time);
+    out_ += fmt::format("    {:<9}{:.3f} {}{}, {}\n", "feed", moves.feed_length, moves.in_degrees ? "degrees" : "mm",
+                        surfaces_in_words(moves), time);
   }
 
   std::string out_;
@@ -133,6 +152,16 @@ nlohmann::ordered_json as_json(const Point& point) {
   return values;
 }
 
+nlohmann::ordered_json as_json(const Explanation::Moves& moves) {
+  nlohmann::ordered_json radii = nlohmann::ordered_json::object();
+  for (const auto& surface : surfaces_of(moves)) radii[std::string(1, surface.first)] = surface.second;
+  return {{"rapid_mm", moves.rapid_length},
+          {"feed_mm", moves.feed_length},
+          {"feed_s", moves.feed_time ? nlohmann::ordered_json(*moves.feed_time) : nlohmann::ordered_json()},
+          {"feed_unit", moves.in_degrees ? "deg" : "mm"},
+          {"surface_radius_mm", radii}};
+}
+
 nlohmann::ordered_json as_json(const Explanation& line) {
   nlohmann::ordered_json words = nlohmann::ordered_json::array();
   for (const auto& [word, meaning] : line.words) words.push_back({{"word", word}, {"meaning", meaning}});
@@ -143,20 +172,27 @@ nlohmann::ordered_json as_json(const Explanation& line) {
   const auto position = [](const Explanation::Position& at) -> nlohmann::ordered_json {
     return {{"work", as_json(at.work)}, {"machine", as_json(at.machine)}};
   };
-  return {
-      {"line", line.line},
-      {"text", line.text},
-      {"executions", line.executions},
-      {"words", words},
-      {"operations", line.operations},
-      {"before", position(line.before)},
-      {"after", position(line.after)},
-      {"moves",
-       {{"rapid_mm", line.moves.rapid_length},
-        {"feed_mm", line.moves.feed_length},
-        {"feed_s", line.moves.feed_time ? nlohmann::ordered_json(*line.moves.feed_time) : nlohmann::ordered_json()}}},
-      {"modes", modes},
-      {"findings", findings_json(line.findings)}};
+  return {{"line", line.line},
+          {"text", line.text},
+          {"executions", line.executions},
+          {"words", words},
+          {"operations", line.operations},
+          {"before", position(line.before)},
+          {"after", position(line.after)},
+          {"moves", as_json(line.moves)},
+          {"modes", modes},
+          {"findings", findings_json(line.findings)}};
+}
+
+// What the machine file says about the words of a program. Nothing: the file is wrong.
+std::optional<ExplainedMachine> explained_machine(const std::string& file, Diagnostics& findings) {
+  if (file.empty()) return ExplainedMachine{};
+  const std::optional<MachineDescription> machine = load_machine_file(file, findings);
+  if (!machine) return {};
+  ExplainedMachine explained;
+  for (const AxisDescription& axis : machine->axes) explained.surface_radius[axis.axis] = axis.surface_radius;
+  if (machine->has_rotary_axis()) explained.angle_tolerance = machine->path_tolerance_deg;
+  return explained;
 }
 
 }  // namespace
@@ -173,8 +209,13 @@ int explain(const ExplainArguments& arguments) {
   const std::optional<InterpreterOptions> options = interpreter_options(program_arguments);
   if (!program || !options) return exit_bad_program;
 
+  Diagnostics of_machine;
+  const std::optional<ExplainedMachine> machine = explained_machine(arguments.machine, of_machine);
+  show(of_machine);
+  if (!machine) return exit_bad_machine;
+
   Diagnostics findings(1000);
-  const Explanations result = explain(std::move(*program), *options, place.lines, findings);
+  const Explanations result = explain(std::move(*program), *options, place.lines, findings, {}, *machine);
   if (result.lines.empty()) {
     return fail(exit_bad_program, fmt::format("{} has {}: expected a line from 1 to {}", place.file,
                                               counted(result.lines_in_file, "line"), result.lines_in_file));

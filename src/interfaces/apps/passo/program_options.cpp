@@ -183,11 +183,14 @@ void add_canon_options(CLI::App& command, CanonArguments& arguments) {
 void add_explain_options(CLI::App& command, ExplainArguments& arguments) {
   add_program(command, arguments.program, "program and lines: FILE:LINE, FILE:FROM-TO or FILE; - is standard input");
   add_files(command, arguments.program, true);
+  command.add_option("-m,--machine", arguments.machine,
+                     "machine file (TOML): the feed counts the surfaces of cylinders (radius_mm)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
   command.footer(
       "Examples:\n  passo explain part.ngc:12             what the line does, with the positions and modes there\n"
       "  passo explain part.ngc:10-20 --json   for scripts\n"
       "  passo explain part.ngc:12 -t tool.tbl -v rs274ngc.var --subs macros     with the machine's files\n"
+      "  passo explain part.ngc:12 -m rotary.toml     with the feed on the surface of a cylinder\n"
       "  passo explain -:3 < part.ngc          from standard input");
 }
 

@@ -413,6 +413,28 @@ MotionProof proof_of_steps(double length, double acceleration) {
   return prover.finish();
 }
 
+// X goes 3 mm, and the surface at a radius of 20 mm 4 mm, at F 10. `speed` is that of X.
+MotionProof proof_on_cylinder(double speed, double planned_feed) {
+  ProofOptions on_cylinder = options();
+  on_cylinder.axes.push_back(
+      {.axis = Axis::a, .velocity = MmPerSecond(1000), .acceleration = MmPerSecond2(1e6), .surface_radius = Mm(20)});
+  Point end = xyz(3, 0);
+  end[Axis::a] = 4 / (20 * pi / 180);
+  MotionProver prover(on_cylinder);
+  prover.watch(PathItem(line(xyz(0, 0), end, 1, 10)));
+  prover.watch(MotionItem(steady(line(xyz(0, 0), end, 1, planned_feed), speed)));
+  return prover.finish();
+}
+
+// The plan counts X alone. The prover computes the way of the surface from the radius.
+TEST(MotionProof, the_feed_on_a_cylinder_is_that_of_its_surface) {
+  EXPECT_THAT(faults_of(proof_on_cylinder(10, 10)), testing::HasSubstr("feed: 16.6667, limit 10 "));
+  const MotionProof good = proof_on_cylinder(6, 10);
+  EXPECT_NEAR(good.feed.multiple(), 1, 1e-9);
+  // The limit is the feed of the program, not that of the plan.
+  EXPECT_NEAR(proof_on_cylinder(7, 20).feed.multiple(), 7.0 / 6, 1e-9);
+}
+
 TEST(MotionProof, steps_of_a_good_motion_are_within_limit_and_rounding) {
   const MotionProof proof = proof_of_steps(8, 500);
   EXPECT_TRUE(proof.good()) << to_text(proof);

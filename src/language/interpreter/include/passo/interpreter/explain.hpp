@@ -48,6 +48,8 @@ struct Explanation {
   // known before the machine runs (G95 without a spindle speed), or there is none.
   struct Moves {
     double feed_length = 0;               // mm; degrees for a move of rotary axes only
+    bool in_degrees = false;              // the last feed move
+    PerAxis<double> surface_radius{};     // mm, of the surfaces that count in feed_length (A, B, C); 0: none
     double rapid_length = 0;              // mm
     std::optional<double> feed_time = 0;  // s
   };
@@ -67,9 +69,16 @@ struct ExplainLimits {
   std::uint64_t further_operations = 200'000;  // limit of operations after that, to count executions
 };
 
+// What the machine makes of the words. Empty: any machine.
+struct ExplainedMachine {
+  // The radius of the cylinder that A, B or C turns; 0: the distance of the tool from the axis, which is Z.
+  PerAxis<std::optional<Mm>> surface_radius{};
+  std::optional<double> angle_tolerance = {};  // degrees: how far A, B and C may leave a blended path
+};
+
 // `diagnostics` also receives the findings of the other lines.
 Explanations explain(ProgramReader program, const InterpreterOptions& options, LineRange range,
-                     Diagnostics& diagnostics, const ExplainLimits& limits = {});
+                     Diagnostics& diagnostics, const ExplainLimits& limits = {}, const ExplainedMachine& machine = {});
 
 // Returns e.g. "X 10 mm, Y 0 mm, Z 5 mm": X Y Z, and the other axes that are not at 0.
 std::string in_words(const Point& point);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct ProvenAxis {
   // A limit that falls with the speed: monotonically falling, and above 0 up to `velocity`. Empty: `acceleration` at
   // all speeds.
   std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
+  // The radius of the cylinder that this axis turns: the feed counts its surface. 0: the radius of each segment.
+  std::optional<Mm> surface_radius = {};
 };
 struct ProofOptions {
   std::vector<ProvenAxis> axes;  // in the order of the board's motors
@@ -75,7 +78,7 @@ struct AxisProof {
 
 struct MotionProof {
   std::vector<AxisProof> axes;
-  Finding feed;       // the speed along the path against the programmed one
+  Finding feed;       // the speed along the path, or of the surface of a cylinder, against the programmed one
   Finding deviation;  // between planned and programmed path; the limit is the tolerance at that point
   Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
