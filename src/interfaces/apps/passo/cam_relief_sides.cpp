@@ -197,9 +197,10 @@ void SidesMaker::note_edge() const {
   constexpr double much = 0.02;
   if (options_.tab_width.value() <= 0) {
     if (split_.hidden > much) {
-      note(fmt::format("the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters "
-                       "may not reach all of the part",
-                       split_.parting.value(), split_.hidden * 100));
+      note(
+          fmt::format("the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters "
+                      "may not reach all of the part",
+                      split_.parting.value(), split_.hidden * 100));
     }
     return;
   }
@@ -333,10 +334,9 @@ int SidesMaker::write_all(const WorkProgress& progress) {
       progress.part(0.05, 0.5));
   if (code == exit_done) code = flip();
   std::vector<std::string> words = {"Insert the cutter, set Z0 on the upper face, and run the program."};
-  words.push_back(split_.tabs > 0
-                      ? fmt::format("The {} is cut through except at {} tabs, which hold the part.",
-                                                  split_.has_web ? "web" : "trench", split_.tabs)
-                      : std::string("The web around the part remains."));
+  words.push_back(split_.tabs > 0 ? fmt::format("The {} is cut through except at {} tabs, which hold the part.",
+                                                split_.has_web ? "web" : "trench", split_.tabs)
+                                  : std::string("The web around the part remains."));
   words.emplace_back(split_.tabs > 0 ? "Saw off the tabs, and sand the stubs." : "Saw the part out of the web.");
   if (code == exit_done) {
     code = carve(split_.bottom, "bottom", {.kind = "back", .title = "Carve the bottom", .words = std::move(words)},
