@@ -317,6 +317,12 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+std::string joined(const std::vector<const char*>& words) {
+  std::string all;
+  for (const char* const word : words) all += (all.empty() ? "" : ", ") + std::string(word);
+  return all;
+}
+
 // Prints a row of the table. Returns whether the program cuts into nothing.
 bool measure(const Body& body, const std::string& passo, const std::filesystem::path& folder) {
   const std::filesystem::path model = folder / "body.stl";
@@ -327,13 +333,14 @@ bool measure(const Body& body, const std::string& passo, const std::filesystem::
   for (const std::string& word : words_of(body.options)) command.push_back(word);
   const Use use = used_by(command);
   if (!use.is_good) {
-    std::printf("| %s | %s | failed | | |\n", body.name, body.options);
+    std::printf("| %s | %s | %s | failed | | |\n", body.name, joined(body.cutters).c_str(), body.options);
     return false;
   }
   std::ifstream file(program, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const double depth = deepest(body.faces, text, body.cutters);
-  std::printf("| %s | %s | %.2f s | %.0f MiB | %.4f mm |\n", body.name, body.options, use.seconds, use.mib, depth);
+  std::printf("| %s | %s | `%s` | %.2f s | %.0f MiB | %.4f mm |\n", body.name, joined(body.cutters).c_str(),
+              body.options, use.seconds, use.mib, depth);
   std::fflush(stdout);
   return depth <= 0.01;
 }
@@ -350,7 +357,8 @@ int run(const std::vector<std::string>& arguments) {
   }
   std::string pattern = (std::filesystem::temp_directory_path() / "body-table-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) return 1;
-  std::printf("| model | options | processor time | memory | largest cut into the model |\n|---|---|---:|---:|---:|\n");
+  std::printf("| model | cutters | options | processor time | memory | largest cut into the model |\n");
+  std::printf("|---|---|---|---:|---:|---:|\n");
   bool is_good = true;
   for (const Body& body : all)
     is_good = measure(body, arguments.empty() ? PASSO_PROGRAM : arguments[0], pattern) && is_good;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "background_process.hpp"
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
 #include "cam_program.hpp"
@@ -17,6 +18,7 @@
 
 #include "passo/base/counted.hpp"
 #include "passo/carve/two_sided_relief.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 #include "passo/report/flip_picture.hpp"
 
 namespace passo {
