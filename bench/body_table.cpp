@@ -178,8 +178,7 @@ void add_tips_and_caves(std::vector<Body>& all) {
   }
   add(begin("pyramid", "--step 0.4 --way both", {"vee:90:3:0.4"}), revolved(20, 15, {{14, 0}, {0, 9}}, 4));
   add(begin("half a ball", by_contours, {"ball:3"}), ball(20, 15, 0, 12, 120));
-  add(begin("mushroom", by_rows, {"ball:3"}),
-      revolved(20, 15, {{2, 0}, {2, 5}, {10, 5}, {7, 8}, {0, 9}}, 60));
+  add(begin("mushroom", by_rows, {"ball:3"}), revolved(20, 15, {{2, 0}, {2, 5}, {10, 5}, {7, 8}, {0, 9}}, 60));
   Faces& arch = begin("arch", by_contours, {"bull:3:0.5"});
   add(arch, block({8, 12}, {10, 20}, {0, 6}));
   add(arch, block({28, 32}, {10, 20}, {0, 6}));
@@ -195,7 +194,9 @@ void add_scans(std::vector<Body>& all) {
   };
   const auto scan = [&](double x, double y) { return hills(x, y) + 0.03 * share(random); };
   const auto rough = [&](double x, double y) { return hills(x, y) + 0.5 * share(random); };
-  const auto cliffs = [](double x, double y) { return 4 * std::round(0.5 + 0.5 * std::sin(x * 0.6 + std::sin(y * 0.4))); };
+  const auto cliffs = [](double x, double y) {
+    return 4 * std::round(0.5 + 0.5 * std::sin(x * 0.6 + std::sin(y * 0.4)));
+  };
   all.push_back({"hills", by_contours, {"ball:3"}, terrain(200, 150, hills)});
   all.push_back({"scan of 24,000 triangles", by_rows, {"ball:3"}, terrain(128, 96, scan)});
   all.push_back({"scan of 196,000 triangles", by_rows, {"ball:3"}, terrain(362, 271, scan)});
@@ -316,6 +317,12 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+std::string joined(const std::vector<const char*>& words) {
+  std::string all;
+  for (const char* const word : words) all += (all.empty() ? "" : ", ") + std::string(word);
+  return all;
+}
+
 // Prints a row of the table. Returns whether the program cuts into nothing.
 bool measure(const Body& body, const std::string& passo, const std::filesystem::path& folder) {
   const std::filesystem::path model = folder / "body.stl";
@@ -326,13 +333,14 @@ bool measure(const Body& body, const std::string& passo, const std::filesystem::
   for (const std::string& word : words_of(body.options)) command.push_back(word);
   const Use use = used_by(command);
   if (!use.is_good) {
-    std::printf("| %s | %s | failed | | |\n", body.name, body.options);
+    std::printf("| %s | %s | %s | failed | | |\n", body.name, joined(body.cutters).c_str(), body.options);
     return false;
   }
   std::ifstream file(program, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const double depth = deepest(body.faces, text, body.cutters);
-  std::printf("| %s | %s | %.2f s | %.0f MiB | %.4f mm |\n", body.name, body.options, use.seconds, use.mib, depth);
+  std::printf("| %s | %s | `%s` | %.2f s | %.0f MiB | %.4f mm |\n", body.name, joined(body.cutters).c_str(),
+              body.options, use.seconds, use.mib, depth);
   std::fflush(stdout);
   return depth <= 0.01;
 }
@@ -349,9 +357,11 @@ int run(const std::vector<std::string>& arguments) {
   }
   std::string pattern = (std::filesystem::temp_directory_path() / "body-table-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) return 1;
-  std::printf("| model | options | processor time | memory | largest cut into the model |\n|---|---|---:|---:|---:|\n");
+  std::printf("| model | cutters | options | processor time | memory | largest cut into the model |\n");
+  std::printf("|---|---|---|---:|---:|---:|\n");
   bool is_good = true;
-  for (const Body& body : all) is_good = measure(body, arguments.empty() ? PASSO_PROGRAM : arguments[0], pattern) && is_good;
+  for (const Body& body : all)
+    is_good = measure(body, arguments.empty() ? PASSO_PROGRAM : arguments[0], pattern) && is_good;
   std::filesystem::remove_all(pattern);
   return is_good ? 0 : 1;
 }

@@ -185,14 +185,15 @@ TEST_F(CamRelief, a_summary_as_json_has_all_notes_and_warnings) {
   std::string pyramid = "solid part\n";
   const char* const corners[] = {"-10 -8 0", "10 -8 0", "10 8 0", "-10 8 0"};
   const auto facet = [&](const char* a, const char* b, const char* c) {
-    pyramid += fmt::format("facet normal 0 0 0\nouter loop\nvertex {}\nvertex {}\nvertex {}\nendloop\nendfacet\n", a, b, c);
+    pyramid +=
+        fmt::format("facet normal 0 0 0\nouter loop\nvertex {}\nvertex {}\nvertex {}\nendloop\nendfacet\n", a, b, c);
   };
   for (int i = 0; i < 4; ++i) facet(corners[i], corners[(i + 1) % 4], "0 0 12");
   facet(corners[0], corners[2], corners[1]);
   facet(corners[0], corners[3], corners[2]);
   const std::string part = write("pyramid.stl", pyramid + "endsolid part\n");
   const std::string coarse = " --cutter ball:3 --pitch 0.2 --scallop 0.2 ";
-  const Outcome sides = relief(part + coarse + "--two-sided x --tab-height 1 --json -o " + path("job"));
+  const Outcome sides = relief(part + coarse + "--two-sided x --json -o " + path("job"));
   EXPECT_EQ(sides.code, 0) << sides.err;
   const nlohmann::json both = nlohmann::json::parse(sides.out);
   EXPECT_EQ(both["tabs"], 4);

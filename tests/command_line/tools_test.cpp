@@ -191,6 +191,15 @@ TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
       passo("cam relief " + heights + " --cutter T2 --rough T1 --material hardwood --depth -2 --scallop 0.2" + with);
   EXPECT_EQ(relief.code, 0) << relief.err;
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(roughing: T1 \"roughing\", flat end, 6 mm; "));
+  // A feed that is far too low: the warning is shown, and stands once in the summary.
+  for (const std::string command : {"drill " + checkout + "/examples/boards/timer.drl --drill T8 --route-steps 0",
+                                    "relief " + heights + " --cutter T2 --depth -2 --scallop 0.2"}) {
+    const Outcome slow = passo("cam " + command + " --material fr4 --feed 2 --json" + with);
+    EXPECT_EQ(slow.code, 0) << slow.err;
+    const json summary = json::parse(slow.out);
+    ASSERT_EQ(summary["warnings"].size(), 1U) << slow.out;
+    EXPECT_THAT(slow.err, HasSubstr("[" + summary["warnings"][0].at("code").get<std::string>() + "]"));
+  }
 }
 
 }  // namespace

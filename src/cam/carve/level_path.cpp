@@ -244,7 +244,13 @@ LevelPath fit_level_path(const LevelLine& line, double height, const TipSurface&
                          const LevelPathFit& fit) {
   std::vector<FlatPlace> points = without_doubles(line);
   if (points.size() < 2) return {};
-  if (fit.is_on_edge && fit.tolerance > 0) points = moved_left(points, line.is_closed, fit.tolerance / 2);
+  if (fit.is_on_edge && fit.tolerance > 0) {
+    // In a pit that is narrower than the tolerance, a point would come out on the other side.
+    const std::vector<FlatPlace> moved = moved_left(points, line.is_closed, fit.tolerance / 2);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!fit.looks_for_gouges || surface.at(moved[i]) <= height + LevelLines::slack) points[i] = moved[i];
+    }
+  }
   PathFitter fitter(std::move(points), height, surface, lattice, fit);
   return {.cuts = fitter.fit(), .is_closed = line.is_closed};
 }

@@ -89,8 +89,7 @@ class Splitter {
   double blocked(float middle) const {
     if (edge_.empty()) return 0;
     const auto is_below = [&](const EdgePlace& place) { return place.high < middle + web_ - slack; };
-    return static_cast<double>(std::count_if(edge_.begin(), edge_.end(), is_below)) /
-           static_cast<double>(edge_.size());
+    return static_cast<double>(std::count_if(edge_.begin(), edge_.end(), is_below)) / static_cast<double>(edge_.size());
   }
   // How far the web goes beyond the edge, mm, on average. Above the edge it counts far more, because the top cannot be
   // cut down to what it hides; below the edge, the bottom cuts the web off.
@@ -213,8 +212,7 @@ class Splitter {
       for (std::size_t first = 0; first + wide <= count; ++first) {
         const auto begin = ways.begin() + static_cast<std::ptrdiff_t>(first);
         const auto is_shorter = [](const TabLength& a, const TabLength& b) { return a.all < b.all; };
-        const std::size_t longest =
-            std::max_element(begin, begin + static_cast<std::ptrdiff_t>(wide), is_shorter)->all;
+        const std::size_t longest = std::max_element(begin, begin + static_cast<std::ptrdiff_t>(wide), is_shorter)->all;
         const bool is_nearer =
             longest < shortest || (longest == shortest && best < count && from_middle(first) < from_middle(best));
         if (longest == never || !is_nearer) continue;
@@ -224,8 +222,8 @@ class Splitter {
       if (best == count) continue;
       for (std::size_t i = best; i < best + wide; ++i) {
         put_tab(split, way, i, ways[i].all, middle);
-        const Mm on_part = (way.is_along_x ? top_.pitch_x : top_.pitch_y) *
-                           static_cast<double>(ways[i].all - ways[i].outside);
+        const Mm on_part =
+            (way.is_along_x ? top_.pitch_x : top_.pitch_y) * static_cast<double>(ways[i].all - ways[i].outside);
         split.on_part = std::max(split.on_part, on_part);
       }
       ++split.tabs;

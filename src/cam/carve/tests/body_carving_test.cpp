@@ -183,6 +183,22 @@ TEST(BodyCarving, never_cuts_into_a_body) {
   }
 }
 
+// Pits between the triangles of a smooth surface may be narrower than the tolerance by which contours are moved.
+TEST(BodyCarving, contours_never_cut_into_the_sides_of_narrow_pits) {
+  const Faces body = terrain(8, 6, 40, 30, [](double x, double y) {
+    return 3 * std::sin(x * 0.7) * std::cos(y * 0.5) + 0.6 * std::sin(x * 1.7 + y);
+  });
+  ReliefProgramOptions options = options_of("ball:3");
+  options.finish.step_over = Mm(0.4);
+  options.way = FinishStrategy::contours;
+  options.ramps = false;
+  options.beside = BesideGrid::nothing;
+  Diagnostics diagnostics;
+  const HeightGrid grid = relief_of({.faces = body}, {.pitch = Mm(0.03)}, "it", diagnostics);
+  const Depth depth = depth_of(ContactOracle(placed(body)), written(grid, options).text, {oracle_of("ball:3")});
+  EXPECT_LE(depth.deepest, most_depth) << depth.where;
+}
+
 TEST(BodyCarving, with_three_cutters_never_cuts_into_a_body) {
   std::mt19937_64 random(seed());
   const std::vector<OracleCutter> tools = {oracle_of("flat:2.3"), oracle_of("ball:3"), oracle_of("taper:1:10:3")};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "background_process.hpp"
 #include "cam_board_page.hpp"
 #include "cam_job.hpp"
 #include "cam_program.hpp"
@@ -17,6 +18,7 @@
 
 #include "passo/base/counted.hpp"
 #include "passo/carve/two_sided_relief.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 #include "passo/report/flip_picture.hpp"
 
 namespace passo {
@@ -197,9 +199,10 @@ void SidesMaker::note_edge() const {
   constexpr double much = 0.02;
   if (options_.tab_width.value() <= 0) {
     if (split_.hidden > much) {
-      note(fmt::format("the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters "
-                       "may not reach all of the part",
-                       split_.parting.value(), split_.hidden * 100));
+      note(
+          fmt::format("the web, {:.4g} mm below the top, does not meet {:.0f} % of the part's edge; there the cutters "
+                      "may not reach all of the part",
+                      split_.parting.value(), split_.hidden * 100));
     }
     return;
   }
@@ -333,10 +336,9 @@ int SidesMaker::write_all(const WorkProgress& progress) {
       progress.part(0.05, 0.5));
   if (code == exit_done) code = flip();
   std::vector<std::string> words = {"Insert the cutter, set Z0 on the upper face, and run the program."};
-  words.push_back(split_.tabs > 0
-                      ? fmt::format("The {} is cut through except at {} tabs, which hold the part.",
-                                                  split_.has_web ? "web" : "trench", split_.tabs)
-                      : std::string("The web around the part remains."));
+  words.push_back(split_.tabs > 0 ? fmt::format("The {} is cut through except at {} tabs, which hold the part.",
+                                                split_.has_web ? "web" : "trench", split_.tabs)
+                                  : std::string("The web around the part remains."));
   words.emplace_back(split_.tabs > 0 ? "Saw off the tabs, and sand the stubs." : "Saw the part out of the web.");
   if (code == exit_done) {
     code = carve(split_.bottom, "bottom", {.kind = "back", .title = "Carve the bottom", .words = std::move(words)},

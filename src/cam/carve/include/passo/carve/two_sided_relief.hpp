@@ -8,8 +8,8 @@
 // little of the part as possible.
 //
 // The edge of an egg is thinner than a tab. The tabs then reach onto the part, to where it is as thick as they are, and
-// the web lies below the edge, so that the top can be cut down to it. Below the edge of a pyramid there is no room for a
-// web; then both sides cut the trench through, except at the tabs.
+// the web lies below the edge, so that the top can be cut down to it. Below the edge of a pyramid there is no room for
+// a web; then both sides cut the trench through, except at the tabs.
 //
 // Heights are relative to the top of the stock on each side. Both grids have their node (0, 0) at the lower left, as
 // seen from above; the bottom is seen after the flip.
