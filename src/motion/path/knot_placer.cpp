@@ -37,7 +37,6 @@ constexpr double too_sharp = 1.8;
 // A sharp corner to or from a slow feed (mm/s), where the feeds differ by more than this factor, does not swing: the
 // slow feed is the speed there, and a swing would only be a way more at that speed. By trial.
 constexpr double most_change_of_feed = 1.5;
-constexpr MmPerSecond slow_feed{10};
 constexpr double sharp_from = 1;
 // An arc beside a corner leaves room for a swing if it turns by less (radians) in the width of the swing, and is longer
 // than so many widths. Where it bends more, the arc itself is slow. By trial.
@@ -82,6 +81,15 @@ constexpr double share_of_room = 0.9;       // knots beyond this share of the ro
 // as part of the stretches beside it.
 constexpr double exact_from = 3;
 constexpr std::size_t least_knots = 3;  // on each side of an exact piece
+// A gap in which each corner has at most so many knots has more, at most a width apart.
+constexpr std::size_t knots_of_short_gap = 2;
+// A gap is even if both of its corners turn at least by this much, their widths differ at most by this factor, the gap
+// is at most this many widths long, and the gaps beside it are longer or shorter by at most this factor. By trial: in
+// other gaps, the even bending makes programs slower.
+constexpr double even_turn = 0.5;
+constexpr double even_widths = 1.3;
+constexpr double even_length = 40;
+constexpr double even_gaps = 1.5;
 // Lines shorter than this (mm) have no good direction after they are cut.
 constexpr double least_exact = 1e-6;
 
@@ -181,7 +189,8 @@ const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const 
   const double turn = distance(before.last_tangent, after.first_tangent);
   const bool goes_to_and_fro = reversal(before, after) >= most_reversal && (!bends_slowly_ || turn >= too_sharp);
   const auto [slower, faster] = std::minmax(before.segment.speed, after.segment.speed);
-  const bool meets_slow_feed = turn >= sharp_from && slower <= slow_feed && faster > slower * most_change_of_feed;
+  const bool meets_slow_feed =
+      turn >= sharp_from && slower <= KnotPlacer::slow_feed && faster > slower * most_change_of_feed;
   const double width = swinging.corner_width * cluster.tube / turn;
   const bool have_room =
       has_room_to_swing(before, before.last_bend, width) && has_room_to_swing(after, after.first_bend, width);
@@ -332,6 +341,7 @@ void KnotPlacer::fill_gap() {
   const Node& to = nodes_[2];
   const bool is_last = known_ == 3;
   knot_piece_ = std::max(knot_piece_, from.before);
+  gap_is_even_ = is_even_gap();
   const double length = to.s - from.s;
   const double nearest = from.width > 0 ? nearest_to(from, nodes_[0], to) : 0;
   const double next_nearest = to.width > 0 ? nearest_to(to, from, nodes_[3]) : 0;
@@ -387,7 +397,12 @@ void KnotPlacer::fill_gap() {
                   .to = next_width > 0 ? last - between.start : between.length};
     steps_.push_back({.mark = Mark::exact_piece, .knot = {}});
   }
-  if (!exact && between.is_fitted) add_knots_on_bend(first, last, spacing);
+  const bool is_short = own.count <= knots_of_short_gap && next.count <= knots_of_short_gap;
+  if (!exact && between.is_fitted) {
+    add_knots_on_bend(first, last, spacing);
+  } else if (!exact && is_short) {
+    add_knots_apart(first, last, std::max(from.width, to.width));
+  }
   for (std::size_t i = next_knots; i > 0; --i) {
     add_knot(to.s - next_offset(i), rate_at(to, next, i), next.change_weight(i - 1));
   }
@@ -402,8 +417,31 @@ void KnotPlacer::fill_gap() {
 void KnotPlacer::add_knots_on_bend(double first, double last, double spacing) {
   const double bend = piece(knot_piece_).segment.curve.curvature();
   const double apart = std::max(spacing, knots_on_bend / std::max(bend, no_change));
+  add_knots_apart(first, last, apart);
+}
+
+void KnotPlacer::add_knots_apart(double first, double last, double apart) {
   const double parts = std::min(std::ceil((last - first) / apart), most_on_bend);
   for (double i = 1; i < parts; ++i) add_knot(first + (last - first) * (i / parts));
+}
+
+// Whether the gap between the second node and the third is one of a row of similar legs between similar corners. There
+// the machine passes each corner at about the same speed. An end of the run counts as any corner.
+bool KnotPlacer::is_even_gap() const {
+  const Node& first = nodes_[1].width > 0 ? nodes_[1] : nodes_[2];  // of the gap's corners
+  const Node& last = nodes_[2].width > 0 ? nodes_[2] : nodes_[1];
+  if (!(first.width > 0) || std::min(first.turn, last.turn) < even_turn) return false;
+  if (bends_slowly_ && std::max(first.turn, last.turn) >= too_sharp) return false;
+  if (is_slow(piece(nodes_[1].after))) return false;
+  const auto [narrow, wide] = std::minmax(first.width, last.width);
+  const double length = nodes_[2].s - nodes_[1].s;
+  if (wide > even_widths * narrow || length > even_length * narrow) return false;
+  const auto is_alike = [&](const Node& from, const Node& to) {
+    if (!(from.width > 0 && to.width > 0)) return true;  // not between corners
+    const double other = to.s - from.s;
+    return std::max(other, length) <= even_gaps * std::min(other, length);
+  };
+  return is_alike(nodes_[0], nodes_[1]) && (known_ < 4 || is_alike(nodes_[2], nodes_[3]));
 }
 
 // At the last two knots it is that of s, so that what is exact may go on there.
@@ -445,7 +483,8 @@ void KnotPlacer::add_knot(double s, double rate, double change_weight) {
                              .along = along,
                              .rate = rate,
                              .weight = weight_at(s),
-                             .change_weight = change_weight}});
+                             .change_weight = change_weight,
+                             .is_even = gap_is_even_}});
 }
 
 }  // namespace passo

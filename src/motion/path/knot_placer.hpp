@@ -37,6 +37,7 @@ struct Knot {
   double rate = 1;           // ds/dt, where t is the spline's parameter; 1 next to exact pieces
   double weight = 1;         // weight of the bend here
   double change_weight = 1;  // weight of the change of the bend, in the span after the knot
+  bool is_even = false;      // between corners that are alike, in legs that are alike
 };
 
 struct ExactPiece {
@@ -48,6 +49,9 @@ struct ExactPiece {
 class KnotPlacer {
  public:
   static constexpr int most_clustered = 64;
+  // Where the feed is at most this, it is the speed in corners too. Then the shortest path is the fastest.
+  static constexpr MmPerSecond slow_feed{10};
+  static bool is_slow(const Piece& piece) { return piece.segment.speed <= slow_feed; }
 
   KnotPlacer(RunReader& reader, Smoothness smoothness);
 
@@ -136,6 +140,8 @@ class KnotPlacer {
   static double nearest_to(const Node& node, const Node& before, const Node& after);
   void fill_gap();
   void add_knots_on_bend(double first, double last, double spacing);
+  void add_knots_apart(double first, double last, double apart);
+  bool is_even_gap() const;
   void add_knot(double s, double rate = 1, double change_weight = 1);
 
   const Spacing& spacing_of(const Cluster& cluster) const;
@@ -154,6 +160,7 @@ class KnotPlacer {
 
   bool in_stretch_ = false;
   std::uint64_t knot_piece_ = 0;
+  bool gap_is_even_ = false;
   struct Step {
     Mark mark;
     Knot knot;

@@ -171,8 +171,9 @@ template <std::size_t axes>
 }
 
 // A step of Newton's method, for each axis.
-template <std::size_t axes>
+template <std::size_t axes, Relaxation::Power power>
 [[gnu::flatten]] void Relaxation::relax_highest_bending(std::int64_t k) {
+  constexpr double steepness = power == Power::fourth ? 3 : 7;  // of the derivative of the power
   const std::size_t at = slot(k);
   const Factors& factors = factors_[at];
   std::array<double, axes> step;
@@ -181,13 +182,46 @@ template <std::size_t axes>
     double slope = 0;
     double change = 0;
     for (std::size_t knot = 0; knot < 3; ++knot) {
-      const double weight = factors.pull[knot] * bend[knot] * bend[knot];
+      const double square = bend[knot] * bend[knot];
+      const double weight = factors.pull[knot] * (power == Power::fourth ? square : square * square * square);
       slope += weight * bend[knot];
       change += weight * factors.bend[knot];
     }
-    step[i] = change > 0 ? -slope / (3 * change) : 0;
+    step[i] = change > 0 ? -slope / (steepness * change) : 0;
   }
   take_step<axes>(at, step, false);
+}
+
+double Relaxation::square_of_change(std::int64_t k) const {
+  const std::size_t at = slot(k);
+  double sum = 0;
+  for (const AxisLanes& axis : axes_) sum += (axis.bend[at + 1] - axis.bend[at]) * (axis.bend[at + 1] - axis.bend[at]);
+  return sum;
+}
+
+// A step of Newton's method, for each axis.
+template <std::size_t axes, Relaxation::Power power>
+[[gnu::flatten]] void Relaxation::relax_highest_change(std::int64_t k, const Four& weights, bool slides) {
+  constexpr double steepness = power == Power::fourth ? 3 : 7;  // of the derivative of the power
+  const std::size_t at = slot(k);
+  const Four& effect = factors_[at].bend;
+  const Four effects = {effect[0], effect[1] - effect[0], effect[2] - effect[1], -effect[2]};
+  std::array<double, axes> step;
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double* const bend = &axes_[i].bend[at - 2];
+    double slope = 0;
+    double change = 0;
+    for (std::size_t span = 0; span < 4; ++span) {
+      const double here = bend[span + 1] - bend[span];
+      const double square = here * here;
+      const double weight =
+          weights[span] * effects[span] * (power == Power::fourth ? square : square * square * square);
+      slope += weight * here;
+      change += weight * effects[span];
+    }
+    step[i] = change > 0 ? -slope / (steepness * change) : 0;
+  }
+  take_step<axes>(at, step, slides);
 }
 
 template <std::size_t axes>
@@ -204,8 +238,18 @@ template <std::size_t axes>
 
 template void Relaxation::relax_bending<3>(std::int64_t k);
 template void Relaxation::relax_bending<axis_count>(std::int64_t k);
-template void Relaxation::relax_highest_bending<3>(std::int64_t k);
-template void Relaxation::relax_highest_bending<axis_count>(std::int64_t k);
+template void Relaxation::relax_highest_bending<3, Relaxation::Power::fourth>(std::int64_t k);
+template void Relaxation::relax_highest_bending<3, Relaxation::Power::eighth>(std::int64_t k);
+template void Relaxation::relax_highest_bending<axis_count, Relaxation::Power::fourth>(std::int64_t k);
+template void Relaxation::relax_highest_bending<axis_count, Relaxation::Power::eighth>(std::int64_t k);
+template void Relaxation::relax_highest_change<3, Relaxation::Power::fourth>(std::int64_t k, const Four& weights,
+                                                                             bool slides);
+template void Relaxation::relax_highest_change<3, Relaxation::Power::eighth>(std::int64_t k, const Four& weights,
+                                                                             bool slides);
+template void Relaxation::relax_highest_change<axis_count, Relaxation::Power::fourth>(std::int64_t k,
+                                                                                      const Four& weights, bool slides);
+template void Relaxation::relax_highest_change<axis_count, Relaxation::Power::eighth>(std::int64_t k,
+                                                                                      const Four& weights, bool slides);
 template void Relaxation::relax_change<3>(std::int64_t k, bool slides);
 template void Relaxation::relax_change<axis_count>(std::int64_t k, bool slides);
 

@@ -19,6 +19,7 @@ namespace passo {
 class Relaxation {
  public:
   using Four = std::array<double, 4>;
+  enum class Power : std::uint8_t { fourth, eighth };
   // The effect of moving a control point by 1, at the knots k-1 to k+1 (the fourth is 0) and in the middles of the
   // spans k-2 to k+1. The step to least bending is minus the sum of `pull` times p'' at the knots. The step to the
   // least change of bending is found in the same way, from the knots k-2 to k+2.
@@ -51,12 +52,18 @@ class Relaxation {
   // Makes a step of control point k. `axes`: the number of moving axes, from the first on. The others must not move.
   template <std::size_t axes>
   void relax_bending(std::int64_t k);
-  // The same for the least sum of the fourth powers of each axis' p''.
-  template <std::size_t axes>
+  // The same for the least sum of the fourth or eighth powers of each axis' p''.
+  template <std::size_t axes, Power power>
   void relax_highest_bending(std::int64_t k);
   // `slides`: a step that the tube stops slides along the tube, which takes longer.
   template <std::size_t axes>
   void relax_change(std::int64_t k, bool slides);
+  // The same for the least sum of the fourth or eighth powers of each axis' change of p'' in a span. `weights`: of the
+  // spans k-2 to k+1; 0 for a span that does not exist.
+  template <std::size_t axes, Power power>
+  void relax_highest_change(std::int64_t k, const Four& weights, bool slides);
+  // Returns the square of the change of p'' in the span after a knot.
+  double square_of_change(std::int64_t k) const;
   void move(std::int64_t k, const Point& step);
 
  private:

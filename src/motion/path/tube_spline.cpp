@@ -19,6 +19,20 @@ constexpr double least_share = 0.1;
 constexpr std::int64_t reach_of_control = 3;
 constexpr std::int64_t lag = reach_of_control + 1;
 
+// Changes of p'' (1/mm²) smaller than this are rounding.
+constexpr double no_change_of_bend = 1e-9;
+
+// Whether the sweep slides control points along the tube.
+bool slides(int sweep) {
+  constexpr int slides_each = 3;
+  return (sweep - TubeSpline::slow_bending_sweeps.first) % slides_each == slides_each - 1;
+}
+
+// Whether the direction at a stop is free. Where the spindle leads, a thread begins along the path.
+bool may_turn(const Piece& piece) {
+  return piece.segment.lock == SpindleLock::none && !KnotPlacer::is_slow(piece);
+}
+
 bool moves_more_than_xyz(const Curve& curve) {
   const Point steepest = curve.steepest();
   return std::any_of(steepest.values.begin() + 3, steepest.values.end(), [](double slope) { return slope != 0; });
@@ -27,8 +41,8 @@ bool moves_more_than_xyz(const Curve& curve) {
 }  // namespace
 
 double TubeSpline::knot_at(std::int64_t k) const {
-  if (k < 0) return 2 * knot_at(k + 1) - knot_at(k + 2);
-  if (k >= knots_) return 2 * knot_at(k - 1) - knot_at(k - 2);
+  if (k < 0) return 2 * at(0).t - at(-k).t;
+  if (k >= knots_) return 2 * at(knots_ - 1).t - at(2 * (knots_ - 1) - k).t;
   return at(k).t;
 }
 
@@ -43,6 +57,7 @@ void TubeSpline::add(const Knot& knot) {
   }
   relaxation_.make_room(knots_ + 2, taken_ - 1);
   begin_site(knot);
+  if (knots_ == 0) begins_freely_ = knot.s == 0 && may_turn(piece(knot.piece));
   ++knots_;
   if (knots_ > 1) survey(at(knots_ - 2), at(knots_ - 1));
   if (knots_ > 2) advance();
@@ -55,6 +70,7 @@ void TubeSpline::begin_site(const Knot& knot) {
   site.pace = {};
   site.place = piece(knot.piece).segment.curve.at(Mm(knot.along));
   site.checked = false;
+  site.per_change = 0;
   if (knots_ == 0) return;
   Site& before = at(knots_ - 1);
   before.pace = Pace::between(before.knot.rate, knot.rate, knot.s - before.knot.s);
@@ -64,13 +80,19 @@ void TubeSpline::begin_site(const Knot& knot) {
 void TubeSpline::close() {
   assert(knots_ >= 4);
   closed_ = true;
+  const Knot& end = at(knots_ - 1).knot;
+  const Piece& last = piece(end.piece);
+  ends_freely_ = last.rest_after && end.along >= last.length && may_turn(last);
   while (controls_ <= knots_) advance();
+  if (turns_end(knots_ - 2)) find_steps(knots_ - 2);
   // Nothing more comes: each sweep and each check goes on to the end.
   const std::int64_t begun = controls_ - 1 - reach_of_control;
-  for (int sweep = 0; sweep < sweeps_.all; ++sweep) {
-    for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 2); k <= knots_ - 3; ++k) relax(k, sweep);
+  for (int sweep = 0; sweep < sweeps_.even; ++sweep) {
+    for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 1); k <= knots_ - 2; ++k) {
+      if (moves(k)) relax(k, sweep);
+    }
   }
-  const std::int64_t swept = begun - lag * sweeps_.all - 1;
+  const std::int64_t swept = begun - lag * sweeps_.even - 1;
   for (int round = 0; round < checks; ++round) {
     for (std::int64_t k = std::max<std::int64_t>(swept - lag * round + 1, 0); k <= knots_ - 2; ++k) check(k);
   }
@@ -85,17 +107,17 @@ void TubeSpline::advance() {
   begin_control(controls_);
   const std::int64_t ready = controls_ - reach_of_control;
   ++controls_;
-  if (is_free(ready)) find_steps(ready);
+  if (moves(ready)) find_steps(ready);
   std::int64_t k = ready;
-  for (int sweep = 0; sweep < sweeps_.all && k >= 2; ++sweep, k -= lag) {
-    if (is_free(k)) relax(k, sweep);
+  for (int sweep = 0; sweep < sweeps_.even && k >= 1; ++sweep, k -= lag) {
+    if (moves(k)) relax(k, sweep);
   }
-  k = ready - lag * sweeps_.all - 1;
+  k = ready - lag * sweeps_.even - 1;
   for (int round = 0; round < checks && k >= 0; ++round, k -= lag) check(k);
 }
 
 bool TubeSpline::next(Span& span) {
-  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps_.all - 1 - lag * (checks - 1);
+  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps_.even - 1 - lag * (checks - 1);
   const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag - 1;
   if (taken_ > final) return false;
   span.from = end_at(taken_);
@@ -110,12 +132,13 @@ bool TubeSpline::is_in_tube(std::int64_t k) const {
   return at(k).checked || worst_of(k).excess <= 0;
 }
 
-// At the ends of a stretch, place and tangent are those of the path, bit for bit.
+// At the ends of a stretch, the place is that of the path, bit for bit. So is the tangent, unless it is free.
 TubeSpline::End TubeSpline::end_at(std::int64_t k) const {
   const Site& site = at(k);
   End end{.knot = site.knot, .t = site.t, .place = site.place, .tangent = {}, .deviation = 0};
   if (k == 0 || (closed_ && k == knots_ - 1)) {
-    end.tangent = piece(site.knot.piece).segment.curve.tangent(Mm(site.knot.along));
+    const bool is_turned = k == 0 ? begins_freely_ : ends_freely_;
+    end.tangent = is_turned ? slope_at(k) : piece(site.knot.piece).segment.curve.tangent(Mm(site.knot.along));
     return end;
   }
   const Point off = relaxation_.off(k);
@@ -200,18 +223,29 @@ void TubeSpline::find_steps(std::int64_t k) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t knot = k - 1 + static_cast<std::int64_t>(i);
-    const double weight = at(knot).knot.weight * (at(knot - 1).pace.width + at(knot).pace.width) / 2;
+    const double before = has_span(knot - 1) ? at(knot - 1).pace.width : at(knot).pace.width;
+    const double after = has_span(knot) ? at(knot).pace.width : before;
+    const double weight = at(knot).knot.weight * (before + after) / 2;
     factors.off[i] = at(knot).value[2 - i];
     factors.bend[i] = at(knot).bend[2 - i];
     factors.pull[i] = weight * factors.bend[i];
     sum += factors.pull[i] * factors.bend[i];
+  }
+  if (turns_end(k)) {  // with the control beyond the end, neither place nor p'' at the end changes
+    const std::size_t end = k == 1 ? 0 : 2;
+    sum -= factors.pull[end] * factors.bend[end];
+    factors.pull[end] = 0;
+    factors.bend[end] = 0;
+    factors.off[end] = 0;
   }
   for (double& pull : factors.pull) pull /= sum;
   if (bends_slowly_) find_change_pull(k, factors);
 
   const auto part = [&](std::size_t i, double square) { return factors.off[i] / 2 - factors.bend[i] * square / 16; };
   for (std::size_t i = 0; i < 4; ++i) {
-    const double width = at(k - 2 + static_cast<std::int64_t>(i)).pace.width;
+    const std::int64_t span = k - 2 + static_cast<std::int64_t>(i);
+    if (!has_span(span)) continue;
+    const double width = at(span).pace.width;
     if (i > 0) factors.middle[i] += part(i - 1, width * width);
     if (i < 3) factors.middle[i] += part(i, width * width);
   }
@@ -226,7 +260,9 @@ void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) 
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double change = bend[i + 1] - bend[i];
-    const Site& span = at(k - 2 + static_cast<std::int64_t>(i));
+    const std::int64_t number = k - 2 + static_cast<std::int64_t>(i);
+    if (!has_span(number)) continue;
+    const Site& span = at(number);
     const double weight = span.knot.change_weight * change / span.pace.width;
     factors.change_pull[i + 1] += weight;
     factors.change_pull[i] -= weight;
@@ -302,15 +338,70 @@ void TubeSpline::measure_middle(std::int64_t k) {
 }
 
 void TubeSpline::relax(std::int64_t k, int sweep) {
+  if (sweep >= sweeps_.all && !at(k).knot.is_even) return;
+  const Point before = turns_end(k) ? relaxation_.control(k) : Point{};
+  wide_ ? step<axis_count>(k, sweep) : step<3>(k, sweep);
+  if (turns_end(k)) turn_end(k, relaxation_.control(k) - before);
+}
+
+template <std::size_t axes>
+void TubeSpline::step(std::int64_t k, int sweep) {
   const bool is_on_curve = !bends_slowly_ && piece(at(k).knot.piece).is_fitted;
   if (sweep < sweeps_.first || is_on_curve) {
-    wide_ ? relaxation_.relax_bending<axis_count>(k) : relaxation_.relax_bending<3>(k);
+    relaxation_.relax_bending<axes>(k);
+  } else if (at(k).knot.is_even && sweep >= sweeps_.before_eighth) {
+    step_in_even_row<axes, Relaxation::Power::eighth>(k, sweep);
+  } else if (at(k).knot.is_even && sweep >= sweeps_.before_fourth) {
+    step_in_even_row<axes, Relaxation::Power::fourth>(k, sweep);
   } else if (bends_slowly_) {
-    const bool slides = (sweep - sweeps_.first) % slides_each == slides_each - 1;
-    wide_ ? relaxation_.relax_change<axis_count>(k, slides) : relaxation_.relax_change<3>(k, slides);
+    relaxation_.relax_change<axes>(k, slides(sweep));
   } else {
-    wide_ ? relaxation_.relax_highest_bending<axis_count>(k) : relaxation_.relax_highest_bending<3>(k);
+    relaxation_.relax_highest_bending<axes, Relaxation::Power::fourth>(k);
   }
+}
+
+template <std::size_t axes, Relaxation::Power power>
+void TubeSpline::step_in_even_row(std::int64_t k, int sweep) {
+  if (bends_slowly_) {
+    relaxation_.relax_highest_change<axes, power>(k, weights_in_even_row<power>(k), slides(sweep));
+  } else {
+    relaxation_.relax_highest_bending<axes, power>(k);
+  }
+}
+
+// The weights of the spans k-2 to k+1. The mean of a span is taken before the first step that needs it, over the spans
+// k-2 to k+2. All sweeps before have passed these, and no sweep behind has reached them.
+template <Relaxation::Power power>
+Relaxation::Four TubeSpline::weights_in_even_row(std::int64_t k) {
+  Relaxation::Four weights{};
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const std::int64_t span = k - 2 + static_cast<std::int64_t>(i);
+    if (!has_span(span)) continue;
+    Site& site = at(span);
+    const double width = site.pace.width;
+    if (site.per_change == 0) site.per_change = 1 / (mean_change_around(k) * width * width);
+    const double scale = site.per_change;
+    weights[i] = site.knot.change_weight / width * (power == Relaxation::Power::fourth ? scale : scale * scale * scale);
+  }
+  return weights;
+}
+
+double TubeSpline::mean_change_around(std::int64_t k) const {
+  double sum = no_change_of_bend * no_change_of_bend;
+  double widths = 0;
+  for (std::int64_t span = k - 2; span <= k + 2; ++span) {
+    if (!has_span(span)) continue;
+    const double width = at(span).pace.width;
+    sum += relaxation_.square_of_change(span) / width;
+    widths += width;
+  }
+  return sum / widths;
+}
+
+// The control beyond the end goes the other way.
+void TubeSpline::turn_end(std::int64_t k, const Point& step) {
+  const std::int64_t beyond = k == 1 ? -1 : knots_;
+  relaxation_.set_control(beyond, relaxation_.control(beyond) - step);
 }
 
 // ---- checks --------------------------------------------------------------------------------------------------------
@@ -398,7 +489,9 @@ TubeSpline::Worst TubeSpline::worst_in_parts(std::int64_t k, int parts) const {
 
 void TubeSpline::move(std::int64_t k, const Point& step) {
   relaxation_.move(k, step);
-  for (std::int64_t span = k - 2; span <= k + 1; ++span) at(span).checked = false;
+  for (std::int64_t span = k - 2; span <= k + 1; ++span) {
+    if (has_span(span)) at(span).checked = false;
+  }
 }
 
 void TubeSpline::check(std::int64_t k) {
@@ -432,16 +525,21 @@ void TubeSpline::push_back(std::int64_t k, const Worst& worst) {
   constexpr double a_little_more = 1e-3;  // of the tube
   const double off = length_of(worst.off);
   if (!(off > 0)) return;
-  const std::array<double, 4> weights = weights_at(k, worst.along);
+  std::array<double, 4> weights = weights_at(k, worst.along);
+  if (k == 0 && begins_freely_) weights[2] -= weights[0];
+  if (closed_ && k == knots_ - 2 && ends_freely_) weights[1] -= weights[3];
   double squares = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (is_free(k - 1 + static_cast<std::int64_t>(i))) squares += weights[i] * weights[i];
+    if (moves(k - 1 + static_cast<std::int64_t>(i))) squares += weights[i] * weights[i];
   }
   if (!(squares > 0)) return;
   const double amount = std::min(worst.excess + a_little_more * at(k).tube, off);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::int64_t control = k - 1 + static_cast<std::int64_t>(i);
-    if (is_free(control)) move(control, worst.off * (-amount / off * weights[i] / squares));
+    if (!moves(control)) continue;
+    const Point step = worst.off * (-amount / off * weights[i] / squares);
+    move(control, step);
+    if (turns_end(control)) turn_end(control, step);
   }
 }
 

@@ -11,10 +11,15 @@
 // one after the other, to the minimum of a sum over the knots (a Gauss-Seidel step). A control point moves only as far
 // as the deviation from the path stays within the tube, at the knots and in the middles between them.
 //
+// Where a section begins or ends at a stop, its direction there is free: the sweeps also move the control point next to
+// the end, and the one beyond the end moves by the same distance the other way. Position and second derivative stay.
+//
 //   least bending:  6 sweeps for |p''|² times the knots' weight and distance, then 4 for the fourth powers of each
-//                   axis' p'' instead of |p''|²
+//                   axis' p'' instead of |p''|², and in even rows of corners 14 for the eighth powers
 //   slow bending:   12 sweeps for |p''|², then 9 for |p'''|². Every third of these slides along the tube where the tube
-//                   stops a control point.
+//                   stops a control point. In even rows of corners: 5 for |p'''|², 4 for the fourth powers of each
+//                   axis' p''' and 12 for the eighth, where p''' counts in multiples of its root mean square around the
+//                   span. So each corner counts, not only those where the path bends most.
 //
 // Each sweep runs four control points behind the previous sweep, because nearer control points would influence each
 // other. So the result is the same as that of sweeps over the whole section. Only a window of `window` knots is kept,
@@ -38,11 +43,16 @@ class TubeSpline {
  public:
   struct Sweeps {
     int first = 0;  // for |p''|²
-    int all = 0;
+    int all = 0;    // where the corners are not alike
+    // In even rows of corners:
+    int before_fourth = 0;
+    int before_eighth = 0;
+    int even = 0;  // all
   };
-  static constexpr Sweeps least_bending_sweeps{.first = 6, .all = 10};
-  static constexpr Sweeps slow_bending_sweeps{.first = 12, .all = 21};
-  static constexpr int slides_each = 3;        // every third of the sweeps for |p'''|² slides
+  static constexpr Sweeps least_bending_sweeps{
+      .first = 6, .all = 10, .before_fourth = 6, .before_eighth = 10, .even = 24};
+  static constexpr Sweeps slow_bending_sweeps{
+      .first = 12, .all = 21, .before_fourth = 17, .before_eighth = 21, .even = 33};
   static constexpr int checks = 12;            // rounds: correcting a span pushes its neighbours outwards
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
@@ -87,11 +97,18 @@ class TubeSpline {
     double tube = 0;                // around the span
     double bend_of_path = 0;        // maximum |P''| in the span
     std::array<double, 2> slack{};  // maximum distance of the path's vertices from the chord, in each half of the span
+    double per_change = 0;          // 1 / (the mean |p'''|² around the span times its width²); 0: not yet known
     bool checked = false;
   };
   Site& at(std::int64_t k) { return sites_[static_cast<std::size_t>(k + 1) & (window - 1)]; }
   const Site& at(std::int64_t k) const { return sites_[static_cast<std::size_t>(k + 1) & (window - 1)]; }
   bool is_free(std::int64_t k) const { return k >= 2 && !(closed_ && k > knots_ - 3); }
+  // Whether it is the control point next to an end whose direction is free.
+  bool turns_end(std::int64_t k) const {
+    return (k == 1 && begins_freely_) || (closed_ && k == knots_ - 2 && ends_freely_);
+  }
+  bool moves(std::int64_t k) const { return is_free(k) || turns_end(k); }
+  bool has_span(std::int64_t k) const { return k >= 0 && !(closed_ && k > knots_ - 2); }
   double knot_at(std::int64_t k) const;
 
   // The path in a span.
@@ -116,7 +133,15 @@ class TubeSpline {
   // Sweeps.
   void advance();
   void relax(std::int64_t k, int sweep);
+  template <std::size_t axes>
+  void step(std::int64_t k, int sweep);
+  template <std::size_t axes, Relaxation::Power power>
+  void step_in_even_row(std::int64_t k, int sweep);
+  template <Relaxation::Power power>
+  Relaxation::Four weights_in_even_row(std::int64_t k);
+  double mean_change_around(std::int64_t k) const;
   void move(std::int64_t k, const Point& step);
+  void turn_end(std::int64_t k, const Point& step);
 
   // Checks.
   struct SpanForm {  // p - P at the first knot + slope u + bend u²/2 + change u³/6
@@ -157,6 +182,8 @@ class TubeSpline {
   std::int64_t taken_ = 0;      // the number of spans returned
   bool closed_ = false;
   bool wide_ = false;  // axes other than X, Y and Z move too
+  bool begins_freely_ = false;
+  bool ends_freely_ = false;
 };
 
 }  // namespace passo
