@@ -42,7 +42,7 @@ if [[ $# == 0 ]]; then
   layers=(examples/boards/timer-B_Cu.gbr "$work/800-islands.gbr")
   large_board >"$work/800-islands.gbr"
   if [[ -d ../shared/peers/boards ]]; then
-    layers+=(../shared/peers/boards/*/*_Cu.gbr ../shared/peers/boards/*/*.?.Cu.gbr ../shared/peers/boards/*/*.G[TB]L)
+    layers+=(../shared/peers/boards/*/*_Cu.gbr ../shared/peers/boards/*/*-?.Cu.gbr ../shared/peers/boards/*/*.G[TB]L)
   else
     echo "isolation_table.sh: ../shared/peers/boards is absent: without its boards" >&2
   fi

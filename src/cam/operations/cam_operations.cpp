@@ -34,6 +34,7 @@ constexpr const char* pocket_examples =
   passo cam pocket tray.svg --tool 6 --depth -12 --step 12 --engagement 60 -o tray.ngc
                                                            full flute length, never a full slot: for hard materials
   passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
+  passo cam pocket mask.gbr --tool 0.4 --depth -0.1 --ramp 0 -o mask.ngc       the openings of a board's solder mask
   passo cam pocket tray.svg --depth -8 --tool-table tools.toml --tool T1 --material hardwood --limits router.toml -o tray.ngc
 
 A contour inside another contour is an island, which stays. All options: docs/manual/parts.md.)";
@@ -198,7 +199,7 @@ constexpr std::array operations = {
                  .options = options_with_defaults<CamProfileArguments>},
     CamOperation{.name = "pocket",
                  .purpose = "clear the areas inside the closed contours of a drawing",
-                 .accepts = ".svg,.dxf,.hpgl,.plt,.toml",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.gbr,.gts,.gbs,.gtp,.gbp,.gtl,.gbl,.toml",
                  .examples = pocket_examples,
                  .options = options_with_defaults<CamPocketArguments>},
     CamOperation{.name = "engrave",

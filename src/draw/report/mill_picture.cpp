@@ -19,7 +19,7 @@ const Pen sheet_pen{.colour = {0.45, 0.33, 0.18}, .width = 1.4};
 
 PlanView view_of(const MillScene& scene, const Area& area) {
   DrawnBox box = bounds(scene.face).value_or(DrawnBox{scene.park, scene.park});
-  extend(box, scene.park);
+  if (!scene.link.start || !scene.link.ends_in_place) extend(box, scene.park);
   if (scene.sheet) {
     extend(box, scene.sheet->least);
     extend(box, scene.sheet->most);
@@ -54,17 +54,20 @@ void draw_ways(Canvas& canvas, const PlanView& view, const MillTool& tool, const
   }
 }
 
-void draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, DrawnPoint park) {
-  DrawnPoint at = park;
+// Returns where the next tool comes from. `to`: where this one goes; empty: it stays at its last cut.
+DrawnPoint draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, DrawnPoint at,
+                       std::optional<DrawnPoint> to) {
   for (const MillRun& run : tool.runs) {
     canvas.move_to(view.spot(at));
     canvas.line_to(view.spot(run.front().at));
     canvas.stroke(rapids_pen);
     at = run.back().at;
   }
+  if (!to) return at;
   canvas.move_to(view.spot(at));
-  canvas.line_to(view.spot(park));
+  canvas.line_to(view.spot(*to));
   canvas.stroke(rapids_pen);
+  return *to;
 }
 
 void draw_mark(Canvas& canvas, Spot middle) {
@@ -92,8 +95,7 @@ void draw_sheet(Canvas& canvas, const PlanView& view, const DrawnBox& sheet) {
 Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions& options, OutputFile& file) {
   Canvas canvas(options, file);
   MillLengths all;
-  for (const MillTool& tool : scene.plan.tools) {
-    const MillLengths lengths = lengths_of(tool, scene.park);
+  for (const MillLengths& lengths : lengths_of(scene.plan, scene.park, scene.link)) {
     all.runs += lengths.runs;
     all.milled_nm += lengths.milled_nm;
     all.rapids_nm += lengths.rapids_nm;
@@ -113,8 +115,10 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
     const double width = std::max(thinnest, view.pixels(tool.width));
     draw_ways(canvas, view, tool, {.colour = colour_of_tool(i), .width = width, .opacity = 0.35});
   }
+  DrawnPoint at = scene.link.from(scene.park);
   for (std::size_t i = 0; i < scene.plan.tools.size(); ++i) {
-    draw_rapids(canvas, view, scene.plan.tools[i], scene.park);
+    const std::optional<DrawnPoint> to = scene.link.to(scene.park, i + 1 == scene.plan.tools.size());
+    at = draw_rapids(canvas, view, scene.plan.tools[i], at, to);
     draw_ways(canvas, view, scene.plan.tools[i], {.colour = colour_of_tool(i), .width = thinnest});
   }
   for (const DrawnPoint& mark : scene.marks) draw_mark(canvas, view.spot(mark));

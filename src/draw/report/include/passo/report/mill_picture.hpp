@@ -22,6 +22,7 @@ struct MillScene {
   DrawnPoint park = {};                // where the rapids begin and end
   std::string warned_name = {};        // "Not reached"; empty: omitted from the legend
   std::optional<DrawnBox> sheet = {};  // the sheet of material
+  RouteLink link = {};
 };
 
 // Draws into `file`; the caller commits it.
