@@ -73,7 +73,7 @@ for layer in "${layers[@]}"; do
   [[ -e $layer ]] || continue
   isolate --tool 0.2
   first=$took
-  nets=$(sed -nE 's/.*; ([0-9]+) nets?[ ,].*/\1/p' <<<"$said" | tail -n 1)
+  nets=$(sed -nE 's/^proof: [^;]*; ([0-9]+) nets?[ ,].*/\1/p' <<<"$said" | tail -n 1)
   before=$(joined)
   advice=$(sed -nE 's/.*: (-.*) was tried: .*/\1/p' <<<"$said" | tail -n 1)
   promise=$(sed -nE 's/.* was tried: (all nets are apart|[0-9]+).*/\1/p' <<<"$said" | tail -n 1)

@@ -129,6 +129,7 @@ constexpr const char* board_examples =
                                      probing finds the flipped board, and measures its height map
   passo cam board gerbers/ --copies 3x4 --gap 6 -o job         twelve boards on one blank, tool by tool
   passo cam board gerbers/ --mask 0.4 --stencil 0.3 -o job     also the solder mask's openings and a paste stencil
+  passo cam board gerbers/ --for grbl --tool-table tools.toml --material fr4 -o job    for Grbl, with your own drills
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
 
