@@ -42,7 +42,7 @@ if [[ $# == 0 ]]; then
   layers=(examples/boards/timer-B_Cu.gbr "$work/800-islands.gbr")
   large_board >"$work/800-islands.gbr"
   if [[ -d ../shared/peers/boards ]]; then
-    layers+=(../shared/peers/boards/*/*_Cu.gbr ../shared/peers/boards/*/*.?.Cu.gbr ../shared/peers/boards/*/*.G[TB]L)
+    layers+=(../shared/peers/boards/*/*_Cu.gbr ../shared/peers/boards/*/*-?.Cu.gbr ../shared/peers/boards/*/*.G[TB]L)
   else
     echo "isolation_table.sh: ../shared/peers/boards is absent: without its boards" >&2
   fi
@@ -73,7 +73,7 @@ for layer in "${layers[@]}"; do
   [[ -e $layer ]] || continue
   isolate --tool 0.2
   first=$took
-  nets=$(sed -nE 's/.*; ([0-9]+) nets?[ ,].*/\1/p' <<<"$said" | tail -n 1)
+  nets=$(sed -nE 's/^proof: [^;]*; ([0-9]+) nets?[ ,].*/\1/p' <<<"$said" | tail -n 1)
   before=$(joined)
   advice=$(sed -nE 's/.*: (-.*) was tried: .*/\1/p' <<<"$said" | tail -n 1)
   promise=$(sed -nE 's/.* was tried: (all nets are apart|[0-9]+).*/\1/p' <<<"$said" | tail -n 1)

@@ -164,6 +164,58 @@ TEST_F(CamMill, a_whole_board_gets_numbered_programs_and_a_page) {
   EXPECT_THAT(read(path("job/3-isolate-back.ngc")), HasSubstr("about X10 mm"));
 }
 
+TEST_F(CamMill, programs_of_a_board_are_for_one_controller) {
+  const std::string files = copper() + " " + edge() + " " + drills() + " ";
+  const Outcome made = cam("board " + files + "--accept-joined --for grbl --change-height 8 -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  for (const char* name : {"1-drill.ngc", "2-isolate-front.ngc", "3-outline.ngc"}) {
+    const std::string program = read(path("job/" + std::string(name)));
+    EXPECT_THAT(program, Not(HasSubstr("G81"))) << name;
+    EXPECT_THAT(program, Not(HasSubstr("M6"))) << name;
+    EXPECT_THAT(program, HasSubstr("Z8\n")) << name;
+  }
+  const Outcome probing = cam("board " + files + "--heights 4x3 --for grbl -o " + path("none"));
+  EXPECT_EQ(probing.code, 2);
+  EXPECT_THAT(probing.err, HasSubstr("only passo and linuxcnc run"));
+  EXPECT_FALSE(std::filesystem::exists(path("none")));
+}
+
+TEST_F(CamMill, all_programs_of_a_board_can_be_one_route) {
+  const std::string drill = write("board-PTH.drl",
+                                  "M48\nMETRIC,TZ\nT1C0.800\nT2C1.000\n%\nG90\nG05\nT1\nX5.0Y5.0\nX15.0Y5.0\nT2\n"
+                                  "X16.0Y12.0\nX4.0Y12.0\nM30\n");
+  const std::string files = "board " + copper() + " " + edge() + " " + drill + " --accept-joined ";
+  const Outcome made = cam(files + "--park last -o " + path("job"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  const auto parks = [&](const std::string& name) {
+    const std::string program = read(path(name));
+    return std::pair(program.find("G0 X0 Y0\n") != std::string::npos, program);
+  };
+  const auto [drill_parks, drilling] = parks("job/1-drill.ngc");
+  EXPECT_FALSE(drill_parks);
+  // The second drill begins at the hole beside the last one of the first drill.
+  EXPECT_THAT(drilling, HasSubstr("X25 Y15\nG80"));
+  EXPECT_THAT(drilling, HasSubstr("T2 M6\nG0 Z20\nM3 S12000\nG4 P2 (the spindle reaches its speed)\nG0 X26 Y22\n"));
+  EXPECT_FALSE(parks("job/2-isolate-front.ngc").first);
+  EXPECT_TRUE(parks("job/3-outline.ngc").first);
+  EXPECT_EQ(check(path("job/1-drill.ngc")).code, 0);
+  EXPECT_EQ(cam(files + "--park 0,50 -o " + path("far")).code, 0);
+  EXPECT_THAT(read(path("far/2-isolate-front.ngc")), HasSubstr("G0 X0 Y50\nM2\n"));
+  const Outcome wrong = cam(files + "--park there -o " + path("none"));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--park: expected X,Y or last, found 'there'"));
+}
+
+TEST_F(CamMill, a_contour_of_the_edge_that_is_drawn_twice_is_reported) {
+  const std::string square = "X0Y0D02*\nX20000000Y0D01*\nX20000000Y15000000D01*\nX0Y15000000D01*\nX0Y0D01*\n";
+  const std::string twice =
+      write("twice.gbr", std::string(begin) + "%ADD10C,0.1*%\nD10*\n" + square + square + "M02*\n");
+  const Outcome made = cam("outline " + twice + " -o " + path("twice.ngc"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("1 closed contour that repeats another is ignored"));
+  EXPECT_THAT(made.out, HasSubstr("1 outline and 0 openings"));
+}
+
 TEST_F(CamMill, an_edge_with_gaps_is_joined_where_that_is_asked_for) {
   const std::string open =
       write("open-Edge_Cuts.gbr", "%TF.FileFunction,Profile,NP*%\n" + std::string(begin) +

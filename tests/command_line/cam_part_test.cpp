@@ -71,6 +71,39 @@ TEST_F(CamPart, a_contour_drawn_twice_counts_once) {
   }
 }
 
+TEST_F(CamPart, what_gerber_layers_draw_is_cleared) {
+  const std::string begin = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10R,3X2*%\n%ADD11R,2X2*%\nD10*\n";
+  const std::string mask = write("mask.gbr", "%TF.FilePolarity,Negative*%\n" + begin + "X5000000Y5000000D03*\nM02*\n");
+  // A second layer, which overlaps the first: overlapping areas are one pocket.
+  const std::string more = write("more.gbr", begin + "D11*\nX7000000Y5000000D03*\nX20000000Y5000000D03*\nM02*\n");
+  const Outcome made =
+      passo("cam pocket " + mask + " " + more + " --tool 0.5 --depth -0.1 --ramp 0 --zero lower-left -o " +
+            path("p.ngc") + " -p " + path("p.svg"));
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("drawn: X 0 to 17.5, Y 0 to 2 mm"));
+  EXPECT_THAT(made.out, HasSubstr("2 pockets of 13 mm²"));
+  EXPECT_THAT(read(path("p.ngc")), HasSubstr("Z-0.1"));
+  const Outcome selected = passo("cam pocket " + mask + " --layer 0 --tool 0.5 -o " + path("x.ngc"));
+  EXPECT_EQ(selected.code, 2);
+  EXPECT_THAT(selected.err, HasSubstr("a Gerber file is a single layer"));
+  const Outcome both = passo("cam pocket " + mask + " " + checkout + "/examples/parts/bracket.svg -o " + path("x.ngc"));
+  EXPECT_EQ(both.code, 2);
+  EXPECT_THAT(both.err, HasSubstr("either drawings or Gerber layers"));
+  EXPECT_FALSE(std::filesystem::exists(path("x.ngc")));
+}
+
+TEST_F(CamPart, points_are_dots_where_lines_are_followed) {
+  const std::string points = write("points.dxf",
+                                   "0\nSECTION\n2\nENTITIES\n0\nPOINT\n8\n0\n10\n4\n20\n3\n0\nLINE\n8\n0\n"
+                                   "10\n10\n20\n0\n11\n20\n21\n0\n0\nENDSEC\n0\nEOF\n");
+  const std::string input = " --input mm --depth -0.5 -o " + path("dots.ngc");
+  const Outcome on = passo("cam profile " + points + " --side on" + input);
+  EXPECT_EQ(on.code, 0) << on.err;
+  EXPECT_THAT(on.out, HasSubstr("1 open line, 1 dot"));
+  EXPECT_THAT(on.err, Not(HasSubstr("ignored")));
+  EXPECT_THAT(read(path("dots.ngc")), HasSubstr("G0 X4 Y3\n"));
+}
+
 TEST_F(CamPart, walls_are_finished_and_reported) {
   const std::string pocket =
       "cam pocket " + bracket + " --layer pocket --tool 3 --depth -6 --step 2 -o " + path("f.ngc");

@@ -177,6 +177,55 @@ TEST_F(Tools, warn_about_a_pass_that_is_deeper_than_the_flutes) {
   EXPECT_TRUE(json_of(feeds + "12 --json")["warnings"].empty());
 }
 
+TEST_F(Tools, of_a_library_isolate_and_cut_boards_out) {
+  const std::string library = " --tool-table " + tool_library + " -o " + path("b.ngc");
+  const std::string pads = write("pads.gbr",
+                                 "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,2*%\nD10*\nX5000000Y5000000D03*\n"
+                                 "X12000000Y5000000D03*\nM02*\n");
+  EXPECT_EQ(passo("cam isolate " + pads + " --tool T3 --depth -0.1 --material fr4" + library).code, 0);
+  // A V-bit of 60 degrees with a tip of 0.1 mm is 0.215 mm wide at 0.1 mm.
+  EXPECT_THAT(read(path("b.ngc")), HasSubstr("V 60 degrees, tip 0.1 mm: 0.2155 mm at the face"));
+  EXPECT_THAT(read(path("b.ngc")), HasSubstr("mm per tooth in fr4"));
+  EXPECT_THAT(read(path("b.ngc")), Not(HasSubstr("F200\n"))) << "the feed follows from the tool";
+  EXPECT_EQ(passo("cam isolate " + pads + " --tool T7,0.3" + library).code, 0);
+  EXPECT_THAT(passo("cam isolate " + pads + " --tool T3,T3" + library).err, HasSubstr("[tool.wrong-shape]"));
+  EXPECT_THAT(passo("cam isolate " + pads + " --tool T2" + library).err, HasSubstr("[tool.wrong-shape]"));
+  const std::string edge = checkout + "/examples/boards/timer-Edge_Cuts.gbr";
+  const Outcome cut = passo("cam outline " + edge + " --tool T7 --material fr4" + library);
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  EXPECT_THAT(read(path("b.ngc")), HasSubstr("(tool: T7 \"fine corn cutter, for boards\""));
+}
+
+TEST_F(Tools, are_the_rack_of_a_drill_program) {
+  const std::string library = write("rack.toml",
+                                    "[tool.1]\nshape = \"drill\"\ndiameter_mm = 0.8\n[tool.2]\nshape = \"drill\"\n"
+                                    "diameter_mm = 1\n[tool.3]\nshape = \"drill\"\ndiameter_mm = 3\n[tool.4]\n"
+                                    "shape = \"flat\"\ndiameter_mm = 2\n");
+  const std::string drill = "cam drill " + checkout + "/examples/boards/timer.drl --mill 1 --tool-table " + library;
+  const Outcome all = passo(drill + " --tools all --material fr4 -o " + path("all.ngc"));
+  EXPECT_EQ(all.code, 0) << all.err;
+  const std::string program = read(path("all.ngc"));
+  EXPECT_THAT(program, HasSubstr("(drill: T1 drill, 0.8 mm"));
+  EXPECT_THAT(program, Not(HasSubstr("0.75 mm"))) << "the rack has no such drill";
+  const auto feed_after = [&](const std::string& message) {
+    const std::size_t at = program.find("\nF", program.find("MSG, " + message));
+    return std::stod(program.substr(at + 2));
+  };
+  EXPECT_LT(feed_after("tool 1: drill 0.8"), feed_after("tool 2: drill 1")) << "each drill has its own feed";
+  EXPECT_EQ(passo(drill + " --tools T1,T2,3 -o " + path("some.ngc")).code, 0);
+  EXPECT_THAT(passo(drill + " --tools T9").err, HasSubstr("[tool.unknown]"));
+  EXPECT_THAT(passo("cam drill " + checkout + "/examples/boards/timer.drl --tools all").err,
+              HasSubstr("[tool.no-library]"));
+  const std::string profile =
+      write("profile.toml", "[drill]\nmill = \"1\"\n[outline]\ntool = \"T4\"\nfeed = \"333\"\n");
+  const Outcome board = passo("cam board " + checkout + "/examples/boards --accept-joined --profile " + profile +
+                              " --material fr4 --tool-table " + library + " -o " + path("job"));
+  EXPECT_EQ(board.code, 0) << board.err;
+  EXPECT_THAT(read(path("job/1-drill.ngc")), HasSubstr("(drill: T1 drill, 0.8 mm"));
+  EXPECT_THAT(read(path("job/3-outline.ngc")), HasSubstr("(tool: T4 flat end, 2 mm"));
+  EXPECT_THAT(read(path("job/3-outline.ngc")), HasSubstr("F333\n")) << "the profile takes precedence";
+}
+
 TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
   const std::string with = " --tool-table " + tool_library + " -o " + path("made.ngc") + " ";
   const Outcome letters = passo("cam engrave --text Hi --tool T3 --material hardwood" + with);

@@ -56,7 +56,7 @@ class DrillPlanner {
   void warn_of_others();
   void finish();
   void order_all(const WorkProgress& progress);
-  void order(DrillTool& tool, const WorkProgress& progress) const;
+  void order(DrillTool& tool, DrawnPoint from, std::optional<DrawnPoint> to, const WorkProgress& progress) const;
 
   DrillTool& drill_of(Nanometres diameter) {
     DrillTool& tool = drills_[diameter];
@@ -320,23 +320,27 @@ void DrillPlanner::order_all(const WorkProgress& progress) {
   double all = 0;
   for (const DrillTool& tool : plan_.tools) all += static_cast<double>(tool.targets.size());
   double done = 0;
+  DrawnPoint at = options_.link.from(options_.park);
   for (DrillTool& tool : plan_.tools) {
     const double before = std::exchange(done, done + static_cast<double>(tool.targets.size()));
-    order(tool, progress.part(before / all, done / all));
+    const std::optional<DrawnPoint> to = options_.link.to(options_.park, &tool == &plan_.tools.back());
+    order(tool, at, to, progress.part(before / all, done / all));
+    at = to.value_or(tool.targets.empty() ? at : tool.targets.back().points.front().at);
   }
 }
 
 // Each target counts as the place where it begins: an open slot is short beside the ways between.
-void DrillPlanner::order(DrillTool& tool, const WorkProgress& progress) const {
+void DrillPlanner::order(DrillTool& tool, DrawnPoint from, std::optional<DrawnPoint> to,
+                         const WorkProgress& progress) const {
   std::vector<DrawnPoint> places;
   for (const DrillTarget& target : tool.targets) places.push_back(target.points.front().at);
   std::vector<std::uint32_t> given(places.size());
   for (std::uint32_t i = 0; i < given.size(); ++i) given[i] = i;
-  tool.rapids_before_nm = route_length(places, given, options_.park, options_.park);
+  tool.rapids_before_nm = route_length(places, given, from, to);
   constexpr std::uint64_t enough_a_place = 20'000;
   const std::uint64_t steps = std::min(options_.route_steps, enough_steps(places.size(), enough_a_place));
-  std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, steps, progress);
-  tool.rapids_after_nm = route_length(places, best, options_.park, options_.park);
+  std::vector<std::uint32_t> best = shorten_route(places, from, to, steps, progress);
+  tool.rapids_after_nm = route_length(places, best, from, to);
   if (tool.rapids_after_nm > tool.rapids_before_nm) {  // the file's own order is better
     best = given;
     tool.rapids_after_nm = tool.rapids_before_nm;

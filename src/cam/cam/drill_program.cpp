@@ -20,7 +20,7 @@ class DrillProgram {
   std::string write() {
     begin();
     for (std::size_t i = 0; i < plan_.tools.size(); ++i) write_tool(plan_.tools[i], i + 1);
-    text_.end(options_.spindle.has_value(), options_.park, change_height());
+    text_.end(options_.spindle.has_value(), parked(!options_.change.ends_in_place), change_height());
     return text_.take();
   }
 
@@ -40,8 +40,17 @@ class DrillProgram {
   void go_along(const std::vector<PathPoint>& points, bool is_closed, bool backwards);
   void arc(DrawnPoint from, DrawnPoint to, double bulge);
   std::vector<Nanometres> depths() const;
+  std::optional<DrawnPoint> parked(bool is_parked) const {
+    return is_parked ? std::optional(options_.park) : std::nullopt;
+  }
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
   Nanometres feed_height() const { return std::min(options_.clearance, options_.feed_height); }
+
+  // Null: the drill has the feed and the speed of the others.
+  const DrillFeed* feed_of(const DrillTool& tool) const {
+    const auto found = std::ranges::find(options_.drill_feeds, tool.diameter, &DrillFeed::diameter);
+    return tool.is_mill || found == options_.drill_feeds.end() ? nullptr : &*found;
+  }
 
   std::string number(Nanometres length) const { return text_.number(length); }
   std::string place(DrawnPoint at) const { return text_.place(at); }
@@ -75,12 +84,14 @@ void DrillProgram::begin() {
 void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool) {
   line("");
   line("(tool {}: {}, {})", number_of_tool, diameter_words(tool), contents_of(tool));
-  text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), options_.spindle, options_.park,
-                    change_height(), options_.change.spindle_seconds});
+  const DrillFeed* const own = feed_of(tool);
+  const auto spindle = own != nullptr && own->spindle && options_.spindle ? own->spindle : options_.spindle;
+  text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), spindle,
+                    parked(!options_.change.changes_in_place), change_height(), options_.change.spindle_seconds});
   // A cycle returns to the height at which it began.
   if (!tool.targets.empty()) line("G0 {}", place(start_of(tool.targets.front())));
   line("G0 Z{}", number(options_.clearance));
-  line("F{}", number(tool.is_mill ? options_.mill_feed : options_.feed));
+  line("F{}", number(tool.is_mill ? options_.mill_feed : own != nullptr ? own->feed : options_.feed));
   bool in_cycle = false;
   rises_ = true;
   for (std::size_t i = 0; i < tool.targets.size(); ++i) {

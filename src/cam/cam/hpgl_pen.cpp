@@ -83,7 +83,7 @@ void HpglPen::raise() {
   if (path_.points.size() == 1) {
     // A dot at the end of the last line adds nothing.
     const DrawnPoint at = path_.points.front().at;
-    if (!(has_last_ && last_ == at)) builder_.add_hole({at, {}, layer_, line_, true});
+    if (!(has_last_ && last_ == at)) builder_.add_hole({at, {}, layer_, line_});
     last_ = at;
     has_last_ = true;
     path_ = {};

@@ -352,8 +352,9 @@ void IsolationPlanner::mill_with(const IsolationCutter& cutter, bool is_first, b
   const ArcFit arcs{.even_chord_nm = static_cast<double>(options_.tolerance.count),
                     .rounded_turn = options_.climb ? -1 : 1};
   MillTool tool{cutter.width, cutter.words, {}};
-  tool.runs =
-      order_ways(ways, {options_.park, options_.depth, options_.route_steps, arcs, may_link}, progress.part(0.5, 1));
+  const DrawnPoint from = end_of(plan_.mill, options_.park, options_.link);
+  const std::optional<DrawnPoint> to = options_.link.to(options_.park, !is_followed);
+  tool.runs = order_ways(ways, {from, to, options_.depth, options_.route_steps, arcs, may_link}, progress.part(0.5, 1));
   if (is_followed && !options_.voronoi) {
     std::vector<DrawnRing> chords;
     for (const MillRun& run : tool.runs) chords.push_back(chords_of(run, options_.tolerance));

@@ -82,7 +82,7 @@ void WayOrderer::chain() {
   }
   firsts.push_back(static_cast<std::uint32_t>(places.size()));
   PlaceTree left(places);
-  DrawnPoint at = order_.park;
+  DrawnPoint at = order_.start;
   const WorkProgress chaining = progress_.part(0, 0.4);
   for (std::size_t done = 0; done < ways_.size(); ++done) {
     const EnteredWay next = entered[left.nearest_left(at)];
@@ -97,12 +97,12 @@ void WayOrderer::chain() {
 
 double WayOrderer::rapids(const std::vector<Chain>& chains) const {
   double length = 0;
-  DrawnPoint at = order_.park;
+  DrawnPoint at = order_.start;
   for (const Chain& chain : chains) {
     length += distance_nm(at, start(chain));
     at = end(chain);
   }
-  return length + distance_nm(at, order_.park);
+  return order_.end ? length + distance_nm(at, *order_.end) : length;
 }
 
 // Each chain is represented by its start.
@@ -112,7 +112,7 @@ void WayOrderer::shorten(const WorkProgress& progress) {
   constexpr std::uint64_t enough_a_place = 5'000;
   const std::uint64_t steps = std::min(order_.route_steps, enough_steps(places.size(), enough_a_place));
   std::vector<Chain> shorter;
-  for (const std::uint32_t index : shorten_route(places, order_.park, order_.park, steps, progress)) {
+  for (const std::uint32_t index : shorten_route(places, order_.start, order_.end, steps, progress)) {
     shorter.push_back(chains_[index]);
   }
   if (rapids(shorter) < rapids(chains_)) chains_ = std::move(shorter);
@@ -124,7 +124,7 @@ void WayOrderer::shorten_directed() {
   for (const Chain& chain : chains_)
     pieces.push_back({start(chain), end(chain), chain.size() == 1 && way(chain.front()).may_be_turned});
   std::vector<Chain> shorter;
-  for (const PlacedPiece& placed : shorten_piece_order(pieces, order_.park, order_.route_steps)) {
+  for (const PlacedPiece& placed : shorten_piece_order(pieces, order_.start, order_.end, order_.route_steps)) {
     Chain& chain = shorter.emplace_back(std::move(chains_[placed.piece]));
     if (placed.is_turned) turn(chain.front());
   }
@@ -136,12 +136,12 @@ void WayOrderer::turn_loops() {
   for (std::size_t i = 0; i < chains_.size(); ++i) {
     EnteredWay& loop = chains_[i].front();
     if (chains_[i].size() > 1 || !way(loop).is_closed) continue;
-    const DrawnPoint before = i == 0 ? order_.park : end(chains_[i - 1]);
-    const DrawnPoint after = i + 1 == chains_.size() ? order_.park : start(chains_[i + 1]);
+    const DrawnPoint before = i == 0 ? order_.start : end(chains_[i - 1]);
+    const std::optional<DrawnPoint> after = i + 1 == chains_.size() ? order_.end : start(chains_[i + 1]);
     double best = std::numeric_limits<double>::max();
     const DrawnRing& points = way(loop).points;
     for (std::uint32_t k = 0; k < points.size(); ++k) {
-      const double length = distance_nm(before, points[k]) + distance_nm(points[k], after);
+      const double length = distance_nm(before, points[k]) + (after ? distance_nm(points[k], *after) : 0);
       if (length < best) loop.entry = k;
       best = std::min(best, length);
     }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "arc_fit.hpp"
@@ -24,7 +25,8 @@ struct CutterWay {
 };
 
 struct WayOrder {
-  DrawnPoint park = {};
+  DrawnPoint start = {};               // where the cutter comes from
+  std::optional<DrawnPoint> end = {};  // where it goes; empty: it stays at the end of the last way
   Nanometres z = {};
   std::uint64_t route_steps = 0;
   ArcFit arcs = {};

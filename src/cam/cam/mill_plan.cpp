@@ -36,9 +36,10 @@ void link_to(MillRun& run, DrawnPoint to) {
   run.push_back({to, 0, from.z});
 }
 
-MillLengths lengths_of(const MillTool& tool, DrawnPoint park) {
+namespace {
+
+MillLengths lengths_between(const MillTool& tool, DrawnPoint at, std::optional<DrawnPoint> to) {
   MillLengths lengths;
-  DrawnPoint at = park;
   for (const MillRun& run : tool.runs) {
     ++lengths.runs;
     lengths.rapids_nm += distance_nm(at, run.front().at);
@@ -50,8 +51,31 @@ MillLengths lengths_of(const MillTool& tool, DrawnPoint park) {
     }
     at = run.back().at;
   }
-  lengths.rapids_nm += distance_nm(at, park);
+  if (to) lengths.rapids_nm += distance_nm(at, *to);
   return lengths;
+}
+
+}  // namespace
+
+MillLengths lengths_of(const MillTool& tool, DrawnPoint park) {
+  return lengths_between(tool, park, park);
+}
+
+std::vector<MillLengths> lengths_of(const MillPlan& plan, DrawnPoint park, const RouteLink& link) {
+  std::vector<MillLengths> all;
+  DrawnPoint at = link.from(park);
+  for (const MillTool& tool : plan.tools) {
+    const std::optional<DrawnPoint> to = link.to(park, all.size() + 1 == plan.tools.size());
+    all.push_back(lengths_between(tool, at, to));
+    at = to.value_or(tool.runs.empty() ? at : tool.runs.back().back().at);
+  }
+  return all;
+}
+
+DrawnPoint end_of(const MillPlan& plan, DrawnPoint park, const RouteLink& link) {
+  if (plan.tools.empty()) return link.from(park);
+  const std::vector<MillRun>& runs = plan.tools.back().runs;
+  return link.changes_in_place && !runs.empty() ? runs.back().back().at : park;
 }
 
 std::vector<DrawnPoint> chords_of(const MillRun& run, Nanometres tolerance) {

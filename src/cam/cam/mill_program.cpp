@@ -23,13 +23,16 @@ class MillProgram {
       change_tool(i + 1);
       for (const MillRun& run : plan_.tools[i].runs) mill(run);
     }
-    text_.end(options_.spindle.has_value(), options_.park, change_height());
+    text_.end(options_.spindle.has_value(), parked(!options_.change.ends_in_place), change_height());
     return text_.take();
   }
 
  private:
   void begin();
   void change_tool(std::size_t number);
+  std::optional<DrawnPoint> parked(bool is_parked) const {
+    return is_parked ? std::optional(options_.park) : std::nullopt;
+  }
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
   void mill(const MillRun& run);
   void go(const MillPoint& from, const MillPoint& to);
@@ -67,8 +70,8 @@ void MillProgram::begin() {
 void MillProgram::change_tool(std::size_t number) {
   const MillTool& tool = plan_.tools[number - 1];
   text_.line("");
-  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle, options_.park, change_height(),
-                    options_.change.spindle_seconds});
+  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle,
+                    parked(!options_.change.changes_in_place), change_height(), options_.change.spindle_seconds});
   feed_ = {};
 }
 

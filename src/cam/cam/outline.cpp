@@ -52,7 +52,7 @@ class OutlinePlanner {
     MillTool tool{options_.cutter, options_.words, slot_runs()};
     std::vector<ClosedToolpath> tracks;
     for (OutlineCut& cut : cuts_) tracks.push_back(track_of(std::move(cut.ring), !cut.is_of_slug));
-    order(tool.runs.empty() ? options_.park : tool.runs.back().back().at, tracks);
+    order(tool.runs.empty() ? options_.link.from(options_.park) : tool.runs.back().back().at, tracks);
     find_rough_tracks(tracks);
     put_tabs(tracks);
     plan_.slots = options_.slots.size();
@@ -117,7 +117,7 @@ void OutlinePlanner::find_tight_gaps() {
 
 void OutlinePlanner::add_tight_runs(std::vector<MillRun>& runs) {
   const TightCut cut{options_.depth, options_.step, options_.ramp_degrees};
-  const DrawnPoint from = runs.empty() ? options_.park : runs.back().back().at;
+  const DrawnPoint from = runs.empty() ? options_.link.from(options_.park) : runs.back().back().at;
   for (MillRun& run : tight_runs(tight_, cut, from, options_.park)) runs.push_back(std::move(run));
   for (const TightWay& way : tight_) plan_.ways.push_back(way.points);
 }
@@ -230,7 +230,7 @@ void OutlinePlanner::order(DrawnPoint from, std::vector<ClosedToolpath>& tracks)
     std::vector<DrawnPoint> places;
     for (auto cut = first; cut != end; ++cut) places.push_back(tracks[*cut].at(0));
     constexpr std::uint64_t steps = 1'000'000;
-    for (const std::uint32_t index : shorten_route(places, at, options_.park, steps)) {
+    for (const std::uint32_t index : shorten_route(places, at, options_.link.to(options_.park, true), steps)) {
       const std::size_t cut = *(first + static_cast<std::ptrdiff_t>(index));
       cuts.push_back(std::move(cuts_[cut]));
       ordered.push_back(std::move(tracks[cut]));
@@ -466,7 +466,7 @@ std::vector<MillRun> OutlinePlanner::slot_runs() const {
   }
   std::vector<MillRun> ordered;
   constexpr std::uint64_t steps = 1'000'000;
-  for (const PlacedPiece& placed : shorten_piece_order(pieces, options_.park, steps))
+  for (const PlacedPiece& placed : shorten_piece_order(pieces, options_.link.from(options_.park), options_.park, steps))
     ordered.push_back(std::move(runs[placed.piece]));
   return ordered;
 }

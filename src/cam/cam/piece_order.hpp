@@ -1,5 +1,5 @@
-// shorten_piece_order: shortens the travel from the park position through all pieces and back. A piece need not end
-// where it begins. Private to cam/.
+// shorten_piece_order: shortens the travel from a start through all pieces to an end. A piece need not end where it
+// begins. Private to cam/.
 //
 // It reverses parts of the order (2-opt) and moves up to three pieces elsewhere (Or-opt), as long as this makes the
 // travel shorter. A piece that may not be reversed keeps its direction. The number of steps is limited, not the time,
@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "passo/cam/drawing.hpp"
@@ -26,8 +27,9 @@ struct PlacedPiece {
   bool is_turned = false;
 };
 
-// Begins with the given order. `steps`: the maximum number of comparisons.
-std::vector<PlacedPiece> shorten_piece_order(const std::vector<RoutePiece>& pieces, DrawnPoint park,
-                                             std::uint64_t steps);
+// Begins with the given order. `end`: empty: the travel ends after any of the pieces. `steps`: the maximum number of
+// comparisons.
+std::vector<PlacedPiece> shorten_piece_order(const std::vector<RoutePiece>& pieces, DrawnPoint start,
+                                             std::optional<DrawnPoint> end, std::uint64_t steps);
 
 }  // namespace passo

@@ -187,9 +187,8 @@ PlotPath PlotPlanner::of_axis(const PlotPath& path) {
   return moves;
 }
 
-std::vector<PlotLine> lines_of(const EdgeLoops& lines, const std::vector<DrawnPoint>& dots, bool inner_first) {
+std::vector<PlotLine> lines_of(const EdgeLoops& lines, bool inner_first) {
   std::vector<PlotLine> all;
-  for (const DrawnPoint& dot : dots) all.push_back({{{dot, 0}}, false, 0});
   for (const PlotPath& line : lines.open) all.push_back({line, false, 0});
   std::vector<NestedLoop> nested;
   constexpr Nanometres tolerance{10'000};
@@ -227,8 +226,8 @@ std::vector<DrawnPoint> take_dots(Drawing& drawing) {
   return dots;
 }
 
-PlotPlan plan_plot(const EdgeLoops& lines, const std::vector<DrawnPoint>& dots, const PlotOptions& options) {
-  return PlotPlanner(options).plan(lines_of(lines, dots, options.knife.count > 0));
+PlotPlan plan_plot(const EdgeLoops& lines, const PlotOptions& options) {
+  return PlotPlanner(options).plan(lines_of(lines, options.knife.count > 0));
 }
 
 }  // namespace passo

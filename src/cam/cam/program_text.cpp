@@ -26,7 +26,7 @@ void ProgramText::begin_tool(const ToolChange& change) {
   if (change.number == 1 || !change.is_only) line("G0 Z{}", number(change.height));
   if (!change.is_only) {
     if (change.number > 1 && change.spindle) line("M5");
-    line("G0 {}", place(change.park));
+    if (change.park) line("G0 {}", place(*change.park));
     line("(MSG, tool {}: {})", change.number, in_comment(change.words));
     line("T{} M6", change.number);
     line("G0 Z{}", number(change.height));
@@ -37,10 +37,10 @@ void ProgramText::begin_tool(const ToolChange& change) {
   }
 }
 
-void ProgramText::end(bool has_spindle, DrawnPoint park, std::optional<Nanometres> height) {
+void ProgramText::end(bool has_spindle, std::optional<DrawnPoint> park, std::optional<Nanometres> height) {
   if (height) line("G0 Z{}", number(*height));
   if (has_spindle) line("M5");
-  line("G0 {}", place(park));
+  if (park) line("G0 {}", place(*park));
   line("M2");
 }
 

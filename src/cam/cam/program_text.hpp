@@ -36,13 +36,14 @@ class ProgramText {
     bool is_only = false;    // whether this is the only tool
     std::string words = {};  // tool name for the operator
     std::optional<std::uint32_t> spindle = {};
-    DrawnPoint park = {};
-    Nanometres height = {};  // change height
+    std::optional<DrawnPoint> park = {};  // empty: the tool is changed where it is
+    Nanometres height = {};               // change height
     double spindle_seconds = 0;
   };
   void begin_tool(const ToolChange& change);
-  // Moves the last tool up, then to the park position, and ends the program. `height`: without a Z axis, none.
-  void end(bool has_spindle, DrawnPoint park, std::optional<Nanometres> height);
+  // Moves the last tool up, then to the park position, if there is one, and ends the program. `height`: without a Z
+  // axis, none.
+  void end(bool has_spindle, std::optional<DrawnPoint> park, std::optional<Nanometres> height);
 
   // Formats a length in the program's units, without trailing zeros.
   std::string number(Nanometres length) const;

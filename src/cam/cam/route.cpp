@@ -33,10 +33,10 @@ class FixedRandom {
 // no change parts them for long.
 class Tour {
  public:
-  Tour(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end, std::uint64_t steps,
+  Tour(const std::vector<DrawnPoint>& places, DrawnPoint start, std::optional<DrawnPoint> end, std::uint64_t steps,
        const WorkProgress& progress)
-      : points_(places), steps_(steps), steps_left_(steps), progress_(progress) {
-    points_.push_back(end);
+      : points_(places), is_free_(!end), steps_(steps), steps_left_(steps), progress_(progress) {
+    points_.push_back(end.value_or(start));
     points_.push_back(start);
     order_by_nearest();
     find_neighbours();
@@ -72,6 +72,7 @@ class Tour {
     if (steps_left_ > 0) --steps_left_;
     constexpr double bound_together = -1e15;  // no few ways of a drawing are as long
     if (std::min(a, b) == end() && std::max(a, b) == start()) return bound_together;
+    if (is_free_ && (a == end() || b == end())) return 0;  // the route may end anywhere
     return distance_nm(points_[a], points_[b]);
   }
 
@@ -100,6 +101,7 @@ class Tour {
   }
 
   std::vector<DrawnPoint> points_;
+  bool is_free_;
   std::vector<std::array<Node, neighbours_kept>> near_;
   std::size_t kept_ = 0;  // neighbours of each node
   std::vector<Node> tour_;
@@ -290,8 +292,9 @@ void Tour::improve_by_chance() {
 
 }  // namespace
 
-std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
-                                         std::uint64_t steps, const WorkProgress& progress) {
+std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start,
+                                         std::optional<DrawnPoint> end, std::uint64_t steps,
+                                         const WorkProgress& progress) {
   if (places.empty()) return {};
   Tour tour(places, start, end, steps, progress);
   if (places.size() > 1) tour.improve();
@@ -304,14 +307,14 @@ std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place) {
 }
 
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,
-                    DrawnPoint end) {
+                    std::optional<DrawnPoint> end) {
   double length = 0;
   DrawnPoint at = start;
   for (const std::uint32_t index : order) {
     length += distance_nm(at, places[index]);
     at = places[index];
   }
-  return length + distance_nm(at, end);
+  return end ? length + distance_nm(at, *end) : length;
 }
 
 }  // namespace passo

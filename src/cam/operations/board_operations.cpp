@@ -29,7 +29,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
       {"align", &a.align, length, "X,Y,X,Y: positions of two extra holes for alignment pins", experts_of_one_job},
       {"align-drill", &a.align_drill, length, "diameter of the alignment holes", experts_only},
       {"tools", &a.tools, length,
-       "diameters of the available drills, e.g. 0.8,1.0,1.3 (default: one drill for each hole diameter)"},
+       "diameters of the available drills, e.g. 0.8,1.0,1.3, or their numbers in --tool-table, or all: all drills of\n"
+       "--tool-table (default: one drill for each hole diameter)"},
       {"tolerance", &a.tolerance, length, "largest difference between a hole and its drill from --tools", experts_only},
       {"drill", &a.drill, length, "diameter of a single drill for all holes, or its number in --tool-table"},
       {"mill", &a.mill, length,
@@ -70,7 +71,7 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
           {"tool",
            &a.tools,
            length,
-           "widths of the available cutters, e.g. 1,0.2; the widest is used first",
+           "widths of the available cutters, e.g. 1,0.2, or their numbers in --tool-table; the widest is used first",
            {.usual = usual_isolation_tool}},
           {"v", &a.v, text, "ANGLE,TIP of a V-shaped cutter: included angle in degrees, and tip width"},
           {"depth", &a.depth, length, "depth of the cut, a negative Z"},
@@ -95,6 +96,7 @@ std::vector<CamOption> cam_options_of(CamIsolateArguments& a) {
            "accept nets that stay joined (default: the command fails)",
            {.matters_to = experts, .is_of_job = true}},
       },
+      tool_rows(a),
       mill_rows(a),
   });
 }
@@ -104,6 +106,7 @@ std::vector<CamOption> cam_options_of(CamOutlineArguments& a) {
   return all_of({
       {{"EDGE", &a.files, drawings,
         "drawings of the board outline: Gerber, DXF, SVG, or a board of KiCad, EAGLE or EasyEDA", are_needed}},
+      tool_rows(a),
       edge_rows(a),
       mill_rows(a),
   });
@@ -111,7 +114,7 @@ std::vector<CamOption> cam_options_of(CamOutlineArguments& a) {
 
 std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
   using enum CamKind;
-  return {
+  std::vector<CamOption> rows{
       {"JOB", &a.paths, drawings,
        "Gerber and drill files, folders of them, a zip archive, or a board of KiCad, EAGLE or EasyEDA", are_needed},
       {"output", &a.output, file, "folder for programs, pictures and board.html", {.matters_to = cli, .letter = "o"}},
@@ -136,6 +139,10 @@ std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
       {"probe-holes", &a.probe_holes, flag, "no pins: after the board is flipped, a program probes the two holes"},
       {"copies", &a.copies, text, "copies of the board in a grid on one blank, COLUMNSxROWS, e.g. 3x4"},
       {"gap", &a.gap, length, "gap between two copies"},
+      {"park", &a.park, text,
+       "X,Y of tool changes and ends (default: as in the profile, or 0,0); last: above the last cut, so that all\n"
+       "programs are one route",
+       experts_only},
       {"mask", &a.mask, length,
        "diameter of a cutter that clears the openings of a cured solder mask (default:\nno program for the mask)"},
       {"mask-depth", &a.mask_depth, length, "depth of these openings, a negative Z", experts_only},
@@ -163,6 +170,7 @@ std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
        {.matters_to = experts}},
       {"json", &a.json, flag, "print the layers and the steps as JSON", {.matters_to = cli}},
   };
+  return all_of({rows, tool_rows(a), program_rows(a)});
 }
 
 }  // namespace passo

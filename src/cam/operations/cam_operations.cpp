@@ -36,6 +36,7 @@ constexpr const char* pocket_examples =
   passo cam pocket tray.svg --tool 6 --depth -12 --step 12 --engagement 60 -o tray.ngc
                                                            full flute length, never a full slot: for hard materials
   passo cam pocket tray.svg --layer pocket --ramp 3 --conventional -o tray.ngc
+  passo cam pocket mask.gbr --tool 0.4 --depth -0.1 --ramp 0 -o mask.ngc       the openings of a board's solder mask
   passo cam pocket tray.svg --depth -8 --tool-table tools.toml --tool T1 --material hardwood --limits router.toml -o tray.ngc
 
 A contour inside another contour is an island, which stays. All options: docs/manual/parts.md.)";
@@ -130,6 +131,7 @@ constexpr const char* board_examples =
                                      probing finds the flipped board, and measures its height map
   passo cam board gerbers/ --copies 3x4 --gap 6 -o job         twelve boards on one blank, tool by tool
   passo cam board gerbers/ --mask 0.4 --stencil 0.3 -o job     also the solder mask's openings and a paste stencil
+  passo cam board gerbers/ --for grbl --tool-table tools.toml --material fr4 -o job    for Grbl, with your own drills
 
 A profile has a table for each command: [drill], [isolate], [outline], with the options as keys:
 
@@ -200,7 +202,7 @@ constexpr std::array operations = {
                  .options = options_with_defaults<CamProfileArguments>},
     CamOperation{.name = "pocket",
                  .purpose = "clear the areas inside the closed contours of a drawing",
-                 .accepts = ".svg,.dxf,.hpgl,.plt,.toml",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.gbr,.gts,.gbs,.gtp,.gbp,.gtl,.gbl,.toml",
                  .examples = pocket_examples,
                  .options = options_with_defaults<CamPocketArguments>},
     CamOperation{.name = "engrave",

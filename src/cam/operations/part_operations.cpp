@@ -92,7 +92,8 @@ std::vector<CamOption> cam_options_of(CamProfileArguments& a) {
 std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
   using enum CamKind;
   return all_of({
-      {{"FILE", &a.files, drawings, vector_drawings, are_needed}},
+      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or HPGL; or Gerber layers, whose drawn areas are the pockets",
+        are_needed}},
       tool_rows(a),
       {{"tool", &a.tool, length, "diameter of the cutter, or its number in --tool-table"},
        {"depth", &a.depth, length, "depth of the pocket, a negative Z", {.is_of_machine = true}},

@@ -13,8 +13,9 @@
 namespace passo {
 namespace {
 
-PlanView view_of(const DrillPlan& plan, DrawnPoint park, const Area& area) {
-  DrawnBox box{park, park};
+PlanView view_of(const DrillPlan& plan, DrawnPoint park, const RouteLink& link, const Area& area) {
+  DrawnBox box{link.from(park), link.from(park)};
+  if (!link.ends_in_place) extend(box, park);
   for (const DrillTool& tool : plan.tools) {
     for (const DrillTarget& target : tool.targets) {
       for (const PathPoint& point : target.points) extend(box, point.at);
@@ -23,11 +24,18 @@ PlanView view_of(const DrillPlan& plan, DrawnPoint park, const Area& area) {
   return {box, area};
 }
 
-void draw_rapids(Canvas& canvas, const PlanView& view, const DrillPlan& plan, DrawnPoint park) {
+void draw_rapids(Canvas& canvas, const PlanView& view, const DrillPlan& plan, DrawnPoint park, const RouteLink& link) {
+  DrawnPoint at = link.from(park);
   for (const DrillTool& tool : plan.tools) {
-    canvas.move_to(view.spot(park));
-    for (const DrillTarget& target : tool.targets) canvas.line_to(view.spot(target.points.front().at));
-    canvas.line_to(view.spot(park));
+    canvas.move_to(view.spot(at));
+    for (const DrillTarget& target : tool.targets) {
+      at = target.points.front().at;
+      canvas.line_to(view.spot(at));
+    }
+    if (const auto to = link.to(park, &tool == &plan.tools.back())) {
+      at = *to;
+      canvas.line_to(view.spot(at));
+    }
     canvas.stroke(rapids_pen);
   }
 }
@@ -58,8 +66,8 @@ void draw_target(Canvas& canvas, const PlanView& view, const DrillTarget& target
 
 }  // namespace
 
-Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, const PictureOptions& options,
-                                    OutputFile& file) {
+Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, const RouteLink& link,
+                                    const PictureOptions& options, OutputFile& file) {
   Canvas canvas(options, file);
   std::size_t holes = 0;
   double rapids = 0;
@@ -72,8 +80,8 @@ Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, cons
       fmt::format("{}   \u00B7   {}   \u00B7   {:.1f} mm of rapids", counted(holes, "hole or slot", "holes and slots"),
                   counted(plan.tools.size(), "tool"), rapids / nanometres_per_mm));
   const Area area{sheet::margin, 100, options.width - 2 * sheet::margin, options.height - 190.0};
-  const PlanView view = view_of(plan, park, area);
-  draw_rapids(canvas, view, plan, park);
+  const PlanView view = view_of(plan, park, link, area);
+  draw_rapids(canvas, view, plan, park, link);
   for (std::size_t i = 0; i < plan.tools.size(); ++i) {
     const DrillTool& tool = plan.tools[i];
     for (const DrillTarget& target : tool.targets) draw_target(canvas, view, target, tool.diameter, colour_of_tool(i));

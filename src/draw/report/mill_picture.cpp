@@ -22,7 +22,7 @@ PlanView view_of(const MillScene& scene, const Area& area) {
   DrawnPoint start = scene.park;
   if (scene.rapids && !scene.rapids->empty()) start = scene.rapids->front().front();
   DrawnBox box = bounds(scene.face).value_or(DrawnBox{start, start});
-  extend(box, start);
+  if (scene.rapids || !scene.link.start || !scene.link.ends_in_place) extend(box, start);
   for (const DrawnRing& line : scene.rapids.value_or(std::vector<DrawnRing>())) {
     for (const DrawnPoint& point : line) extend(box, point);
   }
@@ -60,17 +60,20 @@ void draw_ways(Canvas& canvas, const PlanView& view, const MillTool& tool, const
   }
 }
 
-void draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, DrawnPoint park) {
-  DrawnPoint at = park;
+// Returns where the next tool comes from. `to`: where this one goes; empty: it stays at its last cut.
+DrawnPoint draw_rapids(Canvas& canvas, const PlanView& view, const MillTool& tool, DrawnPoint at,
+                       std::optional<DrawnPoint> to) {
   for (const MillRun& run : tool.runs) {
     canvas.move_to(view.spot(at));
     canvas.line_to(view.spot(run.front().at));
     canvas.stroke(rapids_pen);
     at = run.back().at;
   }
+  if (!to) return at;
   canvas.move_to(view.spot(at));
-  canvas.line_to(view.spot(park));
+  canvas.line_to(view.spot(*to));
   canvas.stroke(rapids_pen);
+  return *to;
 }
 
 void draw_known_rapids(Canvas& canvas, const PlanView& view, const std::vector<DrawnRing>& rapids) {
@@ -117,8 +120,7 @@ void draw_sheet(Canvas& canvas, const PlanView& view, const DrawnBox& sheet) {
 Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions& options, OutputFile& file) {
   Canvas canvas(options, file);
   MillLengths all;
-  for (const MillTool& tool : scene.plan.tools) {
-    const MillLengths lengths = lengths_of(tool, scene.park);
+  for (const MillLengths& lengths : lengths_of(scene.plan, scene.park, scene.link)) {
     all.runs += lengths.runs;
     all.milled_nm += lengths.milled_nm;
     all.rapids_nm += lengths.rapids_nm;
@@ -144,8 +146,12 @@ Status<OutputError> draw_mill_plan(const MillScene& scene, const PictureOptions&
     const double width = std::max(thinnest, view.pixels(tool.width));
     draw_ways(canvas, view, tool, {.colour = colour_of_tool(i), .width = width, .opacity = 0.35});
   }
+  DrawnPoint at = scene.link.from(scene.park);
   for (std::size_t i = 0; i < scene.plan.tools.size(); ++i) {
-    if (!scene.rapids) draw_rapids(canvas, view, scene.plan.tools[i], scene.park);
+    if (!scene.rapids) {
+      const std::optional<DrawnPoint> to = scene.link.to(scene.park, i + 1 == scene.plan.tools.size());
+      at = draw_rapids(canvas, view, scene.plan.tools[i], at, to);
+    }
     draw_ways(canvas, view, scene.plan.tools[i], {.colour = colour_of_tool(i), .width = thinnest});
   }
   if (scene.rapids) draw_known_rapids(canvas, view, *scene.rapids);

@@ -281,6 +281,7 @@ export const operations = {
   'cam.relief.mirror': 'Mirror left-right',
   'cam.isolate.clear': 'Remove all other copper',
   'cam.board.margin': 'X and Y of the lower left corner',
+  'cam.board.park': 'Tool changes and end: X,Y; last: above the last cut',
   'cam.relief.margin': 'Flat rim width',
   'cam.board.turn': 'Flip',
   'cam.drill.tolerance': 'Drill size tolerance',

@@ -283,6 +283,7 @@ export const operations: Same<typeof en> = {
   'cam.relief.mirror': 'Miroir gauche-droite',
   'cam.isolate.clear': 'Enlever tout le cuivre restant',
   'cam.board.margin': 'Coin inférieur gauche à X et Y',
+  'cam.board.park': 'Changements d’outil et fin : X,Y ; last : au-dessus de la dernière coupe',
   'cam.relief.margin': 'Largeur du bord plat',
   'cam.board.turn': 'Retournement',
   'cam.drill.tolerance': 'Tolérance sur le Ø du foret',

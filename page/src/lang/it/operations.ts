@@ -283,6 +283,7 @@ export const operations: Same<typeof en> = {
   'cam.relief.mirror': 'Specchia sinistra-destra',
   'cam.isolate.clear': 'Asporta tutto il rame restante',
   'cam.board.margin': 'Angolo in basso a sinistra a X e Y',
+  'cam.board.park': 'Cambi utensile e fine: X,Y; last: sopra l’ultimo taglio',
   'cam.relief.margin': 'Larghezza del bordo piano',
   'cam.board.turn': 'Ribaltamento',
   'cam.drill.tolerance': 'Tolleranza diametro punta',

@@ -283,6 +283,7 @@ export const operations: Same<typeof en> = {
   'cam.relief.mirror': '左右镜像',
   'cam.isolate.clear': '铣掉其余铜箔',
   'cam.board.margin': '左下角的 X 和 Y',
+  'cam.board.park': '换刀和结束位置：X,Y；last：最后一次切削的上方',
   'cam.relief.margin': '平边宽度',
   'cam.board.turn': '翻面方向',
   'cam.drill.tolerance': '钻头直径允许偏差',

@@ -50,7 +50,8 @@ TEST(Hpgl, a_pen_that_goes_down_and_up_leaves_a_dot) {
     const Plotted plot = plotted(text);
     std::string all = plot.words;
     for (const DrawnHole& hole : plot.drawing.holes) {
-      all += fmt::format("{}{},{} ", hole.is_dot ? "" : "circle ", hole.at.x.count / 1000, hole.at.y.count / 1000);
+      all += fmt::format("{}{},{} ", hole.diameter.count > 0 ? "circle " : "", hole.at.x.count / 1000,
+                         hole.at.y.count / 1000);
     }
     return all;
   };

@@ -72,7 +72,7 @@ TEST(PlotPlan, the_tip_of_a_dragged_blade_follows_the_lines) {
     lines.loops.push_back(circle(1, 0, 2));
     lines.open.push_back({corner(15, 0), corner(20, 5, -0.4), corner(25, 5), corner(24, 5.5)});
     const PlotOptions options{.knife = to_nanometres(Mm(0.25)), .swivel_degrees = 5, .overcut = to_nanometres(Mm(0.6))};
-    const PlotPlan plan = plan_plot(lines, {}, options);
+    const PlotPlan plan = plan_plot(lines, options);
     ASSERT_EQ(plan.paths.size(), 3U);
     std::vector<TipPlace> drawn;
     for (const PathPoints& loop : lines.loops) {
@@ -102,7 +102,7 @@ TEST(PlotPlan, a_knife_swivels_at_corners_and_cuts_beyond_the_start) {
   EdgeLoops lines;
   lines.loops.push_back(box(0, 0, 10, 10));
   PlotOptions options{.knife = to_nanometres(Mm(0.5)), .overcut = to_nanometres(Mm(1))};
-  const PlotPlan plan = plan_plot(lines, {}, options);
+  const PlotPlan plan = plan_plot(lines, options);
   ASSERT_EQ(plan.paths.size(), 1U);
   const PathPoints& path = plan.paths.front();
   const auto arcs = std::ranges::count_if(path, [](const PathPoint& point) { return point.bulge != 0; });
@@ -115,14 +115,15 @@ TEST(PlotPlan, a_knife_swivels_at_corners_and_cuts_beyond_the_start) {
   // The tip ends 1 mm beyond the start, the axis 0.5 mm before it.
   EXPECT_EQ(path.back().at, corner(1.5, 0).at);
   options.swivel_degrees = 100;
-  const PlotPlan blunt = plan_plot(lines, {}, options);
+  const PlotPlan blunt = plan_plot(lines, options);
   for (const PathPoint& point : blunt.paths.front()) EXPECT_EQ(point.bulge, 0);
 }
 
 TEST(PlotPlan, what_is_inside_is_cut_before_what_is_around_it) {
   EdgeLoops lines;
   lines.loops = {box(0, 0, 20, 20), box(5, 5, 10, 10), circle(10, 10, 2)};
-  const PlotPlan plan = plan_plot(lines, {corner(1, 1).at}, {.knife = to_nanometres(Mm(0.25))});
+  lines.open = {{corner(1, 1)}};  // a dot
+  const PlotPlan plan = plan_plot(lines, {.knife = to_nanometres(Mm(0.25))});
   ASSERT_EQ(plan.paths.size(), 4U);
   EXPECT_EQ(plan.paths[0].size(), 1U);
   EXPECT_EQ(plan.closed, 3U);
@@ -137,7 +138,8 @@ TEST(PlotPlan, a_pen_draws_each_line_once_by_a_short_way) {
     const int row = i * 17 % 40;
     lines.open.push_back({corner(0, row), corner(100, row)});
   }
-  const PlotPlan plan = plan_plot(lines, {corner(50, 40).at}, {});
+  lines.open.push_back({corner(50, 40)});  // a dot
+  const PlotPlan plan = plan_plot(lines, {});
   EXPECT_EQ(plan.open, 40U);
   EXPECT_EQ(plan.dots, 1U);
   EXPECT_NEAR(plan.drawn_nm / nanometres_per_mm, 4000, 1e-6);
@@ -155,7 +157,7 @@ TEST(PlotPlan, points_and_lines_without_a_length_are_dots) {
 }
 
 TEST(PlotProgram, a_pen_is_moved_by_z_or_by_a_servo) {
-  const PlotPlan plan = plan_plot({.open = {{corner(0, 0), corner(10, 0, 1), corner(20, 0)}}}, {corner(30, 0).at}, {});
+  const PlotPlan plan = plan_plot({.open = {{corner(0, 0), corner(10, 0, 1), corner(20, 0)}, {corner(30, 0)}}}, {});
   EXPECT_THAT(write_plot_program(plan, {.name = "p", .down = to_nanometres(Mm(-0.5))}),
               testing::EndsWith("G0 Z3\nG0 X0 Y0\nG1 Z-0.5 F600\nG1 X10 Y0 F1500\nG3 X20 Y0 I5 J0\nG0 Z3\n"
                                 "G0 X30 Y0\nG1 Z-0.5 F600\nG4 P0.1\nG0 Z3\nG0 X0 Y0\nM2\n"));

@@ -70,7 +70,8 @@ TEST(Route, is_the_shortest_of_all_for_few_places) {
     const std::size_t count = 1 + seed % 7;
     const std::vector<DrawnPoint> places = scattered(count, 1000 + seed);
     const DrawnPoint start = at_mm(0, 0);
-    const DrawnPoint end = at_mm(static_cast<int>(seed % 3) * 40, 10);
+    // One in four may end anywhere.
+    const auto end = seed % 4 == 3 ? std::nullopt : std::optional(at_mm(static_cast<int>(seed % 3) * 40, 10));
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
     double best = 1e300;
@@ -87,7 +88,7 @@ TEST(Route, of_few_places_gets_no_shorter_by_more_steps) {
     const std::size_t count = 10 + 5 * seed;
     const std::vector<DrawnPoint> places = scattered(count, 2000 + seed);
     const auto found = [&](std::uint64_t steps) {
-      return route_length(places, shorten_route(places, {}, {}, steps), {}, {});
+      return route_length(places, shorten_route(places, {}, DrawnPoint{}, steps), {}, DrawnPoint{});
     };
     EXPECT_LE(found(enough_steps(count, 20'000)), found(20'000 * count) * 1.001) << count << " places";
   }
@@ -98,7 +99,8 @@ TEST(Route, a_grid_is_walked_without_a_detour) {
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 30; ++x) places.push_back(at_mm(10 + (x * 7) % 30, 10 + (y * 3) % 20));
   }
-  const double found = route_length(places, shorten_route(places, {}, {}, 20'000'000), {}, {}) / 1e6;
+  const double found =
+      route_length(places, shorten_route(places, {}, DrawnPoint{}, 20'000'000), {}, DrawnPoint{}) / 1e6;
   // 599 ways of 1 mm, one from (0, 0) to (10, 10) and one back from beside it.
   EXPECT_LT(found, (599 + 2 * 14.9) * 1.02);
 }
@@ -107,15 +109,16 @@ TEST(Route, a_grid_is_walked_without_a_detour) {
 TEST(Route, of_scattered_places_is_near_the_known_constant) {
   const std::size_t count = 2000;
   const std::vector<DrawnPoint> places = scattered(count, 7);
-  const double found = route_length(places, shorten_route(places, {}, {}, 10'000'000), {}, {}) / 1e6;
+  const double found =
+      route_length(places, shorten_route(places, {}, DrawnPoint{}, 10'000'000), {}, DrawnPoint{}) / 1e6;
   const double constant = 0.7124 * std::sqrt(static_cast<double>(count) * 100 * 100) * (1 + 0.33 / 44);
   EXPECT_LT(found, constant * 1.07);
 }
 
 TEST(Route, is_the_same_each_time_and_takes_equal_places) {
   const std::vector<DrawnPoint> places = scattered(300, 3);
-  EXPECT_EQ(shorten_route(places, {}, {}, 100'000), shorten_route(places, {}, {}, 100'000));
-  EXPECT_TRUE(holds_each_once(shorten_route(std::vector<DrawnPoint>(500), {}, {}, 100'000), 500));
+  EXPECT_EQ(shorten_route(places, {}, DrawnPoint{}, 100'000), shorten_route(places, {}, DrawnPoint{}, 100'000));
+  EXPECT_TRUE(holds_each_once(shorten_route(std::vector<DrawnPoint>(500), {}, DrawnPoint{}, 100'000), 500));
 }
 
 double length_of(const std::vector<RoutePiece>& pieces, const std::vector<PlacedPiece>& order, DrawnPoint park) {
@@ -157,7 +160,7 @@ TEST(PieceOrder, is_near_the_shortest_of_all_orders_and_turns_no_piece_that_must
     const std::vector<DrawnPoint> places = scattered(10, seed);
     std::vector<RoutePiece> pieces;
     for (std::size_t i = 0; i < 5; ++i) pieces.push_back({places[2 * i], places[2 * i + 1], i % 2 == 0});
-    const std::vector<PlacedPiece> order = shorten_piece_order(pieces, park, 100'000);
+    const std::vector<PlacedPiece> order = shorten_piece_order(pieces, park, park, 100'000);
     std::vector<bool> is_there(pieces.size());
     for (const PlacedPiece& placed : order) {
       is_there[placed.piece] = true;
@@ -173,10 +176,10 @@ TEST(PieceOrder, is_near_the_shortest_of_all_orders_and_turns_no_piece_that_must
 
 TEST(PieceOrder, without_steps_the_given_order_stays) {
   const std::vector<RoutePiece> pieces = {{at_mm(9, 0), at_mm(8, 0)}, {at_mm(1, 0), at_mm(2, 0)}};
-  const std::vector<PlacedPiece> order = shorten_piece_order(pieces, at_mm(0, 0), 0);
+  const std::vector<PlacedPiece> order = shorten_piece_order(pieces, at_mm(0, 0), at_mm(0, 0), 0);
   ASSERT_EQ(order.size(), 2U);
   EXPECT_EQ(order[0].piece, 0U);
-  EXPECT_TRUE(shorten_piece_order({}, {}, 100).empty());
+  EXPECT_TRUE(shorten_piece_order({}, {}, {}, 100).empty());
 }
 
 }  // namespace

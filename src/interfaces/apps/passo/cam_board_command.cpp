@@ -87,6 +87,12 @@ int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, 
   if (std::ranges::find(arguments.paths, "") != arguments.paths.end()) {
     return fail(exit_bad_program, "expected a folder, an archive or files, but the name is empty");
   }
+  const bool probes = arguments.probe_holes || !arguments.heights.empty();
+  if (probes && drill.controller != "passo" && drill.controller != "linuxcnc") {
+    return fail(exit_bad_program, fmt::format("--for {}: --probe-holes and --heights write programs with expressions, "
+                                              "which only passo and linuxcnc run",
+                                              drill.controller));
+  }
   Diagnostics findings;
   std::optional<MachineDescription> machine;
   if (!arguments.machine.empty()) {
@@ -104,6 +110,13 @@ int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, 
   const Result<PanelGrid, std::string> grid = panel_of(arguments, outline);
   if (!grid) return fail(exit_bad_program, grid.error());
   const BoardPlan plan = board_plan_of(job, join, *grid, findings);
+  if (!arguments.park.empty() && arguments.park != "last") {
+    lengths.place("--park", arguments.park);
+    if (!lengths.message().empty()) {
+      return fail(exit_bad_program, fmt::format("--park: expected X,Y or last, found '{}'", arguments.park));
+    }
+    for (std::string* const park : {&drill.park, &isolate.park, &outline.park}) *park = arguments.park;
+  }
   UnfinishedJob unfinished(arguments.output);
   BoardMaker maker(arguments, unfinished.made(), plan, machine ? &*machine : nullptr);
   maker.page.name = name_of(arguments.paths.front());

@@ -53,6 +53,7 @@ int BoardMaker::add(Arguments arguments,
   if (code != exit_done) return code;
   step.program = std::filesystem::path(arguments.output).filename().string();
   joined_nets += made.joined_nets;
+  last_ = sources.link.ends_in_place ? made.last : std::nullopt;
   step.tools = made.tools;
   step.figures = made.summary;
   step.picture = content_of(arguments.picture);
@@ -71,6 +72,11 @@ void BoardMaker::tell_files() const {
 WorkProgress BoardMaker::next_step() {
   const std::size_t sides = (plan_.front ? 1 : 0) + (plan_.back ? 1 : 0);
   return steps_progress_.stage(steps_begun_++, sides + 2);
+}
+
+RouteLink BoardMaker::link(bool is_last) const {
+  if (arguments_.park != "last") return {};
+  return {.start = last_, .changes_in_place = true, .ends_in_place = !is_last};
 }
 
 void BoardMaker::tell(const BoardStep& step) const {
@@ -289,6 +295,7 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
       words.push_back(registration_words().front());
     }
     BoardStep step{.kind = "drill", .title = "Drill", .words = std::move(words)};
+    sources.link = link(!plan_.front && !plan_.back && !plan_.edge);
     if (const int code = add(drill, &cam_drill, sources, std::move(step)); code != exit_done) return code;
   }
   for (const bool is_back : {false, true}) {
@@ -302,6 +309,8 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
     place(copper, is_back);
     name(copper, is_back ? "isolate-back" : "isolate-front");
     sources.layer = *side;
+    const bool is_masked = !arguments_.mask.empty() && !plan_.mask[is_back].empty();
+    sources.link = link(is_masked || (two_sides && !is_back) || !plan_.edge);
     BoardStep step{.kind = is_back ? "back" : "front",
                    .title = is_back ? "Mill the back" : "Mill the front",
                    .words = {"Insert the cutter, and set Z0 with care: the width of the cut depends on its depth.",
@@ -314,6 +323,7 @@ int BoardMaker::make(CamDrillArguments drill, CamIsolateArguments isolate, CamOu
   place(outline, plan_.back.has_value());
   name(outline, "outline");
   sources.layer = *plan_.edge;
+  sources.link = link(true);
   const int code =
       add(outline, &cam_outline, sources,
           {.kind = "edge",

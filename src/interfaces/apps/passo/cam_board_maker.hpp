@@ -65,6 +65,8 @@ class BoardMaker {
   int add(Arguments arguments, int (*command)(const Arguments&, const WorkProgress&, const CamSources*, CamMade*),
           const CamSources& sources, BoardStep step);
   WorkProgress next_step();
+  // With --park last: how the next program continues the route. `is_last`: someone works on the board after it.
+  RouteLink link(bool is_last) const;
   void tell(const BoardStep& step) const;
   std::array<DrawnPoint, 2> pins(Nanometres distance) const;
   // In the coordinates of the programs of both sides.
@@ -90,6 +92,7 @@ class BoardMaker {
   const BoardPlan& plan_;
   const MachineDescription* machine_;
   Nanometres margin_;
+  std::optional<DrawnPoint> last_;  // where the last program ended, with --park last; empty: at the park position
   int programs_ = 0;
   WorkProgress steps_progress_;
   std::size_t steps_begun_ = 0;

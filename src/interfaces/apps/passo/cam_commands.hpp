@@ -4,6 +4,7 @@
 // input that was already read, instead of the files. `made`: receives what is otherwise printed. Null: not used.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "passo/base/counted.hpp"
 #include "passo/base/work_progress.hpp"
 #include "passo/cam/board_layer.hpp"
+#include "passo/cam/route_link.hpp"
 #include "passo/operations/cam_arguments.hpp"
 
 namespace passo {
@@ -22,13 +24,15 @@ struct CamSources {
   BoardLayer layer = {};   // the copper, or the edge
   Region board = {};       // the inside of the edge; empty: none
   std::size_t copies = 1;  // how often the board is there
+  RouteLink link = {};     // to the program before
 };
 
 // The results of a command.
 struct CamMade {
   std::vector<std::string> tools = {};  // tool names for the operator, in order of use
   std::string summary = {};
-  std::size_t joined_nets = 0;  // nets that the program leaves joined
+  std::size_t joined_nets = 0;          // nets that the program leaves joined
+  std::optional<DrawnPoint> last = {};  // where the last cut ended
 };
 
 struct CamShowArguments {

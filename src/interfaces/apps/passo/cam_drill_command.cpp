@@ -150,14 +150,33 @@ void place(std::vector<Drawing>& drawings, const DrillJob& job) {
   for (Drawing& drawing : drawings) move_zero_to(*zero, drawing);
 }
 
-int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format, DrawnPoint park) {
+// Adds what the library knows about the drills that are used.
+DrillProgramOptions with_drill_feeds(DrillProgramOptions program, const DrillPlan& plan,
+                                     const std::vector<CamDrillFeed>& known) {
+  for (const DrillTool& tool : plan.tools) {
+    if (tool.is_mill) continue;
+    const auto found = std::ranges::find_if(
+        known, [&](const CamDrillFeed& one) { return to_nanometres(Mm(one.diameter_mm)) == tool.diameter; });
+    if (found == known.end()) continue;
+    program.remarks.push_back(found->words);
+    if (found->feed_mm <= 0) continue;
+    DrillFeed& own = program.drill_feeds.emplace_back();
+    own.diameter = tool.diameter;
+    own.feed = to_nanometres(Mm(found->feed_mm));
+    if (found->spindle > 0) own.spindle = found->spindle;
+  }
+  return program;
+}
+
+int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format,
+         const DrillOptions& drilling) {
   Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
   PictureOptions options;
   options.format = format;
   options.program =
       std::filesystem::path(arguments.output.empty() ? arguments.files.front() : arguments.output).filename().string();
-  Status<OutputError> done = draw_drill_plan(plan, park, options, *file);
+  Status<OutputError> done = draw_drill_plan(plan, drilling.park, drilling.link, options, *file);
   if (done) done = file->commit();
   return done ? exit_done : fail(exit_failed, done.error().message);
 }
@@ -174,8 +193,9 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
   files.writes("--picture", arguments.picture);
   if (!files.are_apart() || !program_words_are_good(arguments, arguments.units)) return exit_bad_program;
   if (!has_room_for_json(arguments.json, arguments.output)) return exit_bad_program;
-  const Result<DrillJob, std::string> job = job_of(arguments);
+  Result<DrillJob, std::string> job = job_of(arguments);
   if (!job) return fail(exit_bad_program, job.error());
+  if (given != nullptr) take_link(given->link, job->plan.link, job->program.change);
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
   if (!arguments.picture.empty() && !format) {
     return fail(exit_bad_program,
@@ -201,9 +221,10 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
     show(findings, listed(arguments.files));
     return exit_bad_program;
   }
-  if (const int code = write_program(arguments, plan, job->program); code != exit_done) return code;
+  const DrillProgramOptions program = with_drill_feeds(job->program, plan, arguments.drill_feeds);
+  if (const int code = write_program(arguments, plan, program); code != exit_done) return code;
   if (format) {
-    if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
+    if (const int code = draw(plan, arguments, *format, job->plan); code != exit_done) return code;
   }
   show(findings, listed(arguments.files));
   const std::string words = summary_of(drawings, plan, arguments);
@@ -213,6 +234,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
       made->tools.push_back(fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", to_mm(tool.diameter).value()));
     }
     made->summary = words;
+    made->last = plan.tools.back().targets.back().points.front().at;
   } else if (arguments.json) {
     say(with_warnings(json_of(plan), arguments) + "\n");
   } else if (!arguments.output.empty() && arguments.output != "-") {

@@ -324,10 +324,10 @@ bool is_sound(const IsolationProof& proof) {
   return proof.damage_mm2 <= 0 && proof.broken.empty();
 }
 
-int draw(const CamIsolateArguments& arguments, const MillJob& job, const Region& copper,
+int draw(const CamIsolateArguments& arguments, const MillJob& job, const RouteLink& link, const Region& copper,
          const IsolationResult& result) {
-  MillScene scene{result.plan.mill, copper,         "Copper", result.plan.unmilled, {}, "Gap too narrow",
-                  job.program.park, "Still joined", {}};
+  MillScene scene{result.plan.mill, copper, "Copper", result.plan.unmilled, {}, "Gap too narrow", job.program.park,
+                  "Still joined",   {},     link};
   for (const CopperGap& gap : result.nets.gaps) scene.marks.push_back(gap.at);
   std::ranges::copy(result.plan.narrow_openings, std::back_inserter(scene.marks));
   return write_picture(arguments.picture, job.program.name, [&](const PictureOptions& picture, OutputFile& file) {
@@ -343,6 +343,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   LengthArguments lengths(*mm_of_unit(arguments.units));
   MillJob job = mill_job_of(arguments, "passo cam isolate", lengths);
   IsolationOptions options = options_of(arguments, job, lengths);
+  if (given != nullptr) take_link(given->link, options.link, job.program.change);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
@@ -377,7 +378,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   }
   progress.update(0.95);
   if (!arguments.picture.empty()) {
-    if (const int code = draw(arguments, job, board->copper, result); code != exit_done) return code;
+    if (const int code = draw(arguments, job, options.link, board->copper, result); code != exit_done) return code;
   }
   std::string advice;
   if (result.nets.joined > 0) advice = advice_words(arguments, *board, options, result.nets);
@@ -386,8 +387,8 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   if (arguments.json) {
     fmt::print("{}\n", as_json(result, options.park).dump(2));
   } else {
-    const std::string words =
-        summary_of(result.plan.mill, options.park, arguments.units) + proof_words(result, sources->copies);
+    const std::string words = summary_of(result.plan.mill, options.park, arguments.units, options.link) +
+                              proof_words(result, sources->copies);
     if (const int code = tell(arguments.output, result.plan.mill, words, made); code != exit_done) return code;
   }
   if (result.nets.joined == 0 || arguments.accept_joined) return exit_done;

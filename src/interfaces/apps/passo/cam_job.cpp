@@ -178,6 +178,18 @@ std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, con
   return all;
 }
 
+void take_link(const RouteLink& link, RouteLink& route, SafeChange& change) {
+  route = link;
+  change.changes_in_place = link.changes_in_place;
+  change.ends_in_place = link.ends_in_place;
+}
+
+void note_repeated(const EdgeLoops& loops) {
+  if (loops.repeated == 0) return;
+  note(fmt::format("{} that {} ignored", counted(loops.repeated, "closed contour"),
+                   loops.repeated == 1 ? "repeats another is" : "repeat others are"));
+}
+
 void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<Region*>& regions) {
   const std::optional<DrawnBox> box = bounds(whole);
   const std::optional<DrawnPoint> at = zero.is_lower_left && box ? std::optional(box->least) : zero.at;
@@ -191,7 +203,10 @@ void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<
 
 int tell(const std::string& output, const MillPlan& plan, const std::string& words, CamMade* made) {
   if (made != nullptr) {
-    for (const MillTool& tool : plan.tools) made->tools.push_back(tool.words);
+    for (const MillTool& tool : plan.tools) {
+      made->tools.push_back(tool.words);
+      if (!tool.runs.empty()) made->last = tool.runs.back().back().at;
+    }
     made->summary = words;
   } else if (!output.empty() && output != "-") {
     say(words);
@@ -199,11 +214,12 @@ int tell(const std::string& output, const MillPlan& plan, const std::string& wor
   return exit_done;
 }
 
-std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units) {
+std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units, const RouteLink& link) {
   const double unit_nm = *mm_of_unit(units) * nanometres_per_mm;
   std::string text;
+  const std::vector<MillLengths> all = lengths_of(plan, park, link);
   for (std::size_t i = 0; i < plan.tools.size(); ++i) {
-    const MillLengths lengths = lengths_of(plan.tools[i], park);
+    const MillLengths& lengths = all[i];
     const std::string links =
         lengths.links_nm > 0 ? fmt::format("{:.1f} {} of links, ", lengths.links_nm / unit_nm, units) : "";
     text += fmt::format("tool {}: {}: {} down, {:.1f} {} milled, {}{:.1f} {} of rapids\n", i + 1, plan.tools[i].words,

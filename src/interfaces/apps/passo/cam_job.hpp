@@ -78,6 +78,12 @@ std::string listed(const std::vector<std::string>& files);
 // Reads the files, and shows guesses as notes. Returns nothing after errors, which it shows.
 std::optional<BoardLayer> read_layers(const std::vector<std::string>& files, const MillJob& job);
 
+// Shows how many closed contours repeat others, and are ignored.
+void note_repeated(const EdgeLoops& loops);
+
+// Makes a program a part of a longer route.
+void take_link(const RouteLink& link, RouteLink& route, SafeChange& change);
+
 // Moves the regions according to --zero; `whole`, one of them, defines the lower left corner.
 void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<Region*>& regions);
 
@@ -85,6 +91,6 @@ void move_to_zero(const ZeroPlace& zero, const Region& whole, const std::vector<
 int tell(const std::string& output, const MillPlan& plan, const std::string& words, CamMade* made);
 
 // Summarises the runs of each tool, one per line, in the program's units.
-std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units);
+std::string summary_of(const MillPlan& plan, DrawnPoint park, const std::string& units, const RouteLink& link = {});
 
 }  // namespace passo

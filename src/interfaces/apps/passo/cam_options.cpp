@@ -1,5 +1,6 @@
 #include "cam_options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <type_traits>
@@ -133,24 +134,57 @@ std::function<int()> remembered_of(CLI::App& command) {
   return [all, &command] {
     const RecordedMessages shown_ones;
     if (const int code = use_remembered(command, *all); code != exit_done) return code;
+    const IsGiven is_given = [&](const char* option) { return command.count(option) > 0; };
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype((*all).*part)>, CamDrillArguments>) {
-      const IsGiven is_given = [&](const char* option) { return command.count(option) > 0; };
       show_idle_options(idle_options_of((*all).*part, is_given));
-      const int code = use_tools((*all).*part, is_given);
-      if (code != exit_done) return code;
     }
+    const int code = use_tools((*all).*part, is_given);
+    if (code != exit_done) return code;
     return run_with_progress((*all).*part, [](const auto& arguments, const WorkProgress& progress) {
       return run(arguments, progress, nullptr, nullptr);
     });
   };
 }
 
-int make_board_job(const CamBoardArguments& board, const WorkProgress& progress) {
-  CamArguments all;
-  all.board = board;
+// The options for the controller that are given for the whole board.
+void take_controller(const CamBoardArguments& board, const IsGiven& is_given, CamProgramArguments& arguments) {
+  if (is_given("--for")) arguments.controller = board.controller;
+  if (is_given("--start-text")) arguments.start_text = board.start_text;
+  if (is_given("--tool-change-text")) arguments.tool_change_text = board.tool_change_text;
+  if (is_given("--end-text")) arguments.end_text = board.end_text;
+  if (is_given("--change-height")) arguments.change_height = board.change_height;
+  if (is_given("--spindle-delay")) arguments.spindle_delay = board.spindle_delay;
+}
+
+int make_board_job(CamArguments& all, const IsGiven& is_given, const WorkProgress& progress) {
   if (const int code = read_profile(all); code != exit_done) return code;
   if (!all.board.join.empty()) all.outline.join = all.board.join;
+  for (CamProgramArguments* const one :
+       {static_cast<CamProgramArguments*>(&all.drill), static_cast<CamProgramArguments*>(&all.isolate),
+        static_cast<CamProgramArguments*>(&all.outline)}) {
+    take_controller(all.board, is_given, *one);
+  }
+  const auto in_profile = [&](const char* command) {
+    return [&, command](const char* option) {
+      const std::vector<std::string>& options = all.of_profile[command];
+      return std::ranges::find(options, option + 2) != options.end();  // without "--"
+    };
+  };
+  const int code = use_tools(all.board, all.drill, in_profile("drill"), all.isolate, in_profile("isolate"), all.outline,
+                             in_profile("outline"));
+  if (code != exit_done) return code;
   return cam_board(all.board, progress, all.drill, all.isolate, all.outline);
+}
+
+std::function<int()> board_job_of(CLI::App& command) {
+  const auto all = std::make_shared<CamArguments>();
+  add_cam_options(command, all->board);
+  return [all, &command] {
+    const auto is_given = [&](const char* option) { return command.count(option) > 0; };
+    return run_with_progress(all->board, [&](const CamBoardArguments& /*board*/, const WorkProgress& progress) {
+      return make_board_job(*all, is_given, progress);
+    });
+  };
 }
 
 Command command_of(const char* name, std::function<int()> (*add)(CLI::App&)) {
@@ -177,7 +211,7 @@ std::span<const Command> cam_commands() {
        command_of("drill", remembered_of<&CamArguments::drill, cam_drill>),
        command_of("isolate", remembered_of<&CamArguments::isolate, cam_isolate>),
        command_of("outline", remembered_of<&CamArguments::outline, cam_outline>),
-       command_of("board", operation_of<CamBoardArguments, make_board_job>),
+       command_of("board", board_job_of),
        command_of("profile", with_tools<CamProfileArguments, cam_profile>),
        command_of("pocket", with_tools<CamPocketArguments, cam_pocket>),
        command_of("engrave", with_tools<CamEngraveArguments, cam_engrave>),

@@ -1,7 +1,10 @@
 // The commands of `passo cam`, which generate programs from drawings, and their options.
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "cam_commands.hpp"
 #include "command_table.hpp"
@@ -16,6 +19,7 @@ struct CamArguments {
   CamBoardArguments board;
   std::string machine;    // the machine whose saved options are used; empty: none
   bool remember = false;  // whether to save the given options
+  std::map<std::string, std::vector<std::string>> of_profile = {};  // options that a profile sets, by command
 };
 
 // The commands of `passo cam`.

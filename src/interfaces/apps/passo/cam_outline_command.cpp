@@ -84,6 +84,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   MillJob job = mill_job_of(arguments, "passo cam outline", lengths);
   job.reading.is_edge = true;
   OutlineOptions options = outline_options_of(arguments, job, lengths);
+  if (given != nullptr) take_link(given->link, options.link, job.program.change);
   const Nanometres join = lengths.any("--join", arguments.join);
   if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
@@ -92,6 +93,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   if (!layer) return exit_bad_program;
   Diagnostics findings;
   const BoardEdge edge = board_edge(*layer, join, findings);
+  note_repeated(edge.loops);
   Region board = mirrored(edge.board, job.mirror);
   constexpr Nanometres chords{500};
   Region slots;
@@ -111,7 +113,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   progress.update(0.9);
   if (!arguments.picture.empty()) {
     const Region nothing;
-    const MillScene scene{plan.mill, board, "Board", nothing, plan.tabs, "Tab", options.park};
+    const MillScene scene{plan.mill, board, "Board", nothing, plan.tabs, "Tab", options.park, "", {}, options.link};
     const int code = write_picture(
         arguments.picture, job.program.name,
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
@@ -122,7 +124,8 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
     fmt::print("{}\n", as_json(plan, edge.loops, board, options.park).dump(2));
     return exit_done;
   }
-  const std::string words = summary_of(plan.mill, options.park, arguments.units) + board_words(board, plan, edge.loops);
+  const std::string words =
+      summary_of(plan.mill, options.park, arguments.units, options.link) + board_words(board, plan, edge.loops);
   return tell(arguments.output, plan.mill, words, made);
 }
 

@@ -16,15 +16,14 @@ struct PartDrawing {
   EdgeLoops loops;
   DrawnPoint least;  // lower left and upper right corner of the bounding box
   DrawnPoint most;
-  std::vector<DrawnPoint> dots = {};  // if they are kept
 };
 
 // Reads the files as one drawing. Returns nothing after errors, which it shows.
 std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const MillJob& job);
-// Returns the drawing's lines, mirrored and moved as the job requires. Returns nothing after errors, which it shows.
-enum class DrawnDots : std::uint8_t { ignored, kept };
-std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows,
-                                   DrawnDots dots = DrawnDots::ignored);
+// Returns the drawing's lines, mirrored and moved as the job requires. Where open lines are kept, dots are open lines
+// of one point: points without a diameter, and lines without a length. Elsewhere a note counts the points. Returns
+// nothing after errors, which it shows.
+std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows);
 
 // Returns one line, e.g. "drawn: X 0 to 10, Y 0 to 5 mm".
 std::string size_words(const PartDrawing& part);

@@ -60,31 +60,23 @@ std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const Mi
   return all;
 }
 
-std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows,
-                                   DrawnDots dots) {
-  const bool cuts_dots = open_rows == OpenRows::kept && dots == DrawnDots::ignored;
-  const auto points = std::ranges::count_if(
-      drawing.holes, [&](const DrawnHole& hole) { return hole.diameter.count <= 0 && !(hole.is_dot && cuts_dots); });
-  if (points > 0 && dots == DrawnDots::ignored) {
-    note(fmt::format("{} without a diameter {} ignored", counted(static_cast<std::size_t>(points), "point"),
-                     points == 1 ? "is" : "are"));
+std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometres join, OpenRows open_rows) {
+  const auto is_point = [](const DrawnHole& hole) { return hole.diameter.count <= 0; };
+  const auto points = static_cast<std::size_t>(std::ranges::count_if(drawing.holes, is_point));
+  if (points > 0 && open_rows != OpenRows::kept) {
+    note(fmt::format("{} without a diameter {} ignored", counted(points, "point"), points == 1 ? "is" : "are"));
   }
   mirror_drawing(drawing, job.mirror);
   if (job.zero.at || job.zero.is_lower_left) {
     move_zero_to(job.zero.is_lower_left ? box_of(drawing).least : *job.zero.at, drawing);
   }
   const DrawnBox box = box_of(drawing);
-  std::vector<DrawnPoint> kept;
-  if (dots == DrawnDots::kept) kept = take_dots(drawing);
+  std::vector<DrawnPoint> dots;
+  if (open_rows == OpenRows::kept) dots = take_dots(drawing);
   Diagnostics findings;
-  PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most, std::move(kept)};
-  if (const std::size_t repeated = part.loops.repeated; repeated > 0) {
-    note(fmt::format("{} that {} ignored", counted(repeated, "closed contour"),
-                     repeated == 1 ? "repeats another is" : "repeat others are"));
-  }
-  for (const DrawnHole& hole : drawing.holes) {
-    if (hole.is_dot && cuts_dots) part.loops.open.push_back({{hole.at, 0}});
-  }
+  PartDrawing part{edge_loops(drawing, join, findings, open_rows), box.least, box.most};
+  for (const DrawnPoint& dot : dots) part.loops.open.push_back({{dot, 0}});
+  note_repeated(part.loops);
   if (job.sheet && !findings.any_error()) check_sheet(*job.sheet, box, drawing.file, findings);
   show(findings);
   if (findings.any_error()) return std::nullopt;
@@ -145,6 +137,53 @@ Nanometres join_of(const std::string& text, LengthArguments& lengths) {
   const Nanometres join = lengths.any("--join", text);
   if (join.count < 0) lengths.refuse("--join: expected a length of 0 or more");
   return join;
+}
+
+bool is_gerber(const std::string& file) {
+  Diagnostics findings;  // those of the reader are shown
+  const auto bytes = read_bytes(file, {.area = "drawing", .expected = "a drawing or a Gerber layer"}, findings);
+  return bytes && looks_like_gerber(*bytes);
+}
+
+// What a pocket program clears.
+struct PocketGround {
+  PartDrawing part;
+  Region area;
+};
+
+// Of Gerber layers: what they draw, for a mask or stencil its openings.
+std::optional<PocketGround> drawn_on_layers(const CamPocketArguments& arguments, const MillJob& job) {
+  if (!arguments.layers.empty() || !arguments.colors.empty() || !arguments.names.empty()) {
+    fail(exit_bad_program, "--layer, --color and --name select parts of drawings, but a Gerber file is a single layer");
+    return std::nullopt;
+  }
+  const std::optional<BoardLayer> layer = read_layers(arguments.files, job);
+  if (!layer) return std::nullopt;
+  PocketGround ground;
+  ground.area = mirrored(layer->bare ? united(layer->face, *layer->bare) : layer->face, job.mirror);
+  move_to_zero(job.zero, ground.area, {&ground.area});
+  const DrawnBox box = bounds(ground.area).value_or(DrawnBox{});
+  ground.part.least = box.least;
+  ground.part.most = box.most;
+  Diagnostics findings;
+  if (job.sheet) check_sheet(*job.sheet, box, listed(arguments.files), findings);
+  show(findings);
+  if (findings.any_error()) return std::nullopt;
+  return ground;
+}
+
+std::optional<PocketGround> read_ground(const CamPocketArguments& arguments, const MillJob& job, Nanometres join) {
+  const auto layers = std::ranges::count_if(arguments.files, is_gerber);
+  if (layers == std::ssize(arguments.files) && layers > 0) return drawn_on_layers(arguments, job);
+  if (layers > 0) {
+    fail(exit_bad_program,
+         fmt::format("expected either drawings or Gerber layers, found both: {}", fmt::join(arguments.files, ", ")));
+    return std::nullopt;
+  }
+  std::optional<PartDrawing> part = read_part(arguments, job, join, OpenRows::refused);
+  if (!part) return std::nullopt;
+  Region area = enclosed_by(part->loops.loops);
+  return PocketGround{std::move(*part), std::move(area)};
 }
 
 std::string unreached_words(double mm2) {
@@ -436,16 +475,16 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
   }
   if (!lengths.message().empty()) return fail(exit_bad_program, lengths.message());
 
-  const std::optional<PartDrawing> part = read_part(arguments, job, join, OpenRows::refused);
-  if (!part) return exit_bad_program;
+  const std::optional<PocketGround> ground = read_ground(arguments, job, join);
+  if (!ground) return exit_bad_program;
   Diagnostics findings;
-  const Region area = enclosed_by(part->loops.loops);
+  const Region& area = ground->area;
   const bool is_constant = options.most_engagement > 0;
   const PocketPlan plan = plan_pocket(area, options, findings, progress.part(0.02, 0.9));
   show(findings, listed(arguments.files));
   if (findings.any_error()) return exit_bad_program;
   const std::string words =
-      size_words(*part) +
+      size_words(ground->part) +
       fmt::format("{} of {} mm², {} per layer; {:g} mm² of the part lost\n", counted(plan.pockets, "pocket"),
                   sensible_number(area_mm2(area), 4), counted(plan.loops, is_constant ? "disc" : "loop"),
                   told_loss(plan.lost_mm2)) +
@@ -453,7 +492,7 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
                    : std::string()) +
       unreached_words(plan.unreached_mm2) + tight_words(plan.tight, options.cutter) +
       finish_words(arguments, options.allowance, plan.finished) + unfinished_words(plan.unfinished, "pocket") +
-      milling_words(options.climb) + joined_words(part->loops);
+      milling_words(options.climb) + joined_words(ground->part.loops);
   nlohmann::ordered_json json = lengths_json(plan.mill, options.park);
   json["pockets"] = plan.pockets;
   json[is_constant ? "discs" : "loops"] = plan.loops;

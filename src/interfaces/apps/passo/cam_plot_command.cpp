@@ -125,10 +125,10 @@ int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress) {
 
   std::optional<Drawing> drawing = read_drawings(arguments, job);
   if (!drawing) return exit_bad_program;
-  const std::optional<PartDrawing> part = part_of(std::move(*drawing), job, join, OpenRows::kept, DrawnDots::kept);
+  const std::optional<PartDrawing> part = part_of(std::move(*drawing), job, join, OpenRows::kept);
   if (!part) return exit_bad_program;
   progress.update(0.2);
-  const PlotPlan plan = plan_plot(part->loops, part->dots, options);
+  const PlotPlan plan = plan_plot(part->loops, options);
   if (plan.paths.empty()) {
     return fail(exit_bad_program, listed(arguments.files) + ": there is nothing to draw; expected lines or dots");
   }

@@ -85,6 +85,7 @@ int parse_words(CamArguments& all, const std::string& file, const OptionSection&
   } catch (const CLI::ParseError& error) {
     return fail(exit_bad_program, fmt::format("{}:{}: [{}]: {}", file, section.line, section.name, error.what()));
   }
+  for (const std::string& word : section.words) all.of_profile[section.name].emplace_back(option_of_word(word));
   if (section.name == "drill") all.drill = read.drill;
   if (section.name == "isolate") all.isolate = read.isolate;
   if (section.name == "outline") all.outline = read.outline;

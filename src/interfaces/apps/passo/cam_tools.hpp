@@ -19,10 +19,17 @@ int use_tools(CamProfileArguments& arguments, const IsGiven& is_given);
 int use_tools(CamPocketArguments& arguments, const IsGiven& is_given);
 int use_tools(CamEngraveArguments& arguments, const IsGiven& is_given);
 int use_tools(CamDrillArguments& arguments, const IsGiven& is_given);
+int use_tools(CamIsolateArguments& arguments, const IsGiven& is_given);
+int use_tools(CamOutlineArguments& arguments, const IsGiven& is_given);
 int use_tools(CamReliefArguments& arguments, const IsGiven& is_given);
 
 // Adds to a summary what was shown beside it: warnings, of tools and of files, as its member "warnings", and notes as
 // "notes". Without any, the summary is unchanged.
 std::string with_warnings(const std::string& json, const CamToolArguments& arguments);
+// The same for the three operations of a board, which share a library. An operation that names no tool by its number
+// keeps its own options. Without a drill in its options, the rack has all drills of the library.
+int use_tools(const CamToolArguments& board, CamDrillArguments& drill, const IsGiven& is_given_drill,
+              CamIsolateArguments& isolate, const IsGiven& is_given_isolate, CamOutlineArguments& outline,
+              const IsGiven& is_given_outline);
 
 }  // namespace passo

@@ -50,10 +50,9 @@ inline double distance_nm(DrawnPoint a, DrawnPoint b) {
 
 struct DrawnHole {
   DrawnPoint at = {};
-  Nanometres diameter = {};  // 0: not stated in the file
+  Nanometres diameter = {};  // 0: not stated in the file, or a dot of a pen
   std::uint32_t layer = 0;   // index into Drawing::layers
   std::uint32_t line = 0;    // line of the file, from 1; 0: the file has no lines
-  bool is_dot = false;       // a dot of a pen: no hole, and without a diameter
 };
 
 // A point of a path. `bulge` defines the connection to the next point: 0 is a line; otherwise it is an arc, and the

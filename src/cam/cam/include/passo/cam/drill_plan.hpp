@@ -16,6 +16,7 @@
 
 #include "passo/base/work_progress.hpp"
 #include "passo/cam/drawing.hpp"
+#include "passo/cam/route_link.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 
 namespace passo {
@@ -28,7 +29,8 @@ struct DrillOptions {
   // Of a job file, which chooses holes for a tool: a hole that is not wider than `mill` is an error instead of being
   // drilled, and holes with another diameter than `one_drill` are warned about.
   bool in_job = false;
-  DrawnPoint park = {};                     // tool position at the start, at tool changes and at the end
+  DrawnPoint park = {};  // tool position at the start, at tool changes and at the end
+  RouteLink link = {};
   std::uint64_t route_steps = 200'000'000;  // maximum number of steps of shorten_route() per tool
 };
 
@@ -51,7 +53,8 @@ struct DrillTool {
   std::vector<DrillTarget> targets = {};  // in machining order
   std::size_t holes = 0;                  // number of holes, drilled or milled
   std::size_t slots = 0;
-  double rapids_before_nm = 0;  // length of the rapids in file order, from the park position and back
+  double rapids_before_nm =
+      0;  // length of the rapids in file order, with the ways to the first target and from the last
   double rapids_after_nm = 0;
 };
 

@@ -21,6 +21,13 @@
 
 namespace passo {
 
+// The feed of a drill that differs from that of the others.
+struct DrillFeed {
+  Nanometres diameter = {};
+  Nanometres feed = {};                       // nm/min
+  std::optional<std::uint32_t> spindle = {};  // rpm; empty: as DrillProgramOptions::spindle
+};
+
 struct DrillProgramOptions {
   std::string name = {};                  // program name, for the first comment
   std::vector<std::string> files = {};    // names of the drawing files
@@ -32,6 +39,7 @@ struct DrillProgramOptions {
   std::optional<Nanometres> peck = {};        // depth of one peck; empty: no pecking
   Nanometres mill_step{500'000};              // depth per pass of a milled circle or slot
   Nanometres feed{100'000'000};               // plunge feed for holes, nm/min
+  std::vector<DrillFeed> drill_feeds = {};    // of some drills
   Nanometres mill_feed{150'000'000};          // feed along circles and slots, nm/min
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
   DrawnPoint park = {};                       // park position, as in DrillOptions

@@ -25,6 +25,7 @@
 #include "passo/base/work_progress.hpp"
 #include "passo/cam/mill_plan.hpp"
 #include "passo/cam/region.hpp"
+#include "passo/cam/route_link.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 
 namespace passo {
@@ -51,6 +52,7 @@ struct IsolationOptions {
   Nanometres allowed_loss{};        // copper that may be lost on each side of a gap that is too narrow
   Nanometres least_trace{100'000};  // traces keep at least this width there; narrower ones lose nothing
   DrawnPoint park = {};
+  RouteLink link = {};
   std::uint64_t route_steps = 20'000'000;  // maximum number of steps of shorten_route() per tool
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "passo/cam/region.hpp"
+#include "passo/cam/route_link.hpp"
 
 namespace passo {
 
@@ -51,10 +52,16 @@ struct MillLengths {
   std::size_t runs = 0;  // number of runs; equals the number of plunges
   double milled_nm = 0;
   double links_nm = 0;   // through cleared areas
-  double rapids_nm = 0;  // rapid distance at clearance height, from the park position and back, for each tool
+  double rapids_nm = 0;  // rapid distance at clearance height, including the ways to the first run and from the last
 };
 
+// Returns the lengths of a tool that comes from the park position and returns to it.
 MillLengths lengths_of(const MillTool& tool, DrawnPoint park);
+// Returns the lengths of each tool. `link`: of the program.
+std::vector<MillLengths> lengths_of(const MillPlan& plan, DrawnPoint park, const RouteLink& link);
+
+// Returns where the next tool of a plan comes from.
+DrawnPoint end_of(const MillPlan& plan, DrawnPoint park, const RouteLink& link);
 
 // Returns the path of the cutter centre as chords within the tolerance.
 std::vector<DrawnPoint> chords_of(const MillRun& run, Nanometres tolerance);

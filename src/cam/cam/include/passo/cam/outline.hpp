@@ -48,6 +48,7 @@ struct OutlineOptions {
   std::vector<DrawnRing> slots = {};  // lines on which the middle of the cutter makes slots as wide as it is
   bool skips_narrow = false;  // an opening narrower than the cutter is skipped with a warning; otherwise an error
   DrawnPoint park = {};
+  RouteLink link = {};
 };
 
 struct OutlinePlan {

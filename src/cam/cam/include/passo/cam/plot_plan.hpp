@@ -35,7 +35,8 @@ struct PlotPlan {
   double travel_nm = 0;  // from the park position and back
 };
 
-PlotPlan plan_plot(const EdgeLoops& lines, const std::vector<DrawnPoint>& dots, const PlotOptions& options);
+// An open line of one point is a dot.
+PlotPlan plan_plot(const EdgeLoops& lines, const PlotOptions& options);
 
 // Removes the dots from a drawing, and returns them: its points, and its paths without a length.
 std::vector<DrawnPoint> take_dots(Drawing& drawing);

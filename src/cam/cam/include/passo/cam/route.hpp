@@ -1,4 +1,4 @@
-// shorten_route: finds a short route from a start through all points to an end.
+// shorten_route: finds a short route from a start through all points to an end, or to whichever point is best.
 //
 // It begins with the nearest neighbour order; then applies 2-opt and Or-opt among the ten nearest neighbours of each
 // point (Bentley's don't-look bits); then small random changes (segment insertion, Or-3opt), each kept if it shortens
@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "passo/base/work_progress.hpp"
@@ -17,16 +18,18 @@
 
 namespace passo {
 
-// Returns the indices of `places` in a good order. `steps`: the maximum number of distances evaluated and points moved,
-// not counting the initial order, which needs about 100 per point.
-std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start, DrawnPoint end,
-                                         std::uint64_t steps, const WorkProgress& progress = {});
+// Returns the indices of `places` in a good order. `end`: empty: the route ends at any of the places. `steps`: the
+// maximum number of distances evaluated and points moved, not counting the initial order, which needs about 100 per
+// point.
+std::vector<std::uint32_t> shorten_route(const std::vector<DrawnPoint>& places, DrawnPoint start,
+                                         std::optional<DrawnPoint> end, std::uint64_t steps,
+                                         const WorkProgress& progress = {});
 
 // Returns the number of steps beyond which the route hardly improves: `a_place` for each point, fewer for few points.
 std::uint64_t enough_steps(std::size_t places, std::uint64_t a_place);
 
 // Returns the length of the route from the start through all points in this order to the end, in nanometres.
 double route_length(const std::vector<DrawnPoint>& places, const std::vector<std::uint32_t>& order, DrawnPoint start,
-                    DrawnPoint end);
+                    std::optional<DrawnPoint> end);
 
 }  // namespace passo

@@ -26,7 +26,7 @@ struct CamProgramArguments {
 // The tools of a library. Options for a cutter then take its number: T3.
 struct CamToolArguments {
   std::string tool_table;  // tool library (TOML); empty: none
-  std::string material;    // material of the stock; empty: feeds are those of the options
+  std::string material;    // of the stock; empty: feeds are those of the options
   std::string limits;      // machine file; its speeds limit those of the tables; empty: none
   // Not options: remarks from the library, for the head of the program and for the summary.
   std::vector<std::string> tool_remarks = {};
@@ -44,6 +44,14 @@ struct CamSummaryArguments {
   bool json = false;  // as JSON on standard output
 };
 
+// The feed of a drill of the library.
+struct CamDrillFeed {
+  double diameter_mm = 0;
+  double feed_mm = 0;         // per minute; 0: that of the other drills
+  std::uint32_t spindle = 0;  // rpm; 0: that of the other drills
+  std::string words = {};     // for the head of the program
+};
+
 struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection, CamSummaryArguments {
   std::vector<std::string> files;   // DXF or Excellon
   std::string output;               // empty: standard output
@@ -59,11 +67,13 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelect
   std::string mirror_at;            // position of the mirror line; empty: X0 or Y0
   std::string align;                // X,Y,X,Y: two alignment holes; empty: none
   std::string align_drill = "3mm";  // diameter of the alignment holes
-  std::string tools;                // the rack: comma-separated diameters; empty: one drill per diameter
+  std::string tools;                // the rack: comma-separated diameters or tool numbers, or "all" drills of the
+                                    // library; empty: one drill per diameter
   std::string tolerance = "0.05mm";
   std::string drill;    // a single drill for all holes; empty: none
   std::string mill;     // diameter of the milling cutter; empty: none
   bool in_job = false;  // an operation of a job file, which chooses the holes for its tool: see DrillOptions
+  std::vector<CamDrillFeed> drill_feeds = {};  // not an option: of drills in `tools` that the library knows
   std::string mill_step = "0.5mm";
   std::string clearance = "2mm";
   std::string feed_height = "0.5mm";  // at most `clearance`
@@ -78,7 +88,7 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelect
 };
 std::vector<CamOption> cam_options_of(CamDrillArguments& arguments);
 
-// The arguments of every milling operation. Profile, pocket and engrave have the options of the tools.
+// The arguments of every milling operation.
 struct CamMillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection {
   std::vector<std::string> files;   // Gerber or DXF
   std::string output;               // empty: standard output
@@ -266,7 +276,8 @@ struct CamWireArguments : CamMillArguments {
 std::vector<CamOption> cam_options_of(CamWireArguments& arguments);
 
 // Runs the three commands on all files of a board.
-struct CamBoardArguments {
+// The options of the controller and of the tools apply to all three.
+struct CamBoardArguments : CamProgramArguments, CamToolArguments {
   std::vector<std::string> paths;    // Gerber and drill files, folders, or a zip archive
   std::string output = ".";          // folder for programs, pictures and the web page
   std::string profile;               // options of the three commands (TOML); empty: none
@@ -277,6 +288,7 @@ struct CamBoardArguments {
   bool probe_holes = false;          // the holes are for probing the position of the flipped board
   std::string copies;                // COLUMNSxROWS boards on one blank; empty: one
   std::string gap = "5mm";           // between two copies
+  std::string park;                  // X,Y of tool changes and ends, or "last"; empty: as in the profile
   std::string mask;                  // diameter of the cutter for the solder mask's openings; empty: none
   std::string mask_depth = "-0.05mm";
   std::string stencil;  // diameter of the cutter for a paste stencil; empty: none

@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// Draws into `file`; the caller commits it. `park`: where the plan's rapids begin and end.
-Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, const PictureOptions& options,
-                                    OutputFile& file);
+// Draws into `file`; the caller commits it. `park`, `link`: as in DrillOptions.
+Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, const RouteLink& link,
+                                    const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

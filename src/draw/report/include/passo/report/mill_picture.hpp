@@ -25,6 +25,7 @@ struct MillScene {
   // The rapids, if they are known. Empty: those of each tool from the park position and back.
   std::optional<std::vector<DrawnRing>> rapids = {};
   std::optional<Nanometres> offcut = {};  // X from which the sheet stays whole
+  RouteLink link = {};
 };
 
 // Draws into `file`; the caller commits it.
