@@ -15,7 +15,6 @@ export interface JobTool {
   words: string;
   shape: string;
 }
-type Pair = [number, number];
 export interface JobFile {
   name: string;
   stamp: string;
@@ -24,8 +23,8 @@ export interface JobFile {
   good: boolean;
   findings: Finding[];
   job: Record<string, Value> | null;
-  stock: { size?: Pair; thickness?: number; corner?: Pair; material?: string } | null;
-  clamps: { name?: string; from?: Pair; to?: Pair }[] | null;
+  stock: Record<string, Value> | null;
+  clamps: Record<string, Value>[];
   tools: JobTool[];
   operations: JobOperation[];
 }

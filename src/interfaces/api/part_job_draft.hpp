@@ -12,8 +12,8 @@
 
 namespace passo {
 
-inline constexpr std::size_t longest_job_text = std::size_t{64} << 10;  // bytes; a job of 100 operations has 20 KB
-inline constexpr std::size_t most_job_edits = 50;                       // of one request
+inline constexpr std::size_t longest_job_text = std::size_t{48} << 10;  // bytes; a job of 100 operations has 20 KB
+inline constexpr std::size_t most_job_edits = 10;                       // of one request
 
 struct DraftPlace {
   std::string name;                // of the job file
