@@ -1,7 +1,7 @@
 // A job file of the daemon: its text, and its operations as a list. Each edit changes only the lines that it names.
 import { signal } from '@preact/signals';
 import { attempt } from '../core/notices';
-import { get, post, type Finding } from './api';
+import { get, post, Refused, type Finding } from './api';
 import { sendDrawing } from './cam';
 
 export type Value = string | number | boolean | null | Value[];
@@ -74,7 +74,14 @@ function change(what: (file: JobFile) => object, keepsPast: boolean): Promise<bo
     attempt(async () => {
       const file = jobFile.value;
       if (file === null) return;
-      const changed = await post<JobFile>('/cam/job', { name: file.name, stamp: file.stamp, ...what(file) });
+      const changed = await post<JobFile>('/cam/job', { name: file.name, stamp: file.stamp, ...what(file) }).catch(async (error: unknown) => {
+        // Somebody else has edited it: what they have made of it is shown.
+        if (error instanceof Refused && error.code === 'make.job-changed') {
+          past.value = [];
+          await openJobFile(file.name);
+        }
+        throw error;
+      });
       if (keepsPast && changed.text !== file.text) past.value = [...past.value, file.text].slice(-mostPast);
       jobFile.value = changed;
     }),
