@@ -1,27 +1,12 @@
-import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { mapTarget } from '../src/machine/programs';
 import type { Program } from '../src/machine/api';
 import { formFor, forms, isDrawing } from '../src/pages/cam_forms';
 import { knowOperations } from './description';
 import { readChunks } from '../src/scene/path_data';
-import { isGoodTool, readToolFile } from '../src/scene/tool_file';
+import { isGoodTool } from '../src/scene/tool_file';
 
-describe('a file of tools', () => {
-  it('is read as passo simulate reads it', () => {
-    const tools = readToolFile(readFileSync('../examples/tools/router-tools.toml', 'utf8'));
-    expect(Object.keys(tools)).toEqual(['1', '2', '3', '4', '5', '6', '7', '8']);
-    expect(tools['1']).toEqual({ kind: 'flat', diameter: 6, angle: 60, tip: 0 });
-    expect(tools['3']).toEqual({ kind: 'vee', diameter: 6, angle: 60, tip: 0.1 });
-    expect(tools['4']).toEqual({ kind: 'bull', diameter: 6, angle: 60, tip: 1 });
-    expect(tools['5']).toEqual({ kind: 'taper', diameter: 6, angle: 12, tip: 1 });
-    expect(tools['8']).toEqual({ kind: 'vee', diameter: 3, angle: 118, tip: 0 });
-  });
-  it('may be anything', () => {
-    expect(readToolFile('G1 X1\n[axis.X]\ndiameter_mm = 3\n')).toEqual({});
-    expect(readToolFile('[tool.1]\nshape = "flat"\n[tool.2]\nshape = "round"\ndiameter_mm = 3\n')).toEqual({});
-    expect(readToolFile("[ tool . 3 ] # a comment\nshape = 'ball'\ndiameter_mm = 2 # mm\n")['3']?.diameter).toBe(2);
-  });
+describe('a tool', () => {
   it('has only tools that can be', () => {
     expect(isGoodTool({ kind: 'bull', diameter: 6, angle: 60, tip: 3 })).toBe(false);
     expect(isGoodTool({ kind: 'vee', diameter: 6, angle: 180, tip: 0 })).toBe(false);

@@ -194,6 +194,28 @@ TEST(ApiCam, reads_no_tool_library_that_was_not_sent) {
   EXPECT_EQ(run.status, 404U);
 }
 
+TEST(ApiTools, are_read_as_the_simulation_has_them) {
+  ApiRun run(GrblRun::at_zero());
+  std::ifstream file(PASSO_SOURCE_DIR "/examples/tools/router-tools.toml");
+  std::ostringstream text;
+  text << file.rdbuf();
+  const Json library = run.ask("POST", "/tools?name=router.toml", text.str(), "", "application/octet-stream");
+  expect_members(openapi()["components"]["schemas"]["ToolLibrary"], library, "ToolLibrary");
+  ASSERT_EQ(library["tools"].size(), 8U) << library;
+  const auto shape = [&](std::size_t i) {
+    const Json& tool = library["tools"][i];
+    return fmt::format("{} {} {} {} {}", tool["number"].dump(), tool["kind"].get<std::string>(),
+                       tool["diameter"].dump(), tool["angle"].dump(), tool["tip"].dump());
+  };
+  EXPECT_EQ(shape(2), "3 vee 6.0 60.0 0.1");
+  EXPECT_EQ(shape(3).substr(0, 10), "4 bull 6.0");
+  EXPECT_EQ(shape(4), "5 taper 6.0 12.0 1.0");
+  EXPECT_EQ(shape(7), "8 vee 3.0 118.0 0.0") << "a drill";
+  const Json wrong = run.ask("POST", "/tools", "[tool.1]\ndiameter_mm = 3\nshape = \"round\"\n", "", "application/octet-stream");
+  EXPECT_TRUE(wrong["tools"].empty());
+  EXPECT_EQ(wrong["findings"][0]["line"], 3) << wrong;
+}
+
 TEST(ApiCam, tells_the_shapes_of_a_drawing) {
   SlowMaker maker;
   ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, &maker);

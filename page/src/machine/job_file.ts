@@ -1,7 +1,7 @@
 // A job file of the daemon: its text, and its operations as a list. Each edit changes only the lines that it names.
 import { signal } from '@preact/signals';
 import { attempt } from '../core/notices';
-import { get, post, type Finding } from './api';
+import { get, post, Refused, type Finding } from './api';
 import { sendDrawing } from './cam';
 
 export type Value = string | number | boolean | null | Value[];
@@ -15,7 +15,6 @@ export interface JobTool {
   words: string;
   shape: string;
 }
-type Pair = [number, number];
 export interface JobFile {
   name: string;
   stamp: string;
@@ -24,8 +23,8 @@ export interface JobFile {
   good: boolean;
   findings: Finding[];
   job: Record<string, Value> | null;
-  stock: { size?: Pair; thickness?: number; corner?: Pair; material?: string } | null;
-  clamps: { name?: string; from?: Pair; to?: Pair }[] | null;
+  stock: Record<string, Value> | null;
+  clamps: Record<string, Value>[];
   tools: JobTool[];
   operations: JobOperation[];
 }
@@ -75,7 +74,14 @@ function change(what: (file: JobFile) => object, keepsPast: boolean): Promise<bo
     attempt(async () => {
       const file = jobFile.value;
       if (file === null) return;
-      const changed = await post<JobFile>('/cam/job', { name: file.name, stamp: file.stamp, ...what(file) });
+      const changed = await post<JobFile>('/cam/job', { name: file.name, stamp: file.stamp, ...what(file) }).catch(async (error: unknown) => {
+        // Somebody else has edited it: what they have made of it is shown.
+        if (error instanceof Refused && error.code === 'make.job-changed') {
+          past.value = [];
+          await openJobFile(file.name);
+        }
+        throw error;
+      });
       if (keepsPast && changed.text !== file.text) past.value = [...past.value, file.text].slice(-mostPast);
       jobFile.value = changed;
     }),

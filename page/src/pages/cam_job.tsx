@@ -298,6 +298,10 @@ function JobChoice() {
   const form = forms.value.find((one) => one.job === 'profile');
   const drawings = files.filter((name) => !name.endsWith('.toml') && form?.files.split(',').some((ending) => name.toLowerCase().endsWith(ending)) === true);
   const why = isLive.value ? '' : say('why.lost');
+  // A page that comes anew.
+  useEffect(() => {
+    if (jobFile.value === null && jobs.length === 1) void openJobFile(jobs[0]!);
+  }, [jobs.join('\n')]);
   return (
     <>
       {jobs.length > 0 && (

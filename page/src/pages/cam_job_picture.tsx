@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { say } from '../core/language';
-import { edit, jobFile, needShapes, shapes, type JobFile, type JobOperation, type Shape, type ShapesOfDrawing } from '../machine/job_file';
+import { edit, jobFile, needShapes, shapes, type JobFile, type JobOperation, type Shape, type ShapesOfDrawing, type Value } from '../machine/job_file';
 import { cam } from '../machine/cam';
 import { Choice } from '../parts/view_dialog';
 import { drawingsOf, selectors, selects, wanted, wordsOf, type Selector } from './cam_job_values';
@@ -26,9 +26,9 @@ const sizeOf = (d: string): number => {
 // The job's zero in the coordinates of its drawings.
 export function zeroOf(file: JobFile, boxes: readonly number[][]): readonly [number, number] {
   const zero = file.job?.zero;
-  if (zero === 'lower-left') return [Math.min(...boxes.map((box) => box[0] ?? 0)), Math.min(...boxes.map((box) => box[1] ?? 0))];
-  if (Array.isArray(zero)) return [Number(zero[0]), Number(zero[1])];
-  return [0, 0];
+  if (zero === 'lower-left' && boxes.length > 0) return [Math.min(...boxes.map((box) => box[0] ?? 0)), Math.min(...boxes.map((box) => box[1] ?? 0))];
+  const at = pairOf(zero) ?? [0, 0];
+  return [at[0] * unitOf(file), at[1] * unitOf(file)];
 }
 
 const unitOf = (file: JobFile): number => (file.job?.units === 'inch' ? 25.4 : file.job?.units === 'cm' ? 10 : 1);
@@ -45,37 +45,51 @@ export function toggle(index: number, one: Selector, word: string): void {
   void edit(now.length === 0 ? { do: 'unset', path } : { do: 'set', path, value: now.length === 1 ? now[0]! : now });
 }
 
-function Frame({ file, zero }: { file: JobFile; zero: readonly [number, number] }) {
+// The file may have errors.
+const pairOf = (value: Value | undefined): readonly [number, number] | null =>
+  Array.isArray(value) && typeof value[0] === 'number' && typeof value[1] === 'number' ? [value[0], value[1]] : null;
+
+// X, Y, X, Y in the coordinates of the drawings.
+function boxOf(file: JobFile, zero: readonly [number, number], from: readonly [number, number] | null, to: readonly [number, number] | null): number[] {
   const unit = unitOf(file);
-  const size = file.stock?.size;
-  const corner = file.stock?.corner ?? [0, 0];
+  if (from === null || to === null || to[0] <= from[0] || to[1] <= from[1]) return [];
+  return [zero[0] + from[0] * unit, zero[1] + from[1] * unit, zero[0] + to[0] * unit, zero[1] + to[1] * unit];
+}
+function stockBox(file: JobFile, zero: readonly [number, number]): number[] {
+  const size = pairOf(file.stock?.size);
+  const corner = pairOf(file.stock?.corner) ?? [0, 0];
+  return boxOf(file, zero, corner, size === null ? null : [corner[0] + size[0], corner[1] + size[1]]);
+}
+
+function Box({ kind, box, name }: { kind: string; box: readonly number[]; name?: string }) {
+  if (box.length !== 4) return null;
+  return (
+    <rect class={kind} x={box[0]} y={box[1]} width={box[2]! - box[0]!} height={box[3]! - box[1]!}>
+      {name !== undefined && <title>{name}</title>}
+    </rect>
+  );
+}
+
+function Frame({ file, zero }: { file: JobFile; zero: readonly [number, number] }) {
   return (
     <>
-      {size !== undefined && <rect class="job-stock" x={zero[0] + corner[0] * unit} y={zero[1] + corner[1] * unit} width={size[0] * unit} height={size[1] * unit} />}
-      {(file.clamps ?? []).map(
-        (clamp, index) =>
-          clamp.from !== undefined &&
-          clamp.to !== undefined && (
-            <rect key={index} class="job-clamp" x={zero[0] + clamp.from[0] * unit} y={zero[1] + clamp.from[1] * unit} width={Math.max(0, clamp.to[0] - clamp.from[0]) * unit} height={Math.max(0, clamp.to[1] - clamp.from[1]) * unit}>
-              <title>{clamp.name}</title>
-            </rect>
-          ),
-      )}
+      <Box kind="job-stock" box={stockBox(file, zero)} />
+      {file.clamps.map((clamp, index) => (
+        <Box key={index} kind="job-clamp" box={boxOf(file, zero, pairOf(clamp.from), pairOf(clamp.to))} name={String(clamp.name ?? '')} />
+      ))}
       <path class="job-zero" d={`M${zero[0] - 4} ${zero[1]}h8M${zero[0]} ${zero[1] - 4}v8`} />
     </>
   );
 }
 
 function viewOf(file: JobFile, boxes: readonly number[][], zero: readonly [number, number]): string {
-  const unit = unitOf(file);
-  const all = boxes.map((box) => [...box]);
-  const size = file.stock?.size;
-  const corner = file.stock?.corner ?? [0, 0];
-  if (size !== undefined) all.push([zero[0] + corner[0] * unit, zero[1] + corner[1] * unit, zero[0] + (corner[0] + size[0]) * unit, zero[1] + (corner[1] + size[1]) * unit]);
+  const all = [...boxes, stockBox(file, zero)].filter((box) => box.length === 4);
   if (all.length === 0) return '0 -100 100 100';
   const low = [0, 1].map((axis) => Math.min(...all.map((box) => box[axis]!)));
   const high = [2, 3].map((axis) => Math.max(...all.map((box) => box[axis]!)));
-  const room = 0.04 * Math.max(high[0]! - low[0]!, high[1]! - low[1]!, 1);
+  // Clamps may be much larger than what is cut.
+  const isClamped = file.clamps.length > 0;
+  const room = (isClamped ? 0.15 : 0.04) * Math.max(high[0]! - low[0]!, high[1]! - low[1]!, 1);
   return `${low[0]! - room} ${-high[1]! - room} ${high[0]! - low[0]! + 2 * room} ${high[1]! - low[1]! + 2 * room}`;
 }
 

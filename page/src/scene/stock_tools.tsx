@@ -1,6 +1,8 @@
 // The tools that cut the stock, one for each that the program puts in: from a file of tools, or as somebody says.
 import { useRef, useState } from 'preact/hooks';
+import { reportWords } from '../core/faults';
 import { say, sayCount } from '../core/language';
+import { attempt } from '../core/notices';
 import { fromMm, lengthUnit, toMm } from '../core/units';
 import type { UsedTool } from '../machine/path_index';
 import type { StockTool, ToolKind } from './stock_cutter';
@@ -64,10 +66,14 @@ export function StockTools() {
   if (stockState.value === 'missing') return <p class="scene-stock">{say('stock.missing')}</p>;
   const take = async (file: File | undefined): Promise<void> => {
     if (file === undefined) return;
-    const tools = readToolFile(await file.text());
-    toolShapes.value = { ...toolShapes.value, ...tools };
-    const count = Object.keys(tools).length;
-    setSaid(count === 0 ? say('stock.file.none', { name: file.name }) : sayCount('stock.file.read', count, { name: file.name }));
+    await attempt(async () => {
+      const { tools, findings } = await readToolFile(file);
+      toolShapes.value = { ...toolShapes.value, ...tools };
+      const count = Object.keys(tools).length;
+      const why = findings[0];
+      const none = `${say('stock.file.none', { name: file.name })} ${why === undefined ? '' : `${why.line}: ${reportWords(why.message, why.message_sentence)}`}`;
+      setSaid(count === 0 ? none : sayCount('stock.file.read', count, { name: file.name }));
+    });
   };
   return (
     <div class="scene-stock" role="group" aria-label={say('stock.tools')}>

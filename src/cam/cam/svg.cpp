@@ -66,7 +66,6 @@ class SvgExpansion {
   bool is_displayed(const SvgElement& element, Place& place);
   bool transform(const SvgElement& element, Place& place);
   void draw(const SvgElement& element, const Place& place);
-  std::uint32_t layer_of_shape(const Place& place);
   void put(SvgFigure figure, const SvgElement& element, const Place& place);
 
   void clip(std::uint32_t index, Place& place);
@@ -312,11 +311,6 @@ void SvgExpansion::add_use(const SvgElement& element, const Place& outer) {
   }
 }
 
-std::uint32_t SvgExpansion::layer_of_shape(const Place& place) {
-  const std::string layer = builder_.drawing().layers[place.layer];
-  return builder_.layer(fmt::format("{}\n{}{}", layer, SvgSelection::colour_of(place.paint), place.paint.names));
-}
-
 void SvgExpansion::draw(const SvgElement& element, const Place& place) {
   // Clip paths are read whole.
   if (!place.is_chosen || (collected_ == nullptr && !selection_.takes(place.paint))) return;
@@ -336,9 +330,7 @@ void SvgExpansion::draw(const SvgElement& element, const Place& place) {
       if (!marker.empty() && !is_css_word(marker, "none")) leave_out("markers of lines", element);
     }
     SvgFigure figure;
-    SvgSpace space = place;
-    if (options_.tells_shapes) space.layer = layer_of_shape(place);
-    reader_.read(element, space, figure);
+    reader_.read(element, options_.tells_shapes ? told(place, place.paint, builder_) : SvgSpace(place), figure);
     put(std::move(figure), element, place);
   }
 }

@@ -60,6 +60,11 @@ void add_names(const SvgElement& element, std::string& names) {
   }
 }
 
+std::string colour_of(const SvgSelection::Paint& paint) {
+  const std::string_view area = paint.fill.empty() ? "black" : paint.fill;
+  return svg_colour(is_no_paint(paint.stroke) ? area : paint.stroke);
+}
+
 }  // namespace
 
 std::string svg_colour(std::string_view text) {
@@ -97,9 +102,10 @@ void SvgSelection::enter(const SvgElement& element, Paint& paint) {
   }
 }
 
-std::string SvgSelection::colour_of(const Paint& paint) {
-  const std::string_view area = paint.fill.empty() ? "black" : paint.fill;
-  return svg_colour(is_no_paint(paint.stroke) ? area : paint.stroke);
+SvgSpace told(SvgSpace space, const SvgSelection::Paint& paint, DrawingBuilder& builder) {
+  const std::string layer = builder.drawing().layers[space.layer];
+  space.layer = builder.layer(fmt::format("{}\n{}{}", layer, colour_of(paint), paint.names));
+  return space;
 }
 
 bool SvgSelection::takes(const Paint& paint) {

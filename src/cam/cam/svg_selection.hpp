@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "svg_document.hpp"
+#include "svg_figure.hpp"
 
 #include "passo/cam/svg.hpp"
 
@@ -30,8 +31,6 @@ class SvgSelection {
   // `paint`: that of the group around the element. The element must outlive it.
   void enter(const SvgElement& element, Paint& paint);
   bool takes(const Paint& paint);
-  // As "#rrggbb", or "none".
-  static std::string colour_of(const Paint& paint);
   // Returns a note for each colour and name that was not found.
   std::vector<std::string> missing() const;
 
@@ -40,5 +39,8 @@ class SvgSelection {
   std::vector<std::string> colours_;  // as svg_colour() returns them
   std::set<std::string> found_;
 };
+
+// The space of a shape on a layer that tells its colour and names (SvgOptions::tells_shapes).
+SvgSpace told(SvgSpace space, const SvgSelection::Paint& paint, DrawingBuilder& builder);
 
 }  // namespace passo

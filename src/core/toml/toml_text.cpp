@@ -39,12 +39,6 @@ std::string describe(const TomlText::Setting& setting) {
   return std::visit(Writer{}, setting);
 }
 
-bool is_plain(std::string_view part) {
-  return !part.empty() && std::ranges::all_of(part, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
-
 std::vector<std::string_view> parts_of(std::string_view path) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -378,13 +372,25 @@ void collect(const toml::table& table, const std::string& before, std::vector<Pl
     const std::string path = before + std::string(key.str());
     if (const toml::table* const inner = node.as_table()) {
       collect(*inner, path + ".", all);
-    } else if (auto setting = is_plain(key.str()) ? setting_of(node) : std::nullopt) {
+    } else if (auto setting = is_plain_key(key.str()) ? setting_of(node) : std::nullopt) {
       all.push_back({key.source().begin, {path, std::move(*setting)}});
     }
   }
 }
 
 }  // namespace
+
+bool is_plain_key(std::string_view key) {
+  return !key.empty() && std::ranges::all_of(key, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::optional<toml::table> tree_of_value(const std::string& words) {
+  if (words.find_first_of("\r\n") != std::string::npos || has_comment(words)) return std::nullopt;
+  auto tree = tree_of("x = " + words);
+  return tree && tree->size() == 1 ? std::optional(std::move(*tree)) : std::nullopt;
+}
 
 Result<TomlText, TomlTextError> TomlText::read(std::string text) {
   if (auto tree = tree_of(text); !tree) return Failure{tree.error()};
@@ -412,10 +418,9 @@ Status<TomlTextError> TomlText::set(std::string_view path, const Setting& settin
 
 Status<TomlTextError> TomlText::set_words(std::string_view path, const std::string& words) {
   const std::vector<std::string_view> parts = parts_of(path);
-  if (!std::ranges::all_of(parts, is_plain)) return text_refusal(fmt::format("'{}' is not a key", path));
-  const bool is_one_line = words.find_first_of("\r\n") == std::string::npos && !has_comment(words);
-  const auto value = tree_of("x = " + words);
-  if (!is_one_line || !value || value->size() != 1) return text_refusal(fmt::format("{} cannot be {}", path, words));
+  if (!std::ranges::all_of(parts, is_plain_key)) return text_refusal(fmt::format("'{}' is not a key", path));
+  const auto value = tree_of_value(words);
+  if (!value) return text_refusal(fmt::format("{} cannot be {}", path, words));
   auto tree = tree_of(text_);
   if (!tree) return Failure{tree.error()};
   const auto change = Setter(text_, *tree, path).change(words);

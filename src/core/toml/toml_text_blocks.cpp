@@ -187,7 +187,11 @@ Status<TomlTextError> TomlText::insert_table(std::string_view list, std::size_t 
   if (number < 1 || number > blocks->size() + 1) return no_table(list, number);
   const std::string_view end = line_end_of(text_);
   std::string block = fmt::format("[[{}]]{}", list, end);
-  for (const NewKey& key : keys) block += fmt::format("{} = {}{}", key.key, key.words, end);
+  for (const NewKey& key : keys) {
+    if (!is_plain_key(key.key)) return text_refusal(fmt::format("'{}' is not a key", key.key));
+    if (!tree_of_value(key.words)) return text_refusal(fmt::format("{} cannot be {}", key.key, key.words));
+    block += fmt::format("{} = {}{}", key.key, key.words, end);
+  }
   std::vector<std::size_t> numbers = all_numbers(blocks->size());
   numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(number) - 1, 0);
   const std::string blank(end);

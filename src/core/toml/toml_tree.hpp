@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,6 +70,11 @@ class TomlPlaces {
   std::string_view text_;
   std::vector<std::size_t> starts_;  // of the lines
 };
+
+// Letters, digits, '_' and '-'.
+bool is_plain_key(std::string_view key);
+// Whether a text is a value of TOML on one line, without a comment. Returns its tree with the key "x".
+std::optional<toml::table> tree_of_value(const std::string& words);
 
 // A new line ends as the others do.
 inline std::string_view line_end_of(std::string_view text) {

@@ -38,7 +38,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/cam/files", "sendCamFile", anybody, bytes, &CamApi::keep_file, Needs::maker},
     {"DELETE", "/cam/files", "clearCamFiles", anybody, none, &CamApi::clear_files, Needs::maker},
     {"GET", "/cam/job", "getCamJobFile", anybody, none, &CamApi::job_file, Needs::maker},
-    {"POST", "/cam/job", "editCamJobFile", anybody, json, &CamApi::edit_job_file, Needs::maker},
+    {"POST", "/cam/job", "editCamJobFile", anybody, json, &CamApi::edit_job_file},
     {"GET", "/cam/operations", "getCamOperations", anybody, none, &CamApi::operations},
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
@@ -99,6 +99,8 @@ constexpr ApiRoute routes[] = {
     {"GET", "/study/loads", "getStudyLoads", anybody, none, &StudiesApi::loads, Needs::studies},
     {"GET", "/study/options", "getStudyOptions", anybody, none, &StudiesApi::options},
     {"GET", "/study/picture", "getStudyPicture", anybody, none, &StudiesApi::picture, Needs::studies},
+
+    {"POST", "/tools", "readToolLibrary", anybody, bytes, &CamApi::tools},
 
     {"GET", "/uploads", "listUploads", anybody, none, &ProgramsApi::list_uploads},
     {"POST", "/uploads", "beginUpload", anybody, none, &ProgramsApi::begin_upload},

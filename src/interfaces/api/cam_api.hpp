@@ -28,6 +28,7 @@ class CamApi {
   WebAnswer shapes(const ApiCall& call);
   WebAnswer job_file(const ApiCall& call);
   WebAnswer edit_job_file(const ApiCall& call);
+  WebAnswer tools(const ApiCall& call);
 
   // Adds generated programs to the program store. A program generated again from the same drawing replaces the previous
   // one, even if a board now has other steps.

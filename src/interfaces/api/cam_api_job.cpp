@@ -1,10 +1,13 @@
-// CamApi: job files, and the drawings that their operations select shapes of.
+// CamApi: job files, the drawings that their operations select shapes of, and tool libraries.
 #include <algorithm>
+#include <numbers>
 
 #include "api_json.hpp"
 #include "cam_api.hpp"
 #include "part_job_draft.hpp"
 #include <fmt/format.h>
+
+#include "passo/tooling/tool_library.hpp"
 
 namespace passo {
 namespace {
@@ -22,6 +25,19 @@ WebAnswer no_job_file() {
 std::optional<std::string> text_member(const Json& said, const char* key) {
   if (!said.contains(key) || !said[key].is_string()) return {};
   return said[key].get<std::string>();
+}
+
+// As the simulation of the stock has it: a drill is a cone.
+Json stock_tool_json(const CuttingTool& tool) {
+  constexpr double degrees_per_radian = 180 / std::numbers::pi;
+  const bool is_drill = tool.shape == CuttingShape::drill;
+  const Mm tip = tool.shape == CuttingShape::bull ? tool.corner_radius : tool.tip;
+  return {{"number", tool.number},
+          {"words", describe(tool)},
+          {"kind", is_drill ? "vee" : std::string(name_of(tool.shape))},
+          {"diameter", tool.diameter.value()},
+          {"angle", rounded(tool.angle.value * degrees_per_radian)},
+          {"tip", tip.value()}};
 }
 
 }  // namespace
@@ -47,10 +63,11 @@ WebAnswer CamApi::edit_job_file(const ApiCall& call) {
       return bad_body("there is no \"" + key.substr(0, 40) + "\"");
     }
   }
-  CamService& maker = *shared_.options.maker;
   const auto name = text_member(said, "name");
   const auto stamp = text_member(said, "stamp");
   if (!name || !stamp) return bad_body("expected \"name\", and the \"stamp\" of the job file that is changed");
+  if (shared_.options.maker == nullptr) return no_maker();
+  CamService& maker = *shared_.options.maker;
   const auto before = is_kept(maker, *name) ? maker.content(*name, longest_job_text) : std::nullopt;
   if (!before) return no_job_file();
   if (stamp_of_job(*before) != *stamp) {
@@ -86,6 +103,21 @@ WebAnswer CamApi::shapes(const ApiCall& call) {
                                                   : "running"},
                            {"drawing", is_done ? drawing : Json()},
                            {"words", shapes.words}});
+}
+
+WebAnswer CamApi::tools(const ApiCall& call) {
+  const auto name = name_from(call.request.query, "tools.toml");
+  if (!name) return name.error();
+  if (call.request.body.size() > longest_job_text) {
+    return bad_body(fmt::format("expected a tool library of at most {} bytes", longest_job_text));
+  }
+  Diagnostics findings;
+  const auto library = ToolLibrary::parse(call.request.body, *name, findings);
+  Json tools = Json::array();
+  if (library) {
+    for (const CuttingTool& tool : library->tools()) tools.push_back(stock_tool_json(tool));
+  }
+  return json_answer(200, {{"tools", std::move(tools)}, {"findings", as_json(findings)}});
 }
 
 }  // namespace passo

@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* operation_list = "operation";
 constexpr int deepest_value = 3;
+constexpr std::size_t most_new_keys = 100;
 
 Json as_json(const TomlValue& value);
 
@@ -56,7 +57,6 @@ Json operation_json(const TomlValue& value) {
   return {{"line", value.place.line}, {"values", as_json(value)}, {"lines", std::move(lines)}};
 }
 
-// The last line of an operation: the next table begins below it.
 Json operations_json(const TomlTable& root) {
   Json all = Json::array();
   const TomlEntry* const list = find(root, operation_list);
@@ -133,23 +133,13 @@ class Editor {
 std::string Editor::insert() {
   std::vector<TomlText::NewKey> keys;
   const Json values = edit_.value("values", Json::object());
-  if (!values.is_object() || values.size() > most_job_edits) return "\"values\": expected an object";
+  if (!values.is_object() || values.size() > most_new_keys) return "\"values\": expected an object";
   for (const auto& [key, value] : values.items()) {
     const std::string words = words_of(value);
     if (words.empty()) return fmt::format("{}: expected a number, a text, true, false, or a list of them", key);
     keys.push_back({key, words});
   }
-  TomlText copy = text_;
-  const std::size_t at = number("number");
-  if (std::string why = done(copy.insert_table(operation_list, at, {})); !why.empty()) return why;
-  // Each key is checked as if it were set alone.
-  for (const TomlText::NewKey& key : keys) {
-    const std::string path = fmt::format("{}.{}.{}", operation_list, at, key.key);
-    if (key.key.find('.') != std::string::npos) return fmt::format("'{}' is not a key", key.key);
-    if (std::string why = done(copy.set_words(path, key.words)); !why.empty()) return why;
-  }
-  text_ = std::move(copy);
-  return "";
+  return done(text_.insert_table(operation_list, number("number"), keys));
 }
 
 std::string Editor::apply() {
@@ -185,7 +175,7 @@ Json draft_of_job(const std::string& text, const DraftPlace& place) {
                 {"findings", Json::array()},
                 {"job", nullptr},
                 {"stock", nullptr},
-                {"clamps", nullptr},
+                {"clamps", Json::array()},
                 {"tools", Json::array()},
                 {"operations", Json::array()}};
   Diagnostics syntax(most_sorted_errors);
@@ -198,7 +188,13 @@ Json draft_of_job(const std::string& text, const DraftPlace& place) {
   draft["editable"] = is_fit && document.complete;
   draft["job"] = table_of(document.root, "job");
   draft["stock"] = table_of(document.root, "stock");
-  draft["clamps"] = table_of(document.root, "clamp");
+  draft["clamps"] = Json::array();
+  for (const char* const list : {"clamp", "fixture"}) {
+    const Json clamps = table_of(document.root, list);
+    for (const Json& clamp : clamps.is_array() ? clamps : Json::array()) {
+      if (clamp.is_object()) draft["clamps"].push_back(clamp);
+    }
+  }
   draft["operations"] = operations_json(document.root);
   Diagnostics findings;
   std::optional<PartJob> job;

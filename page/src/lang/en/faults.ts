@@ -80,7 +80,7 @@ export const faults = {
   'make.none': 'this server cannot generate programs',
   'make.busy': 'another program is being generated: wait',
   'job.outside': 'the tool library of this job was not sent',
-  'make.job-changed': 'another client changed the job file: open it again',
+  'make.job-changed': 'another client changed the job file: its version is shown now',
   'make.no-room': 'there is no room for this file: remove other files, or free disk space',
   'study.none': 'this server cannot run analyses',
   'study.busy': 'the analysis cannot start now: try again',

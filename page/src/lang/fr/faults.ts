@@ -82,7 +82,7 @@ export const faults: Same<typeof en> = {
   'make.none': 'ce serveur ne génère pas de programmes',
   'make.busy': 'un autre programme est en cours de génération : attendez',
   'job.outside': 'la bibliothèque d’outils de ce travail n’a pas été envoyée',
-  'make.job-changed': 'un autre client a modifié le fichier de travail : rouvrez-le',
+  'make.job-changed': 'un autre client a modifié le fichier de travail : sa version est maintenant affichée',
   'make.no-room': 'il n’y a pas de place pour ce fichier : supprimez d’autres fichiers, ou libérez le disque',
   'study.none': 'ce serveur ne fait pas d’analyses',
   'study.busy': 'l’analyse ne peut pas démarrer maintenant : réessayez',

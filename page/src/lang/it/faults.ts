@@ -82,7 +82,7 @@ export const faults: Same<typeof en> = {
   'make.none': 'questo server non genera programmi',
   'make.busy': 'si sta generando un altro programma: attendi',
   'job.outside': 'la libreria utensili di questo lavoro non è stata inviata',
-  'make.job-changed': 'un altro client ha modificato il file di lavoro: riaprirlo',
+  'make.job-changed': 'un altro client ha modificato il file di lavoro: ora è mostrata la sua versione',
   'make.no-room': 'non c’è spazio per questo file: elimina altri file, o libera il disco',
   'study.none': 'questo server non esegue analisi',
   'study.busy': 'l’analisi non può partire ora: riprova',

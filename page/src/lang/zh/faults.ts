@@ -82,7 +82,7 @@ export const faults: Same<typeof en> = {
   'make.none': '此服务器无法生成程序',
   'make.busy': '正在生成另一个程序：请等待',
   'job.outside': '此作业的刀具库尚未发送',
-  'make.job-changed': '其他客户端已更改该作业文件：请重新打开',
+  'make.job-changed': '其他客户端已更改该作业文件：现在显示其版本',
   'make.no-room': '没有空间存放此文件：请删除其他文件或释放磁盘空间',
   'study.none': '此服务器无法运行分析',
   'study.busy': '现在无法开始分析：请重试',

@@ -397,6 +397,17 @@ TEST(Svg, layers_are_chosen_by_their_names) {
   EXPECT_THAT(svg(text, {.layers = {"gut"}}).drawing.notes, testing::Contains("there is no layer 'gut'"));
 }
 
+TEST(Svg, shapes_tell_their_layer_colour_and_names) {
+  const std::string text = page(
+      "<g inkscape:groupmode='layer' inkscape:label='cut' id='l1' stroke='red'><g inkscape:label='motor'>"
+      "<circle id='shaft' r='1'/></g><circle r='2' stroke='none'/></g><circle r='3' fill='#00F'/>");
+  const ReadSvg read = svg(text, {.tells_shapes = true});
+  std::vector<std::string> told;
+  for (const DrawnHole& hole : read.drawing.holes) told.push_back(read.drawing.layers[hole.layer]);
+  EXPECT_EQ(told,
+            (std::vector<std::string>{"cut\n#ff0000\nl1\ncut\nmotor\nshaft", "cut\n#000000\nl1\ncut", "\n#0000ff"}));
+}
+
 TEST(Svg, a_page_without_a_size_is_in_pixels) {
   const ReadSvg pixels = svg("<svg><circle cx='96' cy='96' r='48'/></svg>");
   ASSERT_EQ(pixels.drawing.holes.size(), 1U);

@@ -12,6 +12,8 @@
 #include "passo/part_job/joined_program.hpp"
 #include "passo/part_job/operation_order.hpp"
 #include "passo/part_job/part_job.hpp"
+#include "passo/toml/fit_for_parser.hpp"
+#include "passo/toml/toml_text.hpp"
 
 namespace passo {
 namespace {
@@ -61,6 +63,28 @@ void check_job(std::string_view text) {
   if (job) check_good(*job);
 }
 
+// Edits of any text that the parser takes: each is refused, or leaves a text that can be edited again.
+void check_edits(std::string_view text) {
+  constexpr std::size_t longest = 20'000;
+  Diagnostics diagnostics;
+  const TomlReporter reporter(text, "fuzz.toml", diagnostics);
+  if (text.size() > longest || !is_fit_for_parser(reporter)) return;
+  auto toml = TomlText::read(std::string(text));
+  if (!toml) return;
+  const std::size_t seed = text.size();
+  const auto may_refuse = [&](const Status<TomlTextError>& status) {
+    require(status || !status.error().message.empty(), "refused without a word");
+    require(TomlText::read(toml->text()).has_value(), "no TOML after an edit");
+  };
+  may_refuse(toml->set_words("operation.1.depth", "-1"));
+  may_refuse(toml->set_words("job.x.y", "[[1, 2], [3, 4]]"));
+  may_refuse(toml->move_table("operation", 1 + seed % 3, 1 + seed % 2));
+  may_refuse(toml->copy_table("operation", 1 + seed % 2));
+  may_refuse(toml->insert_table("operation", 1 + seed % 3, {{"kind", "\"drill\""}}));
+  may_refuse(toml->remove("operation.1.depth"));
+  may_refuse(toml->remove_table("operation", 1 + seed % 4));
+}
+
 void check_joined(std::string_view text) {
   JoinedProgram joined({std::string(text.substr(0, 80))});
   const JoinedOperation operation{.title = std::string(text.substr(0, 40)),
@@ -83,6 +107,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   passo::check_job(text);
+  passo::check_edits(text);
   passo::check_joined(text);
   return 0;
 }
