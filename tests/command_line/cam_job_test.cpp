@@ -238,8 +238,29 @@ TEST_F(CamJob, a_clamp_that_cannot_be_checked_is_refused) {
 TEST_F(CamJob, a_cut_far_below_the_stock_is_refused) {
   const Outcome made = passo("cam job " + small_job("", "", "-9"));
   EXPECT_EQ(made.code, 2);
-  EXPECT_THAT(made.err, HasSubstr("below the stock at X"));
+  EXPECT_THAT(made.err, HasSubstr("the tip goes 5.00 mm below the stock at X"))
+      << "not the first layer that is too deep";
+  EXPECT_THAT(made.err, HasSubstr("a depth of 4.5 mm or less"));
   EXPECT_THAT(made.err, HasSubstr("[job.below]"));
+}
+
+TEST_F(CamJob, a_key_without_effect_is_a_warning_unless_the_whole_job_has_it) {
+  const std::string job = small_job(
+      "", "[[operation]]\nkind = \"profile\"\ntool = 1\nlayer = \"pockets\"\nside = \"inside\"\nspring-passes = 2\n");
+  const Outcome made = passo("cam job " + job);
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("small.toml:28:17: warning: 'profile pockets': spring-passes has no effect: it works "
+                                  "only with finish-pass [job.no-effect]"));
+  std::string text = read(small_job());
+  text.insert(text.find("clearance"), "spring-passes = 2\n");
+  EXPECT_EQ(passo("cam job " + write("small.toml", text)).err, "");
+}
+
+TEST_F(CamJob, an_operation_on_no_layer_has_its_number_as_its_name) {
+  const Outcome made =
+      passo("cam job " + small_job("", "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"\"\ndepth = -1\n"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("'pocket 3' cannot be generated"));
 }
 
 TEST_F(CamJob, each_tool_has_its_program) {

@@ -272,6 +272,21 @@ TEST_F(CamPart, plots_are_drawn_by_a_pen_or_cut_by_a_knife) {
   EXPECT_EQ(passo("cam plot " + write("no.svg", "<svg width='40mm' height='40mm'/>")).code, 2);
 }
 
+TEST_F(CamPart, an_option_without_effect_is_a_warning) {
+  const std::string svg = write(
+      "s.svg", "<svg width='40mm' height='40mm' viewBox='0 0 40 40'><rect x='5' y='5' width='30' height='30'/></svg>");
+  const auto warned = [&](const std::string& command, const std::string& warning) {
+    const Outcome made = passo(command + " -o " + path("s.ngc"));
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr(warning)) << command;
+  };
+  warned("cam profile " + svg + " --spring-passes 2",
+         "--spring-passes: warning: it has no effect: it works only with finish-pass [option.no-effect]");
+  warned("cam pocket " + svg + " --finish-feed 100", "--finish-feed: warning: it has no effect");
+  warned("cam profile " + svg + " --chamfer 0.5 --depth -3 --step 1", "--step: warning: it has no effect: a chamfer");
+  EXPECT_EQ(passo("cam profile " + svg + " --finish-pass --spring-passes 1 -o " + path("s.ngc")).err, "");
+}
+
 TEST_F(CamPart, an_inlay_has_a_pocket_and_a_mirrored_plug) {
   const std::string svg =
       write("l.svg", "<svg width='40mm' height='40mm' viewBox='0 0 40 40'><path d='M5 5H15V25H35V35H5z'/></svg>");

@@ -153,6 +153,24 @@ TEST_F(Tools, of_the_wrong_shape_do_not_cut_profiles_or_chamfers) {
   EXPECT_FALSE(std::filesystem::exists(path("none.ngc")));
 }
 
+TEST_F(Tools, of_the_wrong_shape_do_not_engrave_drill_or_carve) {
+  const std::string with = " -o " + path("none.ngc") + " --tool-table " + tool_library;
+  const std::string board = "cam drill " + checkout + "/examples/boards/timer.drl --route-steps 0";
+  const auto refused = [&](const std::string& command, const std::string& expected) {
+    const Outcome made = passo(command + with);
+    EXPECT_EQ(made.code, 2) << command;
+    EXPECT_THAT(made.err, HasSubstr(expected));
+    EXPECT_THAT(made.err, HasSubstr("[tool.wrong-shape]"));
+  };
+  refused("cam engrave " + bracket_drawing + " --on-line --tool T8", "--tool: expected a tool of shape vee, found T8");
+  refused("cam engrave " + bracket_drawing + " --on-line --tool T1", "--tool: expected a tool of shape vee, found T1");
+  refused(board + " --drill T2", "--drill: expected a tool of shape drill, flat, bull or vee, found T2");
+  refused(board + " --drill T5", "--drill: expected a tool of shape drill, flat, bull or vee, found T5");
+  const std::string heights = write("map.csv", "0,0,0\n10,0,1\n0,10,1\n10,10,0\n");
+  refused("cam relief " + heights + " --depth -2 --cutter T8", "found T8");
+  EXPECT_FALSE(std::filesystem::exists(path("none.ngc")));
+}
+
 TEST_F(Tools, cut_no_chamfer_that_is_wider_than_their_flank) {
   const std::string chamfer = "cam profile " + bracket_drawing + " --layer cut -o " + path("c.ngc") + " --chamfer ";
   const std::string with = " --tool-table " + tool_library + " --tool T3";

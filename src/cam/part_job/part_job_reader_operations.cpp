@@ -202,6 +202,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
     std::vector<std::string> words = operation.layers;
     words.insert(words.end(), operation.colors.begin(), operation.colors.end());
     words.insert(words.end(), operation.names.begin(), operation.names.end());
+    std::erase(words, "");  // the shapes on no layer
     if (words.empty()) words.push_back(fmt::format("{}", number));
     operation.title = fmt::format("{} {}", name_of(*kind), fmt::join(words, " "));
   }

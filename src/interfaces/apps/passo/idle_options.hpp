@@ -23,6 +23,12 @@ std::vector<IdleOption> idle_options_of(const CamEngraveArguments& arguments, co
 std::vector<IdleOption> idle_options_of(const CamDrillArguments& arguments, const IsGiven& is_given);
 std::vector<IdleOption> idle_options_of(const CamReliefArguments& arguments, const IsGiven& is_given);
 
+// Other operations have none.
+template <class Arguments>
+std::vector<IdleOption> idle_options_of(const Arguments& /*arguments*/, const IsGiven& /*is_given*/) {
+  return {};
+}
+
 // Shows a warning "option.no-effect" for each of them.
 void show_idle_options(const std::vector<IdleOption>& idle);
 

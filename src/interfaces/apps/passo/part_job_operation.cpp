@@ -80,7 +80,7 @@ void check_layers(const PartJob& job, const PartOperation& operation, const std:
     }
     findings.add(job.finding("job.no-such-layer", place_of_key(operation, "layer"),
                              layer.empty()
-                                 ? "the name of the layer is empty"
+                                 ? fmt::format("{} has nothing outside of its layers", fmt::join(operation.files, ", "))
                                  : fmt::format("{} has no layer '{}'", fmt::join(operation.files, ", "), layer),
                              named.empty()  ? "no layer: this drawing has none"
                              : near.empty() ? fmt::format("{}", fmt::join(named, ", "))
