@@ -41,6 +41,11 @@ class DrillProgram {
   void arc(DrawnPoint from, DrawnPoint to, double bulge);
   std::vector<Nanometres> depths() const;
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
+  SafeChange safe_change() const {
+    SafeChange change = options_.change;
+    change.height = change_height();
+    return change;
+  }
   Nanometres feed_height() const { return std::min(options_.clearance, options_.feed_height); }
 
   std::string number(Nanometres length) const { return text_.number(length); }
@@ -76,7 +81,7 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
   line("");
   line("(tool {}: {}, {})", number_of_tool, diameter_words(tool), contents_of(tool));
   text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), options_.spindle, options_.park,
-                    change_height(), options_.change.spindle_seconds});
+                    safe_change()});
   // A cycle returns to the height at which it began.
   if (!tool.targets.empty()) line("G0 {}", place(start_of(tool.targets.front())));
   line("G0 Z{}", number(options_.clearance));

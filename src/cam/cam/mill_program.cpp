@@ -31,6 +31,11 @@ class MillProgram {
   void begin();
   void change_tool(std::size_t number);
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
+  SafeChange safe_change() const {
+    SafeChange change = options_.change;
+    change.height = change_height();
+    return change;
+  }
   void mill(const MillRun& run);
   void go(const MillPoint& from, const MillPoint& to);
   Nanometres feed_of(MillPace pace) const;
@@ -67,8 +72,7 @@ void MillProgram::begin() {
 void MillProgram::change_tool(std::size_t number) {
   const MillTool& tool = plan_.tools[number - 1];
   text_.line("");
-  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle, options_.park, change_height(),
-                    options_.change.spindle_seconds});
+  text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle, options_.park, safe_change()});
   feed_ = {};
 }
 

@@ -1,5 +1,8 @@
-// SafeChange: where a program starts, changes tools and ends, and how long its spindle needs to reach its speed.
+// SafeChange: where a program starts, changes tools and ends, how long its spindle needs to reach its speed, and the
+// coolant.
 #pragma once
+
+#include <string_view>
 
 #include "passo/cam/drawing.hpp"
 
@@ -8,7 +11,8 @@ namespace passo {
 struct SafeChange {
   // Z of the first and the last rapid, and of tool changes. A higher clearance height replaces it.
   Nanometres height{20'000'000};
-  double spindle_seconds = 2;  // dwell after M3
+  double spindle_seconds = 2;      // dwell after M3
+  std::string_view coolant = {};   // M7 (mist) or M8 (flood); empty: off
 };
 
 }  // namespace passo
