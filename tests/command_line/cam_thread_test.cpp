@@ -48,9 +48,9 @@ struct ThreadCut {
   bool is_left_hand = true;
   bool is_ccw = true;
   bool is_cw = true;
-  bool has_side_feed = false;       // a feed in X or Y that is no arc
-  double lowest_beside = 1e9;       // Z of rapids in X or Y
-  double entry = 0;                 // distance of vertical moves below Z0 from the axis
+  bool has_side_feed = false;  // a feed in X or Y that is no arc
+  double lowest_beside = 1e9;  // Z of rapids in X or Y
+  double entry = 0;            // distance of vertical moves below Z0 from the axis
 };
 
 double word(const std::string& line, char letter, double otherwise) {
@@ -85,8 +85,7 @@ ThreadCut follow(const std::string& program, Tip axis, double unit, double radiu
       cut.is_cw = cut.is_cw && code == "G2";
       for (int i = 0; i <= 180; ++i) {
         const double angle = from + sweep * i / 180;
-        const double far =
-            std::hypot(centre.x + r * std::cos(angle) - axis.x, centre.y + r * std::sin(angle) - axis.y);
+        const double far = std::hypot(centre.x + r * std::cos(angle) - axis.x, centre.y + r * std::sin(angle) - axis.y);
         cut.farthest = std::max(cut.farthest, far);
         cut.nearest = std::min(cut.nearest, far);
       }
@@ -108,9 +107,10 @@ ThreadCut follow(const std::string& program, Tip axis, double unit, double radiu
 class CamThread : public passo::test::CommandLine {
  protected:
   std::string circle(double diameter) {
-    return write("holes.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='40mm' viewBox='0 0 60 40'>"
-                              "<circle cx='20' cy='15' r='" +
-                                  std::to_string(diameter / 2) + "'/></svg>\n");
+    return write("holes.svg",
+                 "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='40mm' viewBox='0 0 60 40'>"
+                 "<circle cx='20' cy='15' r='" +
+                     std::to_string(diameter / 2) + "'/></svg>\n");
   }
 };
 
@@ -121,15 +121,27 @@ TEST_F(CamThread, every_helix_has_the_pitch_and_stays_within_the_thread) {
       {.words = "left-hand", .options = "--thread M6 --left-hand", .is_left_hand = true},
       {.words = "conventional", .options = "--thread M6 --conventional", .is_climb = false},
       {.words = "both", .options = "--thread M6 --left-hand --conventional", .is_left_hand = true, .is_climb = false},
-      {.words = "1/4-20 in inches", .options = "--thread 1/4-20 --units inch", .major = 6.35, .pitch = 1.27,
+      {.words = "1/4-20 in inches",
+       .options = "--thread 1/4-20 --units inch",
+       .major = 6.35,
+       .pitch = 1.27,
        .unit = 25.4},
       {.words = "UNC", .options = "--thread '1/2 UNC'", .major = 12.7, .pitch = 25.4 / 13, .neck = 1.8},
       {.words = "full form", .options = "--thread M6 --teeth 4", .teeth = 4},
       {.words = "full form, down", .options = "--thread M6 --teeth 4 --conventional", .is_climb = false, .teeth = 4},
-      {.words = "boss", .options = "--thread M20x1.5 --external", .major = 20, .pitch = 1.5, .neck = 2,
+      {.words = "boss",
+       .options = "--thread M20x1.5 --external",
+       .major = 20,
+       .pitch = 1.5,
+       .neck = 2,
        .is_external = true},
-      {.words = "boss, left-hand", .options = "--thread M20x1.5 --external --left-hand", .major = 20, .pitch = 1.5,
-       .neck = 2, .is_left_hand = true, .is_external = true}};
+      {.words = "boss, left-hand",
+       .options = "--thread M20x1.5 --external --left-hand",
+       .major = 20,
+       .pitch = 1.5,
+       .neck = 2,
+       .is_left_hand = true,
+       .is_external = true}};
   for (const WantedThread& one : all) {
     SCOPED_TRACE(one.words);
     const std::string drawing = circle(one.is_external ? one.major : one.major - 1.0825 * one.pitch);
@@ -245,7 +257,9 @@ TEST_F(CamThread, a_chamfer_of_a_job_has_a_width_or_the_depth_of_the_tip) {
   const Outcome wide = passo("cam job " + write("a.toml", head + "side = \"inside\"\nchamfer = 0.7\n") + " --json");
   ASSERT_EQ(wide.code, 0) << wide.err;
   EXPECT_NEAR(nlohmann::json::parse(wide.out)["operations"][0]["depth_mm"], 0.8, 1e-3);
-  EXPECT_THAT(read(path("a.ngc")), HasSubstr("I-2.4 J0"));
+  const ThreadCut cut = follow(read(path("a.ngc")), {20, 25, 0}, 1, 2.4, 0);
+  EXPECT_NEAR(cut.nearest, 2.4, 0.003);
+  EXPECT_NEAR(cut.farthest, 2.4, 0.003);
   const Outcome old = passo("cam job " + write("b.toml", head + "depth = -0.5\n") + " --json");
   ASSERT_EQ(old.code, 0) << old.err;
   EXPECT_NEAR(nlohmann::json::parse(old.out)["operations"][0]["depth_mm"], 0.5, 1e-3);

@@ -28,55 +28,83 @@ using FlatRing = std::vector<FlatPoint>;
 // The closed shapes of a layer.
 class DrawnShapes {
  public:
-  void add(FlatRing ring) { rings_.push_back(std::move(ring)); }
+  void add(FlatRing ring) {
+    Outline outline{.ring = std::move(ring)};
+    const std::size_t n = outline.ring.size();
+    constexpr double least_turn = 15 * std::numbers::pi / 180;
+    for (std::size_t i = 0; i < n; ++i) {
+      const FlatPoint a = outline.ring[(i + n - 1) % n];
+      const FlatPoint b = outline.ring[i];
+      const FlatPoint c = outline.ring[(i + 1) % n];
+      outline.low = {std::min(outline.low.x, b.x), std::min(outline.low.y, b.y)};
+      outline.high = {std::max(outline.high.x, b.x), std::max(outline.high.y, b.y)};
+      const double turn =
+          std::remainder(std::atan2(c.y - b.y, c.x - b.x) - std::atan2(b.y - a.y, b.x - a.x), 2 * std::numbers::pi);
+      if (std::abs(turn) > least_turn) corners_.push_back({b, std::tan(std::min(std::abs(turn), 3.1) / 2)});
+    }
+    outlines_.push_back(std::move(outline));
+  }
 
   bool contains(FlatPoint at) const {
     bool inside = false;
-    each_edge([&](FlatPoint a, FlatPoint b) {
-      if ((a.y > at.y) == (b.y > at.y)) return;
-      if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    });
+    for (const Outline& outline : outlines_) {
+      if (outline.beside(at) > 0) continue;
+      outline.each_edge([&](FlatPoint a, FlatPoint b) {
+        if ((a.y > at.y) == (b.y > at.y)) return;
+        if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+      });
+    }
     return inside;
   }
-  // To the nearest edge.
-  double distance(FlatPoint at) const {
-    double best = 1e9;
-    each_edge([&](FlatPoint a, FlatPoint b) {
-      const double dx = b.x - a.x;
-      const double dy = b.y - a.y;
-      const double square = dx * dx + dy * dy;
-      const double t = square > 0 ? std::clamp(((at.x - a.x) * dx + (at.y - a.y) * dy) / square, 0.0, 1.0) : 0;
-      best = std::min(best, std::hypot(at.x - a.x - t * dx, at.y - a.y - t * dy));
-    });
-    return best;
-  }
-  // To the nearest corner, where the direction turns by more than 15 degrees.
-  double distance_to_corner(FlatPoint at) const {
-    constexpr double least_turn = 15 * std::numbers::pi / 180;
-    double best = 1e9;
-    for (const FlatRing& ring : rings_) {
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const FlatPoint a = ring[(i + ring.size() - 1) % ring.size()];
-        const FlatPoint b = ring[i];
-        const FlatPoint c = ring[(i + 1) % ring.size()];
-        const double turn = std::remainder(
-            std::atan2(c.y - b.y, c.x - b.x) - std::atan2(b.y - a.y, b.x - a.x), 2 * std::numbers::pi);
-        if (std::abs(turn) > least_turn) best = std::min(best, std::hypot(at.x - b.x, at.y - b.y));
-      }
+  // To the nearest edge; `most` if it is farther.
+  double distance(FlatPoint at, double most) const {
+    double best = most * most;
+    for (const Outline& outline : outlines_) {
+      const double beside = outline.beside(at);
+      if (beside * beside >= best) continue;
+      outline.each_edge([&](FlatPoint a, FlatPoint b) {
+        const double dx = b.x - a.x;
+        const double dy = b.y - a.y;
+        const double square = dx * dx + dy * dy;
+        const double t = square > 0 ? std::clamp(((at.x - a.x) * dx + (at.y - a.y) * dy) / square, 0.0, 1.0) : 0;
+        const double x = at.x - a.x - t * dx;
+        const double y = at.y - a.y - t * dy;
+        best = std::min(best, x * x + y * y);
+      });
     }
-    return best;
+    return std::sqrt(best);
   }
-  bool empty() const { return rings_.empty(); }
+  // Whether a cutter cannot reach the place, because it does not fit into a corner: where the direction turns by more
+  // than 15 degrees.
+  bool is_in_corner(FlatPoint at, double radius) const {
+    return std::ranges::any_of(corners_, [&](const Corner& corner) {
+      return std::hypot(at.x - corner.at.x, at.y - corner.at.y) < radius * corner.reach + 0.01;
+    });
+  }
 
  private:
-  template <class Do>
-  void each_edge(Do&& act) const {
-    for (const FlatRing& ring : rings_) {
+  struct Outline {
+    FlatRing ring;
+    FlatPoint low{1e9, 1e9};
+    FlatPoint high{-1e9, -1e9};
+
+    // The distance from the bounding box.
+    double beside(FlatPoint at) const {
+      return std::hypot(std::max({low.x - at.x, 0.0, at.x - high.x}), std::max({low.y - at.y, 0.0, at.y - high.y}));
+    }
+    template <class Do>
+    void each_edge(Do&& act) const {
       for (std::size_t i = 0; i < ring.size(); ++i) act(ring[i], ring[(i + 1) % ring.size()]);
     }
-  }
+  };
 
-  std::vector<FlatRing> rings_;
+  std::vector<Outline> outlines_;
+  struct Corner {
+    FlatPoint at;
+    double reach = 0;  // from the corner to where a cutter of radius 1 touches its sides
+  };
+
+  std::vector<Corner> corners_;
 };
 
 // The layers of an SVG drawing whose units are mm.
@@ -154,14 +182,14 @@ struct DrawnCut {
 
 class DrawnSolid {
  public:
-  DrawnSolid(std::map<std::string, DrawnShapes> layers, std::vector<DrawnCut> cuts, double thickness)
-      : layers_(std::move(layers)), cuts_(std::move(cuts)), thickness_(thickness) {}
+  DrawnSolid(std::map<std::string, DrawnShapes> layers, std::vector<DrawnCut> cuts, double thickness, double tolerance)
+      : layers_(std::move(layers)), cuts_(std::move(cuts)), thickness_(thickness), tolerance_(tolerance) {}
 
   struct Heights {
-    double least = 0;         // what is lower was cut into
-    double most = 0;          // what is higher was left
-    double wall = 1e9;        // distance to the nearest wall
-    bool may_be_left = false; // near a corner that is too narrow for the cutter
+    double least = 0;          // what is lower was cut into
+    double most = 0;           // what is higher was left
+    double wall = 1e9;         // distance to the nearest wall
+    bool may_be_left = false;  // near a corner that is too narrow for the cutter
   };
   Heights at(FlatPoint at) const;
 
@@ -169,6 +197,7 @@ class DrawnSolid {
   std::map<std::string, DrawnShapes> layers_;
   std::vector<DrawnCut> cuts_;
   double thickness_;
+  double tolerance_;
 };
 
 inline DrawnSolid::Heights DrawnSolid::at(FlatPoint at) const {
@@ -178,7 +207,7 @@ inline DrawnSolid::Heights DrawnSolid::at(FlatPoint at) const {
   for (const DrawnCut& cut : cuts_) {
     const DrawnShapes& shapes = layers_.at(cut.layer);
     const bool inside = shapes.contains(at);
-    const double wall = shapes.distance(at);
+    const double wall = shapes.distance(at, std::max(cut.cutter, 2.0) + 1);
     heights.wall = std::min(heights.wall, wall);
     const bool is_round = cut.kind == outer_chamfer || cut.kind == inner_chamfer;
     if (is_round) {
@@ -195,12 +224,12 @@ inline DrawnSolid::Heights DrawnSolid::at(FlatPoint at) const {
     if (is_groove) {
       if (inside != (cut.kind == within)) continue;
       is_free = true;
-      if (wall < cut.cutter) heights.most = std::min(heights.most, cut.z);
+      if (wall < cut.cutter - tolerance_) heights.most = std::min(heights.most, cut.z);
     } else if (inside) {
       heights.least = std::min(heights.least, cut.z);
       heights.most = std::min(heights.most, cut.z);
     }
-    if (shapes.distance_to_corner(at) < cut.cutter / 2) heights.may_be_left = true;
+    if (shapes.is_in_corner(at, cut.cutter / 2)) heights.may_be_left = true;
   }
   if (is_free) heights.least = -1e9;
   if (heights.least <= -thickness_) heights.least = -1e9;

@@ -80,8 +80,8 @@ void DrillProgram::begin() {
 void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool) {
   line("");
   line("(tool {}: {}, {})", number_of_tool, diameter_words(tool), contents_of(tool));
-  text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), options_.spindle, options_.park,
-                    safe_change()});
+  text_.begin_tool(
+      {number_of_tool, plan_.tools.size() == 1, diameter_words(tool), options_.spindle, options_.park, safe_change()});
   // A cycle returns to the height at which it began.
   if (!tool.targets.empty()) line("G0 {}", place(start_of(tool.targets.front())));
   line("G0 Z{}", number(options_.clearance));

@@ -8,7 +8,8 @@
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, cutting_shapes> shape_names = {"flat", "ball", "bull", "vee", "taper", "drill", "thread-mill"};
+constexpr std::array<std::string_view, cutting_shapes> shape_names = {"flat",  "ball",  "bull",       "vee",
+                                                                      "taper", "drill", "thread-mill"};
 
 Cutter cutter_of(const CuttingTool& tool) {
   switch (tool.shape) {

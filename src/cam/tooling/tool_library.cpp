@@ -40,8 +40,9 @@ constexpr double usual_point_deg = 118;
 constexpr std::size_t longest_name = 60;  // bytes
 constexpr std::int32_t largest_number = 99'999;
 constexpr std::size_t largest_file = 1U << 20U;
-constexpr std::array all_shapes = {CuttingShape::flat,  CuttingShape::ball,  CuttingShape::bull,       CuttingShape::vee,
-                                   CuttingShape::taper, CuttingShape::drill, CuttingShape::thread_mill};
+constexpr std::array all_shapes = {CuttingShape::flat,       CuttingShape::ball,  CuttingShape::bull,
+                                   CuttingShape::vee,        CuttingShape::taper, CuttingShape::drill,
+                                   CuttingShape::thread_mill};
 static_assert(all_shapes.size() == cutting_shapes);
 
 Radians radians(double degrees) {
@@ -59,7 +60,8 @@ CuttingShape read_shape(TableReader& reader) {
   const std::string_view near = suggestion(*word, names);
   reader.error("machine.shape", shape_key,
                toml_says::key_is.with({{"key", reader.full_name(shape_key)}, {"value", fmt::format("\"{}\"", *word)}}),
-               near.empty() ? std::string("flat, ball, bull, vee, taper, drill or thread-mill") : fmt::format("perhaps {}", near));
+               near.empty() ? std::string("flat, ball, bull, vee, taper, drill or thread-mill")
+                            : fmt::format("perhaps {}", near));
   return CuttingShape::flat;
 }
 

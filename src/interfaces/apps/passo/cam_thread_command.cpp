@@ -31,8 +31,8 @@ std::optional<ThreadSize> size_of(const CamThreadArguments& arguments, LengthArg
     }
     std::optional<ThreadSize> size = thread_size_of(arguments.thread);
     if (!size) {
-      lengths.refuse(
-          fmt::format("--thread: expected a name like M6, M8x1, 1/4-20, #8-32 or 1/4 UNC, found '{}'", arguments.thread));
+      lengths.refuse(fmt::format("--thread: expected a name like M6, M8x1, 1/4-20, #8-32 or 1/4 UNC, found '{}'",
+                                 arguments.thread));
     }
     return size;
   }
@@ -82,10 +82,10 @@ void check_room(const CamThreadArguments& arguments, const ThreadJob& job, Lengt
   // On both sides: the height of the teeth must be more than the depth of the thread.
   const double most_neck = plan.is_external ? cutter + root - hole : hole - major + cutter;
   if (static_cast<double>(neck.count) + 2 * least_room_nm > most_neck) {
-    lengths.refuse(fmt::format(
-        "--neck: expected at most {:.4g} mm, so that the neck does not touch the {} of {}, found '{}'",
-        std::floor((most_neck - 2 * least_room_nm) / 10'000) / 100, plan.is_external ? "boss" : "bore",
-        thread_mm(job.hole), arguments.neck));
+    lengths.refuse(
+        fmt::format("--neck: expected at most {:.4g} mm, so that the neck does not touch the {} of {}, found '{}'",
+                    std::floor((most_neck - 2 * least_room_nm) / 10'000) / 100, plan.is_external ? "boss" : "bore",
+                    thread_mm(job.hole), arguments.neck));
   }
   const std::optional<Nanometres> reach = lengths.perhaps("--reach", arguments.reach);
   if (reach && reach->count < -plan.depth.count) {
@@ -142,14 +142,14 @@ std::vector<DrawnPoint> places_of(const Drawing& drawing, const ThreadJob& job, 
     if (count <= 3) others += (others.empty() ? "" : ", ") + thread_mm(hole.diameter);
   }
   if (count > 0) {
-    findings.add({.severity = Severity::warning,
-                  .code = "thread.other-diameter",
-                  .file = drawing.file,
-                  .place = {},
-                  .message = fmt::format("{} of {} cannot be for {}", counted(count, "circle"), others,
-                                         job.plan.size.name),
-                  .expected = fmt::format("circles of {} to {}", thread_mm(least), thread_mm(job.plan.size.major)),
-                  .text = {}});
+    findings.add(
+        {.severity = Severity::warning,
+         .code = "thread.other-diameter",
+         .file = drawing.file,
+         .place = {},
+         .message = fmt::format("{} of {} cannot be for {}", counted(count, "circle"), others, job.plan.size.name),
+         .expected = fmt::format("circles of {} to {}", thread_mm(least), thread_mm(job.plan.size.major)),
+         .text = {}});
   }
   if (places.empty()) {
     findings.add(of_file("thread.no-circle", drawing.file, "there is no circle to thread",
@@ -200,10 +200,10 @@ int cam_thread(const CamThreadArguments& arguments, const WorkProgress& progress
                                              job.plan.climb ? "climb" : "conventional", plan.goes_up ? "up" : "down"));
   const double pitch_mm = size.pitch_nm / nanometres_per_mm;
   const Nanometres cut = job.plan.is_external ? size.root() - job.plan.oversize : size.major + job.plan.oversize;
-  std::string words = fmt::format(
-      "{}: {}, pitch {:.6g} mm, {} to {}; {} in {} {}, {} milling\n", size.name, counted(places.size(), "thread"),
-      pitch_mm, thread_mm(job.hole), thread_mm(cut), counted(plan.turns, "turn"), counted(job.plan.passes, "pass", "passes"),
-      plan.goes_up ? "upwards" : "downwards", job.plan.climb ? "climb" : "conventional");
+  std::string words = fmt::format("{}: {}, pitch {:.6g} mm, {} to {}; {} in {} {}, {} milling\n", size.name,
+                                  counted(places.size(), "thread"), pitch_mm, thread_mm(job.hole), thread_mm(cut),
+                                  counted(plan.turns, "turn"), counted(job.plan.passes, "pass", "passes"),
+                                  plan.goes_up ? "upwards" : "downwards", job.plan.climb ? "climb" : "conventional");
   const nlohmann::ordered_json json = {{"thread", size.name},
                                        {"threads", places.size()},
                                        {"pitch_mm", pitch_mm},

@@ -11,8 +11,8 @@ namespace passo {
 struct SafeChange {
   // Z of the first and the last rapid, and of tool changes. A higher clearance height replaces it.
   Nanometres height{20'000'000};
-  double spindle_seconds = 2;      // dwell after M3
-  std::string_view coolant = {};   // M7 (mist) or M8 (flood); empty: off
+  double spindle_seconds = 2;     // dwell after M3
+  std::string_view coolant = {};  // M7 (mist) or M8 (flood); empty: off
 };
 
 }  // namespace passo

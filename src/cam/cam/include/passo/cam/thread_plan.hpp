@@ -23,12 +23,12 @@ namespace passo {
 
 struct ThreadOptions {
   ThreadSize size = {};
-  Nanometres cutter = {};      // diameter over the tips of the teeth
-  Nanometres depth = {};       // lowest Z of the tip, negative
-  Nanometres oversize = {};    // of the major diameter of a bore; on a boss, the root is smaller by it
-  std::uint32_t teeth = 1;     // along the axis, one pitch apart
-  std::uint32_t passes = 1;    // equal areas of chip
-  bool is_external = false;    // on a boss
+  Nanometres cutter = {};    // diameter over the tips of the teeth
+  Nanometres depth = {};     // lowest Z of the tip, negative
+  Nanometres oversize = {};  // of the major diameter of a bore; on a boss, the root is smaller by it
+  std::uint32_t teeth = 1;   // along the axis, one pitch apart
+  std::uint32_t passes = 1;  // equal areas of chip
+  bool is_external = false;  // on a boss
   bool is_left_hand = false;
   bool climb = true;
   DrawnPoint park = {};
@@ -36,7 +36,7 @@ struct ThreadOptions {
 
 struct ThreadPlan {
   MillPlan mill = {};
-  std::size_t turns = 0;   // of one pass
+  std::size_t turns = 0;  // of one pass
   bool goes_up = true;
   double feed_factor = 1;  // of the cutter's centre, to that of the tooth at the thread's outline
 };

@@ -49,7 +49,7 @@ class JoinedProgram {
   std::vector<std::uint32_t> first_lines_;
   std::int32_t tool_ = -1;  // -1: none yet
   std::string spindle_;     // "M3 S12000"; empty: it is stopped
-  std::string coolant_;  // "M7" or "M8"; empty: it is off
+  std::string coolant_;     // "M7" or "M8"; empty: it is off
   std::string park_;
 };
 

@@ -67,9 +67,8 @@ struct PartKey {
   SourceLocation place;  // of the value
 };
 
-using PartArguments =
-    std::variant<CamProfileArguments, CamPocketArguments, CamDrillArguments, CamEngraveArguments, CamReliefArguments,
-                 CamThreadArguments>;
+using PartArguments = std::variant<CamProfileArguments, CamPocketArguments, CamDrillArguments, CamEngraveArguments,
+                                   CamReliefArguments, CamThreadArguments>;
 
 struct PartOperation {
   PartKind kind = PartKind::profile;
