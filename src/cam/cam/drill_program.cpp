@@ -44,6 +44,11 @@ class DrillProgram {
     return is_parked ? std::optional(options_.park) : std::nullopt;
   }
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
+  SafeChange safe_change() const {
+    SafeChange change = options_.change;
+    change.height = change_height();
+    return change;
+  }
   Nanometres feed_height() const { return std::min(options_.clearance, options_.feed_height); }
 
   // Null: the drill has the feed and the speed of the others.
@@ -87,7 +92,7 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
   const DrillFeed* const own = feed_of(tool);
   const auto spindle = own != nullptr && own->spindle && options_.spindle ? own->spindle : options_.spindle;
   text_.begin_tool({number_of_tool, plan_.tools.size() == 1, diameter_words(tool), spindle,
-                    parked(!options_.change.changes_in_place), change_height(), options_.change.spindle_seconds});
+                    parked(!options_.change.changes_in_place), safe_change()});
   // A cycle returns to the height at which it began.
   if (!tool.targets.empty()) line("G0 {}", place(start_of(tool.targets.front())));
   line("G0 Z{}", number(options_.clearance));

@@ -34,6 +34,11 @@ class MillProgram {
     return is_parked ? std::optional(options_.park) : std::nullopt;
   }
   Nanometres change_height() const { return std::max(options_.change.height, options_.clearance); }
+  SafeChange safe_change() const {
+    SafeChange change = options_.change;
+    change.height = change_height();
+    return change;
+  }
   void mill(const MillRun& run);
   void go(const MillPoint& from, const MillPoint& to);
   Nanometres feed_of(MillPace pace) const;
@@ -71,7 +76,7 @@ void MillProgram::change_tool(std::size_t number) {
   const MillTool& tool = plan_.tools[number - 1];
   text_.line("");
   text_.begin_tool({number, plan_.tools.size() == 1, tool.words, options_.spindle,
-                    parked(!options_.change.changes_in_place), change_height(), options_.change.spindle_seconds});
+                    parked(!options_.change.changes_in_place), safe_change()});
   feed_ = {};
 }
 

@@ -23,22 +23,33 @@ std::string ProgramText::number(Nanometres length) const {
 }
 
 void ProgramText::begin_tool(const ToolChange& change) {
-  if (change.number == 1 || !change.is_only) line("G0 Z{}", number(change.height));
+  const std::string height = number(change.change.height);
+  if (change.number == 1 || !change.is_only) line("G0 Z{}", height);
   if (!change.is_only) {
+    stop_coolant();
     if (change.number > 1 && change.spindle) line("M5");
     if (change.park) line("G0 {}", place(*change.park));
     line("(MSG, tool {}: {})", change.number, in_comment(change.words));
     line("T{} M6", change.number);
-    line("G0 Z{}", number(change.height));
+    line("G0 Z{}", height);
   }
   if (change.spindle) {
     line("M3 S{}", *change.spindle);
-    if (change.spindle_seconds > 0) line("G4 P{:g} (the spindle reaches its speed)", change.spindle_seconds);
+    const double seconds = change.change.spindle_seconds;
+    if (seconds > 0) line("G4 P{:g} (the spindle reaches its speed)", seconds);
   }
+  if (!change.change.coolant.empty()) line("{}", change.change.coolant);
+  has_coolant_ = !change.change.coolant.empty();
+}
+
+void ProgramText::stop_coolant() {
+  if (has_coolant_) line("M9");
+  has_coolant_ = false;
 }
 
 void ProgramText::end(bool has_spindle, std::optional<DrawnPoint> park, std::optional<Nanometres> height) {
   if (height) line("G0 Z{}", number(*height));
+  stop_coolant();
   if (has_spindle) line("M5");
   if (park) line("G0 {}", place(*park));
   line("M2");

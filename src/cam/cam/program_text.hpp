@@ -37,12 +37,11 @@ class ProgramText {
     std::string words = {};  // tool name for the operator
     std::optional<std::uint32_t> spindle = {};
     std::optional<DrawnPoint> park = {};  // empty: the tool is changed where it is
-    Nanometres height = {};               // change height
-    double spindle_seconds = 0;
+    SafeChange change = {};
   };
   void begin_tool(const ToolChange& change);
-  // Moves the last tool up, then to the park position, if there is one, and ends the program. `height`: without a Z
-  // axis, none.
+  // Moves the last tool up, switches coolant and spindle off, then moves to the park position, if there is one, and ends
+  // the program. `height`: without a Z axis, none.
   void end(bool has_spindle, std::optional<DrawnPoint> park, std::optional<Nanometres> height);
 
   // Formats a length in the program's units, without trailing zeros.
@@ -55,7 +54,10 @@ class ProgramText {
   std::string take() { return std::move(text_); }
 
  private:
+  void stop_coolant();
+
   ProgramUnits units_;
+  bool has_coolant_ = false;
   std::string text_;
 };
 

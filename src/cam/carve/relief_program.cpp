@@ -82,6 +82,7 @@ void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
   writer_.line("({}: {})", what, words);
   if (tools_ > 1) {
     if (tool_ > 1) writer_.line("G0 Z{:g}", change_height().value());
+    if (tool_ > 1 && !options_.change.coolant.empty()) writer_.line("M9");
     if (tool_ > 1 && options_.change.spindle) writer_.line("M5");
     writer_.line("G0 X{:g} Y{:g}", options_.change.park.x.value(), options_.change.park.y.value());
     writer_.line("(MSG, tool {}: {})", tool_, words);
@@ -93,6 +94,7 @@ void ReliefProgram::begin_tool(const char* what, const ReliefTool& tool) {
     const double seconds = options_.change.spindle_seconds;
     if (seconds > 0) writer_.line("G4 P{:g} (the spindle reaches its speed)", seconds);
   }
+  if (!options_.change.coolant.empty()) writer_.line("{}", options_.change.coolant);
   writer_.begin_at(carved_height(options_.clearance.value()), carved_height(change_height().value()));
   writer_.set_feeds({.along = tool.feed, .down = tool.plunge});
   if (!stock_) return;
@@ -211,6 +213,7 @@ ReliefReport ReliefProgram::write(bool wants_carved) {
   }
   writer_.restore_plane();
   writer_.line("G0 Z{:g}", change_height().value());
+  if (!options_.change.coolant.empty()) writer_.line("M9");
   if (options_.change.spindle) writer_.line("M5");
   writer_.line("G0 X{:g} Y{:g}", options_.change.park.x.value(), options_.change.park.y.value());
   writer_.line("M2");

@@ -76,6 +76,20 @@ Examples:
 
 The program is written only if all operations succeed and no move enters a clamp. All keys: docs/manual/jobs.md.)";
 
+constexpr const char* thread_examples =
+    R"(The bores must be there already: the mill goes down in their middle by a rapid.
+
+Examples:
+  passo cam thread holes.svg --thread M6 --tool 4.5 --neck 3 --depth -10 -o m6.ngc
+                                                          one tooth, a helix of one pitch per turn, two passes
+  passo cam thread holes.dxf --layer M8 --thread M8x1 --tool 6 --neck 4.4 --teeth 12 --depth -12 -o m8.ngc
+                                                          a full-form mill: one turn
+  passo cam thread holes.svg --thread 1/4-20 --tool 4 --neck 2.6 --passes 3 --oversize 0.05 -o inch.ngc
+  passo cam thread boss.svg --thread M20x1.5 --external --tool 10 --neck 7 --depth -15 -o boss.ngc
+  passo cam thread holes.svg --diameter 30 --pitch 2 --left-hand --tool 10 --neck 7 -o left.ngc
+
+Climb milling of a right-hand thread in a bore goes from the bottom up. All options: docs/manual/threads.md.)";
+
 constexpr const char* drill_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 2mm, 0.2cm, 30mil, 1/32in.
 
@@ -217,6 +231,11 @@ constexpr std::array operations = {
         .accepts = ".drl,.xln,.exc,.txt,.dxf,.kicad_pcb,.brd,.json,.toml",
         .examples = drill_examples,
         .options = options_with_defaults<CamDrillArguments>},
+    CamOperation{.name = "thread",
+                 .purpose = "mill threads in bores or on bosses with a thread mill",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.drl,.xln,.exc,.toml",
+                 .examples = thread_examples,
+                 .options = options_with_defaults<CamThreadArguments>},
     CamOperation{.name = "isolate",
                  .purpose = "isolation milling: mill around the tracks and pads of a copper layer",
                  .accepts = ".gbr,.gtl,.gbl,.dxf,.top,.bot,.kicad_pcb,.brd,.json",

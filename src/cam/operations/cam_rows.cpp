@@ -73,7 +73,12 @@ std::vector<CamOption> program_rows(CamProgramArguments& a) {
                    &a.spindle_delay,
                    number,
                    "pause after the spindle has started, seconds",
-                   {.range = CamRange{0, 60}, .matters_to = experts}}}});
+                   {.range = CamRange{0, 60}, .matters_to = experts}},
+                  {"coolant",
+                   &a.coolant,
+                   choice,
+                   "coolant while the program cuts: off, mist (M7) or flood (M8)",
+                   {.choices = {"off", "mist", "flood"}, .matters_to = experts}}}});
 }
 
 CamOption join_row(std::string& join) {

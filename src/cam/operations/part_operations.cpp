@@ -121,6 +121,48 @@ std::vector<CamOption> cam_options_of(CamPocketArguments& a) {
 
 namespace {
 
+std::vector<CamOption> thread_mill_rows(CamThreadArguments& a) {
+  using enum CamKind;
+  return {
+      {"tool", &a.tool, length, "diameter of the thread mill over its teeth, or its number in --tool-table"},
+      {"neck", &a.neck, length, "diameter of the thread mill's neck, which must not touch the wall"},
+      {"reach", &a.reach, length, "length of teeth and neck, up to the shank (default: not checked)", experts_only},
+      {"tooth-tip", &a.tooth_tip, length, "width of the flat at the tip of a tooth (default: not checked)",
+       experts_only},
+      {"teeth",
+       &a.teeth,
+       number,
+       "teeth along the axis, one pitch apart: 1, or the teeth of a full-form thread mill",
+       {.range = CamRange{1, 100}}},
+  };
+}
+
+}  // namespace
+
+std::vector<CamOption> cam_options_of(CamThreadArguments& a) {
+  using enum CamKind;
+  return all_of({
+      {{"FILE", &a.files, drawings, "drawings: SVG, DXF or drill files; each circle gets a thread", are_needed},
+       {"thread", &a.thread, text, "name of the thread: M6, M8x1, 1/4-20, #8-32, 1/4 UNC"},
+       {"diameter", &a.diameter, length, "major diameter, instead of --thread", experts_only},
+       {"pitch", &a.pitch, length, "pitch, with --diameter", experts_only}},
+      tool_rows(a),
+      thread_mill_rows(a),
+      {{"depth", &a.depth, length, "lowest Z of the tip, negative", {.is_of_machine = true}},
+       {"hole", &a.hole, length,
+        "diameter of the bore, or of the boss, before threading (default: the thread's minor, or major, diameter)",
+        experts_only},
+       {"oversize", &a.oversize, length,
+        "added to the cut diameter of a bore, or subtracted on a boss, to adjust the fit", experts_only},
+       {"passes", &a.passes, number, "radial passes, each of the same chip area", {.range = CamRange{1, 20}}},
+       {"external", &a.external, flag, "threads around bosses, instead of in bores"},
+       {"left-hand", &a.left_hand, flag, "left-hand threads"}},
+      mill_rows(a, CamFor::everyone),
+  });
+}
+
+namespace {
+
 std::vector<CamOption> letter_rows(CamEngraveArguments& a) {
   using enum CamKind;
   return {

@@ -63,6 +63,7 @@ void JoinedProgram::line(std::string_view text) {
 void JoinedProgram::change_tool(const JoinedOperation& operation, const JoinedOperation::Tool& tool,
                                 std::string_view up) {
   if (tool.number == tool_) return;
+  stop_coolant();
   if (!spindle_.empty()) line("M5");
   spindle_.clear();
   if (tool_ != -1) line("G0 " + operation.park);
@@ -73,6 +74,11 @@ void JoinedProgram::change_tool(const JoinedOperation& operation, const JoinedOp
   line(up);
 }
 
+void JoinedProgram::stop_coolant() {
+  if (!coolant_.empty()) line("M9");
+  coolant_.clear();
+}
+
 void JoinedProgram::add(const JoinedOperation& operation) {
   line("");
   first_lines_.push_back(lines_);
@@ -81,12 +87,20 @@ void JoinedProgram::add(const JoinedOperation& operation) {
   std::string_view text;
   std::string_view up;     // the first rapid
   bool has_begun = false;  // with the line of modes
+  if (operation.program.find("\nM7\n") == std::string::npos && operation.program.find("\nM8\n") == std::string::npos) {
+    stop_coolant();
+  }
   const bool has_changes = operation.program.find(" M6\n") != std::string::npos;
   park_ = operation.park;
   while (lines.next(text)) {
     has_begun = has_begun || (!text.empty() && !is_comment(text));
     if (!has_begun || text.empty() || text.starts_with("(MSG, tool") || text.starts_with("(tool ")) continue;
-    if (text == "M2" || text == "M5") continue;
+    if (text == "M2" || text == "M5" || text == "M9") continue;
+    if (text == "M7" || text == "M8") {
+      if (text == coolant_) continue;
+      stop_coolant();
+      coolant_ = text;
+    }
     // The end of the program, or the move to a tool change.
     const bool is_before_end = text == "G0 " + operation.park && (lines.peek() == "M2" || is_comment(lines.peek()));
     if (is_before_end) continue;
@@ -114,6 +128,7 @@ void JoinedProgram::add(const JoinedOperation& operation) {
 
 std::string JoinedProgram::take() {
   line("");
+  stop_coolant();
   if (!spindle_.empty()) line("M5");
   line("G0 " + park_);
   line("M2");

@@ -45,7 +45,7 @@ std::int32_t begins_with(const PartOperation& operation) {
   return operation.first_tool > 0 ? operation.first_tool : operation.tool;
 }
 bool is_finish(PartKind kind) {
-  return kind == PartKind::chamfer || kind == PartKind::engrave;
+  return kind == PartKind::chamfer || kind == PartKind::engrave || kind == PartKind::thread_mill;
 }
 
 bool OrderSearch::share_layers(const PartOperation& a, const PartOperation& b) const {

@@ -12,8 +12,8 @@
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, 8> part_kind_names = {"face", "profile", "pocket",  "drill",
-                                                             "bore", "engrave", "chamfer", "relief"};
+constexpr std::array<std::string_view, 9> part_kind_names = {"face",    "profile", "pocket", "drill",      "bore",
+                                                             "engrave", "chamfer", "relief", "thread-mill"};
 
 std::string folder_of(const std::string& file) {
   const std::size_t slash = file.rfind('/');

@@ -180,9 +180,8 @@ void PartJobReader::read_job(const TomlEntry& entry) {
   read_program_words(table, reader);
   // The rest: options of operations.
   std::set<std::string_view> known;
-  for (const PartKind kind :
-       {PartKind::profile, PartKind::pocket, PartKind::drill, PartKind::engrave, PartKind::relief}) {
-    const CamOperation* const operation = find_cam_operation(name_of(kind));
+  for (const std::string_view command : {"profile", "pocket", "drill", "engrave", "relief", "thread"}) {
+    const CamOperation* const operation = find_cam_operation(command);
     for (const CamOption& option : operation->options()) {
       if (!option.traits.is_of_job && !is_of_program(option.name) && option.kind != CamKind::drawings)
         known.insert(option.name);

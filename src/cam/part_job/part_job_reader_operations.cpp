@@ -15,16 +15,20 @@
 namespace passo {
 namespace {
 
-PartArguments arguments_of(PartKind kind) {
+// A chamfer of a given width is cut by the flank. Without a width, the tip follows the edge.
+PartArguments arguments_of(PartKind kind, bool has_chamfer) {
   switch (kind) {
     case PartKind::face:
     case PartKind::pocket: return CamPocketArguments();
     case PartKind::profile: return CamProfileArguments();
     case PartKind::drill:
     case PartKind::bore: return CamDrillArguments();
-    case PartKind::engrave:
-    case PartKind::chamfer: return CamEngraveArguments();
+    case PartKind::chamfer:
+      if (has_chamfer) return CamProfileArguments();
+      return CamEngraveArguments();
+    case PartKind::engrave: return CamEngraveArguments();
     case PartKind::relief: return CamReliefArguments();
+    case PartKind::thread_mill: return CamThreadArguments();
   }
   return CamProfileArguments();
 }
@@ -33,18 +37,31 @@ std::string_view command_of(PartKind kind) {
   switch (kind) {
     case PartKind::face: return "pocket";
     case PartKind::bore: return "drill";
-    case PartKind::chamfer: return "engrave";
+    case PartKind::chamfer: return "profile";
+    case PartKind::thread_mill: return "thread";
     default: return name_of(kind);
   }
 }
 
+// Options of profiles that a chamfer does not have: it is cut in one pass, whose depth follows from its width.
+bool is_not_of_chamfer(std::string_view option) {
+  constexpr std::array<std::string_view, 13> names = {
+      "depth", "step",      "tabs",      "no-tabs",     "tab",         "tab-width",    "tab-height",
+      "ramp",  "dog-bones", "allowance", "finish-pass", "finish-feed", "spring-passes"};
+  return std::ranges::find(names, option) != names.end();
+}
+
 // Options that a job sets for all operations, or by their tools.
-bool is_set_by_job(const CamOption& option) {
-  constexpr std::array<std::string_view, 28> names = {
-      "output",    "picture", "json",        "units",      "zero",     "sheet",  "mirror",
-      "mirror-at", "align",   "align-drill", "tool",       "tools",    "drill",  "mill",
-      "cutter",    "angle",   "tip",         "clear",      "rough",    "rest",   "FILE",
-      "two-sided", "pins",    "parting",     "tool-table", "material", "limits", "chamfer"};
+bool is_set_by_job(const CamOption& option, const PartOperation& operation) {
+  const bool is_wide_chamfer =
+      operation.kind == PartKind::chamfer && std::holds_alternative<CamProfileArguments>(operation.arguments);
+  if (is_wide_chamfer && option.name == "chamfer") return false;
+  if (is_wide_chamfer && is_not_of_chamfer(option.name)) return true;
+  constexpr std::array<std::string_view, 32> names = {
+      "output",     "picture",     "json",   "units",   "zero",  "sheet",     "mirror",    "mirror-at",
+      "align",      "align-drill", "tool",   "tools",   "drill", "mill",      "cutter",    "angle",
+      "tip",        "clear",       "rough",  "rest",    "FILE",  "two-sided", "pins",      "parting",
+      "tool-table", "material",    "limits", "chamfer", "neck",  "reach",     "tooth-tip", "teeth"};
   return option.kind == CamKind::drawings || is_of_program(option.name) ||
          std::ranges::find(names, option.name) != names.end();
 }
@@ -91,6 +108,10 @@ std::string cutter_words(const Cutter& cutter) {
 
 // The kind of tool that an operation needs; empty: this one is suitable.
 std::string tool_expected(PartKind kind, CuttingShape shape) {
+  if (kind == PartKind::thread_mill) {
+    return shape == CuttingShape::thread_mill ? "" : "a tool with shape = \"thread-mill\"";
+  }
+  if (shape == CuttingShape::thread_mill) return "a tool of another shape: this one is only for threads";
   if (kind == PartKind::drill) {
     const bool leaves_round_bottom = shape == CuttingShape::ball || shape == CuttingShape::taper;
     return leaves_round_bottom ? "a tool with shape = \"drill\", \"flat\", \"bull\" or \"vee\"" : "";
@@ -160,7 +181,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
   PartOperation operation;
   operation.kind = *kind;
   operation.place = reader.place_of("kind");
-  operation.arguments = arguments_of(*kind);
+  operation.arguments = arguments_of(*kind, find(table, "chamfer") != nullptr);
   operation.title = reader.text("title", "windows", Need::optional).value_or("");
   operation.tool = tool_number(reader, "tool", Need::required);
   if (const FirstTool first = first_tool_of(*kind); !first.key.empty()) {
@@ -179,6 +200,11 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
   }
   for (const std::string& name : names(table, reader, *kind == PartKind::relief ? "file" : "drawing")) {
     operation.files.push_back(in_folder(name));
+  }
+  if (*kind == PartKind::chamfer && find(table, "chamfer") != nullptr && find(table, "depth") != nullptr) {
+    reader.know("depth");
+    reader.error("job.bad-value", "depth", fmt::format("{} has a chamfer and a depth", path),
+                 "only chamfer, the width; the depth follows from the angle of the cutter");
   }
   read_options(table, reader, operation);
   reader.finish(document_.complete, {});
@@ -212,7 +238,7 @@ void PartJobReader::read_operation(const TomlTable& table, const std::string& pa
 void PartJobReader::read_options(const TomlTable& table, TableReader& reader, PartOperation& operation) {
   const std::vector<CamOption> options = cam_options_of(operation);
   for (const CamOption& option : options) {
-    if (is_set_by_job(option)) continue;
+    if (is_set_by_job(option, operation)) continue;
     reader.know(option.name);
     const TomlEntry* const entry = find(table, option.name);
     if (entry == nullptr) continue;
@@ -243,7 +269,7 @@ void PartJobReader::read_options(const TomlTable& table, TableReader& reader, Pa
 void PartJobReader::apply_defaults(PartOperation& operation) {
   for (const CamOption& option : cam_options_of(operation)) {
     const TomlEntry* const entry = find(defaults_, option.name);
-    if (entry == nullptr || operation.has(option.name) || is_set_by_job(option)) continue;
+    if (entry == nullptr || operation.has(option.name) || is_set_by_job(option, operation)) continue;
     const std::string expected = set_option(option, entry->value);
     if (expected.empty()) {
       operation.keys.push_back({entry->key, entry->value.place, true});
@@ -269,6 +295,19 @@ void PartJobReader::apply_tool(PartOperation& operation) {
     engrave->angle = degrees_of(cutter);
     engrave->tip = mm_words(2 * cutter.flat);
     engrave->on_line = engrave->on_line || operation.kind == PartKind::chamfer;
+  }
+  if (auto* thread = std::get_if<CamThreadArguments>(&operation.arguments)) {
+    const auto known = [](Mm length) { return length > Mm(0) ? mm_words(length) : std::string(); };
+    thread->neck = mm_words(tool.tool.neck_diameter);
+    thread->reach = known(tool.tool.reach);
+    thread->tooth_tip = known(tool.tool.tooth_tip);
+    thread->tooth_pitch = known(tool.tool.tooth_pitch);
+    thread->teeth = tool.tool.teeth;
+  }
+  if (auto* profile = std::get_if<CamProfileArguments>(&operation.arguments);
+      profile != nullptr && operation.kind == PartKind::chamfer) {
+    profile->angle = degrees_of(cutter);
+    profile->tip = mm_words(2 * cutter.flat);
   }
   const auto feed = [&](std::string_view name, const std::optional<double>& mm_per_min) {
     if (mm_per_min && !operation.has(name)) give(options, name, fmt::format("{}mm", *mm_per_min));

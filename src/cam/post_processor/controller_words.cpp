@@ -45,7 +45,8 @@ constexpr ControllerWords grbl{
     .m_words = "0 1 2 3 4 5 7 8 9 30 56",
     .tool_call = ToolCall::pause,
     .arcs = {.least_radius = 0.01, .most_radius = 1000},
-    .comments = {.has_messages = false, .is_ascii = true, .realtime = "!?~", .longest_line = 79}};
+    .comments = {.has_messages = false, .is_ascii = true, .realtime = "!?~", .longest_line = 79},
+    .lacks_mist = true};
 
 constexpr ControllerWords grblhal{
     .name = "grblhal",

@@ -179,6 +179,10 @@ void PostProcessor::Lines::add_code(char letter, double value) {
   const std::string number = code_number(value);
   const bool is_known = letter == 'G' ? controller_.knows_g(number) : controller_.knows_m(number);
   if (!is_known) refuse(fmt::format("{} does not know {}{}", controller_.title, letter, number));
+  if (letter == 'M' && number == "7" && controller_.lacks_mist) {
+    refuse(fmt::format("{} knows M7, mist coolant, only if it was built with ENABLE_M7; M8 is flood coolant",
+                       controller_.title));
+  }
   add_word(letter, number);
 }
 

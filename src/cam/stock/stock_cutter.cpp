@@ -242,7 +242,8 @@ void StockCutter::Implementation::cut_one(TileWork& work, std::vector<MoveTally>
     const StockMove& move = moves_[chord.move].move;
     const double thinner = move.rapid ? rapid_share * field_.cell() + move.rounding.value() : 0;
     const double radius = tool.cutter.radius.value();
-    const double rim = std::max(0.5 * radius, radius - thinner);
+    const bool has_neck = tool.neck_radius > Mm(0) && !move.rapid;
+    const double rim = has_neck ? tool.neck_radius.value() : std::max(0.5 * radius, radius - thinner);
     const TileCut cut = cut_tile(field_, work.tile, chord.sweep, tool.cutter, rim);
     if (cut.cells > 0) {
       tally.volume += std::llround(cut.drop * volume_units);

@@ -8,11 +8,13 @@
 namespace passo {
 namespace {
 
-constexpr std::array<std::string_view, cutting_shapes> shape_names = {"flat", "ball", "bull", "vee", "taper", "drill"};
+constexpr std::array<std::string_view, cutting_shapes> shape_names = {"flat",  "ball",  "bull",       "vee",
+                                                                      "taper", "drill", "thread-mill"};
 
 Cutter cutter_of(const CuttingTool& tool) {
   switch (tool.shape) {
-    case CuttingShape::flat: break;
+    case CuttingShape::flat:
+    case CuttingShape::thread_mill: break;
     case CuttingShape::ball: return Cutter::ball(tool.diameter);
     case CuttingShape::bull: return Cutter::bull_nose(tool.diameter, tool.corner_radius);
     case CuttingShape::vee: return Cutter::vee(tool.diameter, tool.angle, tool.tip);
@@ -24,6 +26,7 @@ Cutter cutter_of(const CuttingTool& tool) {
 
 std::string words_of(const CuttingTool& tool) {
   if (tool.shape == CuttingShape::drill) return fmt::format("drill, {:g} mm", tool.diameter.value());
+  if (tool.shape == CuttingShape::thread_mill) return fmt::format("thread mill {:g} mm", tool.diameter.value());
   return describe(cutter_of(tool));
 }
 
@@ -39,6 +42,7 @@ std::string_view name_of(ToolMaterial material) {
 
 ToolShape shape_of(const CuttingTool& tool) {
   return {.cutter = cutter_of(tool),
+          .neck_radius = tool.neck_diameter / 2,
           .flute_length = tool.flute_length,
           .holder_radius = tool.holder_diameter / 2,
           .holder_from = tool.stick_out};

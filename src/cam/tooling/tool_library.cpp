@@ -20,6 +20,11 @@ namespace {
 
 constexpr NumberKey diameter_key{"diameter_mm", 0.01, 500, "3"};
 constexpr NumberKey tip_key{"tip_diameter_mm", 0, 500, "0.2"};
+constexpr NumberKey neck_key{"neck_diameter_mm", 0.01, 500, "2.6"};
+constexpr NumberKey reach_key{"reach_mm", 0.1, 500, "12"};
+constexpr NumberKey teeth_key{"teeth", 1, 100, "1"};
+constexpr NumberKey tooth_pitch_key{"pitch_mm", 0.05, 25, "1"};
+constexpr NumberKey tooth_tip_key{"tooth_tip_mm", 0, 10, "0.1"};
 constexpr NumberKey corner_key{"corner_radius_mm", 1e-3, 250, "0.5"};
 constexpr NumberKey angle_key{"angle_deg", 0.5, 179.5, "60"};
 constexpr NumberKey flutes_key{"flutes", 1, 12, "2"};
@@ -35,8 +40,9 @@ constexpr double usual_point_deg = 118;
 constexpr std::size_t longest_name = 60;  // bytes
 constexpr std::int32_t largest_number = 99'999;
 constexpr std::size_t largest_file = 1U << 20U;
-constexpr std::array all_shapes = {CuttingShape::flat, CuttingShape::ball,  CuttingShape::bull,
-                                   CuttingShape::vee,  CuttingShape::taper, CuttingShape::drill};
+constexpr std::array all_shapes = {CuttingShape::flat,       CuttingShape::ball,  CuttingShape::bull,
+                                   CuttingShape::vee,        CuttingShape::taper, CuttingShape::drill,
+                                   CuttingShape::thread_mill};
 static_assert(all_shapes.size() == cutting_shapes);
 
 Radians radians(double degrees) {
@@ -54,8 +60,18 @@ CuttingShape read_shape(TableReader& reader) {
   const std::string_view near = suggestion(*word, names);
   reader.error("machine.shape", shape_key,
                toml_says::key_is.with({{"key", reader.full_name(shape_key)}, {"value", fmt::format("\"{}\"", *word)}}),
-               near.empty() ? std::string("flat, ball, bull, vee, taper or drill") : fmt::format("perhaps {}", near));
+               near.empty() ? std::string("flat, ball, bull, vee, taper, drill or thread-mill")
+                            : fmt::format("perhaps {}", near));
   return CuttingShape::flat;
+}
+
+void read_thread_mill(TableReader& reader, CuttingTool& tool) {
+  tool.neck_diameter = Mm(reader.number(neck_key, Need::required).value_or(neck_key.least));
+  tool.reach = Mm(reader.number(reach_key, Need::optional).value_or(0));
+  tool.tooth_tip = Mm(reader.number(tooth_tip_key, Need::optional).value_or(0));
+  tool.teeth = static_cast<std::uint32_t>(reader.whole_number(teeth_key, Need::optional).value_or(1));
+  const Need pitch = tool.teeth > 1 ? Need::required : Need::optional;
+  tool.tooth_pitch = Mm(reader.number(tooth_pitch_key, pitch).value_or(0));
 }
 
 void read_sizes(TableReader& reader, CuttingTool& tool) {
@@ -78,6 +94,7 @@ void read_sizes(TableReader& reader, CuttingTool& tool) {
     case CuttingShape::drill:
       tool.angle = radians(reader.number(angle_key, Need::optional).value_or(usual_point_deg));
       break;
+    case CuttingShape::thread_mill: read_thread_mill(reader, tool); break;
   }
 }
 

@@ -51,6 +51,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
 int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progress);
 int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress);
 int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progress);
+int cam_thread(const CamThreadArguments& arguments, const WorkProgress& progress);
 int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress);
 int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress);
 int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress);

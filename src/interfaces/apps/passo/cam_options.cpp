@@ -205,7 +205,7 @@ void add_tune_options(CLI::App& command, TuneArguments& arguments) {
 }
 
 std::span<const Command> cam_commands() {
-  static const std::array<Command, 12> commands{
+  static const std::array<Command, 13> commands{
       {{"show", "list and draw the layers of a circuit board",
         options_of<CamShowArguments, add_show_options, cam_show>},
        command_of("drill", remembered_of<&CamArguments::drill, cam_drill>),
@@ -215,6 +215,7 @@ std::span<const Command> cam_commands() {
        command_of("profile", with_tools<CamProfileArguments, cam_profile>),
        command_of("pocket", with_tools<CamPocketArguments, cam_pocket>),
        command_of("engrave", with_tools<CamEngraveArguments, cam_engrave>),
+       command_of("thread", with_tools<CamThreadArguments, cam_thread>),
        command_of("job", operation_of<CamJobArguments, cam_job_file>),
        command_of("plot", operation_of<CamPlotArguments, cam_plot>),
        command_of("wire", operation_of<CamWireArguments, cam_wire>),

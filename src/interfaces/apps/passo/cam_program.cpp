@@ -94,9 +94,14 @@ void name_library_read(const CamToolArguments& arguments, NamedFiles& files) {
   files.reads("--limits", arguments.limits);
 }
 
+std::string_view coolant_word(const CamProgramArguments& arguments) {
+  return arguments.coolant == "mist" ? "M7" : arguments.coolant == "flood" ? "M8" : "";
+}
+
 SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments& lengths) {
   return {.height = lengths.above_0("--change-height", arguments.change_height),
-          .spindle_seconds = arguments.spindle_delay};
+          .spindle_seconds = arguments.spindle_delay,
+          .coolant = coolant_word(arguments)};
 }
 
 int write_program(const CamMillArguments& arguments, const MillPlan& plan, const MillProgramOptions& options) {

@@ -31,6 +31,8 @@ bool is_plain_program(const CamProgramArguments& arguments);
 void name_texts_read(const CamProgramArguments& arguments, NamedFiles& files);
 void name_library_read(const CamToolArguments& arguments, NamedFiles& files);
 
+// M7, M8, or nothing.
+std::string_view coolant_word(const CamProgramArguments& arguments);
 SafeChange safe_change_of(const CamProgramArguments& arguments, LengthArguments& lengths);
 
 // These write to `arguments.output`, or to standard output if it is empty. They return an exit code.

@@ -114,7 +114,8 @@ ReliefProgramOptions program_of(const CamReliefArguments& arguments, ReliefReadi
   program.ramp = {arguments.ramp_angle * std::numbers::pi / 180};
   program.change = {.height = read.length("--change-height", arguments.change_height, least_length, Mm(1000)),
                     .park = read.place("--park", arguments.park),
-                    .spindle_seconds = arguments.spindle_delay};
+                    .spindle_seconds = arguments.spindle_delay,
+                    .coolant = coolant_word(arguments)};
   if (arguments.spindle > 0) program.change.spindle = arguments.spindle;
   program.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   return program;

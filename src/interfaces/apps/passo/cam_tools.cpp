@@ -63,6 +63,7 @@ std::string cutter_text(const CuttingTool& tool) {
   const double d = tool.diameter.value();
   const double degrees = tool.angle.value * degrees_of_radian;
   switch (tool.shape) {
+    case CuttingShape::thread_mill:
     case CuttingShape::flat: return fmt::format("flat:{:.10g}", d);
     case CuttingShape::ball: return fmt::format("ball:{:.10g}", d);
     case CuttingShape::bull: return fmt::format("bull:{:.10g}:{:.10g}", d, tool.corner_radius.value());
@@ -147,6 +148,24 @@ int use_tools(CamEngraveArguments& a, const IsGiven& is_given) {
     shelf.remark("clearing tool", *clearing, use);
     shelf.judge(*clearing, use);
   }
+  return shelf.finish();
+}
+
+int use_tools(CamThreadArguments& a, const IsGiven& is_given) {
+  ToolShelf shelf(a, a.units);
+  if (const int code = shelf.open(is_tool_number(a.tool)); code != exit_done || !shelf.is_open()) return code;
+  const CuttingTool* const tool = shelf.find("--tool", a.tool, {CuttingShape::thread_mill});
+  if (tool == nullptr) return shelf.code();
+  a.tool = mm_text(tool->diameter.value());
+  fill_in(a.neck, "--neck", tool->neck_diameter.value(), is_given);
+  fill_in(a.reach, "--reach", tool->reach.value(), is_given);
+  fill_in(a.tooth_tip, "--tooth-tip", tool->tooth_tip.value(), is_given);
+  if (!is_given("--teeth")) a.teeth = tool->teeth;
+  if (tool->tooth_pitch > Mm(0)) a.tooth_pitch = mm_text(tool->tooth_pitch.value());
+  static_cast<void>(fill_in_feeds(shelf, *tool, {}, a, is_given));
+  const ToolUse use = use_of(shelf, a);
+  shelf.remark("tool", *tool, use);
+  shelf.judge(*tool, use);
   return shelf.finish();
 }
 

@@ -18,6 +18,7 @@ using IsGiven = std::function<bool(const char* option)>;
 int use_tools(CamProfileArguments& arguments, const IsGiven& is_given);
 int use_tools(CamPocketArguments& arguments, const IsGiven& is_given);
 int use_tools(CamEngraveArguments& arguments, const IsGiven& is_given);
+int use_tools(CamThreadArguments& arguments, const IsGiven& is_given);
 int use_tools(CamDrillArguments& arguments, const IsGiven& is_given);
 int use_tools(CamIsolateArguments& arguments, const IsGiven& is_given);
 int use_tools(CamOutlineArguments& arguments, const IsGiven& is_given);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "cam_job.hpp"
+#include "chamfer_cut.hpp"
 #include "idle_options.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -112,6 +113,7 @@ class OperationRun {
  private:
   void fill(const PartJobZero& zero);
   void fill_face(CamPocketArguments& arguments);
+  std::string refuse_chamfer(const CamProfileArguments& arguments) const;
 
   const PartJob& job_;
   const PartOperation& operation_;
@@ -151,11 +153,27 @@ void OperationRun::fill_face(CamPocketArguments& arguments) {
   arguments.zero = fmt::format("{}mm,{}mm", -(job_.stock->x - radius - over), -(job_.stock->y - radius - over));
 }
 
+// The flank of the tool must be as wide as the chamfer.
+std::string OperationRun::refuse_chamfer(const CamProfileArguments& arguments) const {
+  const Cutter& cutter = job_.tools.at(operation_.tool).shape.cutter;
+  const double most = most_chamfer_mm(2 * cutter.radius.value(), 2 * cutter.flat.value());
+  const Result<Mm, std::string> width = parse_length("--chamfer", arguments.chamfer, *mm_of_unit(arguments.units));
+  if (!width || width->value() <= most) return "";
+  return fmt::format("--chamfer: expected at most {:.3g} mm with this tool", std::max(0.0, most));
+}
+
 int OperationRun::run(const WorkProgress& progress) {
+  if (operation_.kind == PartKind::chamfer) {
+    const auto* const profile = std::get_if<CamProfileArguments>(&arguments_);
+    if (const std::string why = profile == nullptr ? "" : refuse_chamfer(*profile); !why.empty()) {
+      return fail(exit_bad_program, why);
+    }
+  }
   if (const auto* profile = std::get_if<CamProfileArguments>(&arguments_)) return cam_profile(*profile, progress);
   if (const auto* pocket = std::get_if<CamPocketArguments>(&arguments_)) return cam_pocket(*pocket, progress);
   if (const auto* drill = std::get_if<CamDrillArguments>(&arguments_)) return cam_drill(*drill, progress);
   if (const auto* engrave = std::get_if<CamEngraveArguments>(&arguments_)) return cam_engrave(*engrave, progress);
+  if (const auto* thread = std::get_if<CamThreadArguments>(&arguments_)) return cam_thread(*thread, progress);
   return cam_relief(std::get<CamReliefArguments>(arguments_), progress);
 }
 

@@ -135,6 +135,12 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
            fmt::format("a rapid goes {:.2f} mm into the stock at {}", cut.depth, place_words(cut.place)),
            "rapids above the stock");
   }
+  const ToolShape& tool = tools_[cut.move.tool];
+  if (tool.neck_radius > Mm(0) && !cut.move.rapid && cut.depth > least_depth) {
+    report("job.neck", cut, operation,
+           fmt::format("the neck goes {:.2f} mm into the stock at {}", cut.depth, place_words(cut.place)),
+           "an operation before it that makes the bore, wide and deep enough");
+  }
   if (cut.holder > least_depth) {
     report("job.holder", cut, operation,
            fmt::format("the holder goes {:.2f} mm into the stock at {}", cut.holder, place_words(cut.holder_place)),

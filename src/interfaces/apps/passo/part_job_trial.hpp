@@ -44,8 +44,8 @@ struct Trial {
 // Rapids at this speed, where no machine is known.
 inline constexpr double usual_rapid_mm_min = 3000;
 
-// Errors are in `findings`: those of the interpreter, and "job.clamp", "job.rapid-in-stock", "job.holder" and
-// "job.below".
+// Errors are in `findings`: those of the interpreter, and "job.clamp", "job.rapid-in-stock", "job.neck", "job.holder"
+// and "job.below".
 Trial try_programs(const PartJob& job, const std::vector<TrialProgram>& programs, Diagnostics& findings);
 
 }  // namespace passo

@@ -46,6 +46,13 @@ ToolsJson json_of(const CuttingTool& tool) {
   if (tool.shape == CuttingShape::bull) json["corner_radius_mm"] = tool.corner_radius.value();
   if (tool.angle.value > 0) json["angle_deg"] = tool.angle.value * degrees_in_radian;
   if (tool.shape == CuttingShape::vee || tool.shape == CuttingShape::taper) json["tip_diameter_mm"] = tool.tip.value();
+  if (tool.shape == CuttingShape::thread_mill) {
+    json["neck_diameter_mm"] = tool.neck_diameter.value();
+    json["teeth"] = tool.teeth;
+    json["pitch_mm"] = known_length(tool.tooth_pitch);
+    json["tooth_tip_mm"] = known_length(tool.tooth_tip);
+    json["reach_mm"] = known_length(tool.reach);
+  }
   json["flutes"] = tool.flutes;
   json["flute_length_mm"] = known_length(tool.flute_length);
   json["stick_out_mm"] = known_length(tool.stick_out);

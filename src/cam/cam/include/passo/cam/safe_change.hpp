@@ -1,5 +1,8 @@
-// SafeChange: where a program starts, changes tools and ends, and how long its spindle needs to reach its speed.
+// SafeChange: where a program starts, changes tools and ends, how long its spindle needs to reach its speed, and the
+// coolant.
 #pragma once
+
+#include <string_view>
 
 #include "passo/cam/drawing.hpp"
 
@@ -12,6 +15,7 @@ struct SafeChange {
   // Whether tools are changed, and whether the program ends, above the last cut instead of the park position.
   bool changes_in_place = false;
   bool ends_in_place = false;
+  std::string_view coolant = {};  // M7 (mist) or M8 (flood); empty: off
 };
 
 }  // namespace passo

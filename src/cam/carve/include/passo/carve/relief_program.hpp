@@ -90,6 +90,7 @@ struct ReliefChange {
   ReliefPoint park = {};
   std::optional<std::uint32_t> spindle = {};  // rpm; empty: no spindle commands
   double spindle_seconds = 2;                 // dwell after M3
+  std::string_view coolant = {};              // M7 (mist) or M8 (flood); empty: off
 };
 
 struct ReliefProgramOptions {

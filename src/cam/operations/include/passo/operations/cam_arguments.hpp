@@ -21,6 +21,7 @@ struct CamProgramArguments {
   std::string end_text;
   std::string change_height = "20mm";  // Z at the start, at tool changes and at the end
   double spindle_delay = 2;            // seconds
+  std::string coolant = "off";         // mist or flood
 };
 
 // The tools of a library. Options for a cutter then take its number: T3.
@@ -187,6 +188,27 @@ struct CamPocketArguments : CamMillArguments, CamFinishArguments {
   std::string link_feed;  // empty: usual_link_feed()
 };
 std::vector<CamOption> cam_options_of(CamPocketArguments& arguments);
+
+// Threads in bores or on bosses, at the circles of a drawing.
+struct CamThreadArguments : CamMillArguments {
+  std::string thread;    // "M6", "M8x1", "1/4-20"; empty: `diameter` and `pitch`
+  std::string diameter;  // major diameter
+  std::string pitch;
+  std::string tool = "4mm";  // diameter over the teeth
+  std::string neck;          // diameter of the neck; required
+  std::string reach;         // length of teeth and neck; empty: unknown
+  std::string tooth_tip;     // width of a tooth's tip; empty: unknown
+  std::uint32_t teeth = 1;
+  std::string depth = "-8mm";
+  std::string hole;  // diameter of the bore or the boss; empty: by the thread
+  std::string oversize = "0mm";
+  std::uint32_t passes = 2;
+  bool external = false;
+  bool left_hand = false;
+  // Not an option: the distance of the teeth of a library's tool; empty: unknown.
+  std::string tooth_pitch = {};
+};
+std::vector<CamOption> cam_options_of(CamThreadArguments& arguments);
 
 // Pictures whose outlines are traced.
 struct CamTraceArguments {

@@ -45,6 +45,7 @@ class JoinedProgram {
   void line(std::string_view text);
   // `up`: the rapid with which the operation begins.
   void change_tool(const JoinedOperation& operation, const JoinedOperation::Tool& tool, std::string_view up);
+  void stop_coolant();
 
   Tools tools_;
   std::string text_;
@@ -52,6 +53,7 @@ class JoinedProgram {
   std::vector<std::uint32_t> first_lines_;
   std::int32_t tool_ = -1;  // -1: none yet
   std::string spindle_;     // "M3 S12000"; empty: it is stopped
+  std::string coolant_;     // "M7" or "M8"; empty: it is off
   std::string park_;
 };
 

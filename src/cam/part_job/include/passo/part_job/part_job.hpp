@@ -47,8 +47,8 @@
 namespace passo {
 
 // face: the whole top of the stock. bore: circles wider than the cutter, along a helix. chamfer: a V-bit whose tip
-// follows the edge.
-enum class PartKind : std::uint8_t { face, profile, pocket, drill, bore, engrave, chamfer, relief };
+// follows the edge, or whose flank cuts it. thread_mill: threads in bores or on bosses.
+enum class PartKind : std::uint8_t { face, profile, pocket, drill, bore, engrave, chamfer, relief, thread_mill };
 std::string_view name_of(PartKind kind);
 
 struct PartTool {
@@ -68,8 +68,8 @@ struct PartKey {
   bool is_of_job = false;  // given in [job], for all operations
 };
 
-using PartArguments =
-    std::variant<CamProfileArguments, CamPocketArguments, CamDrillArguments, CamEngraveArguments, CamReliefArguments>;
+using PartArguments = std::variant<CamProfileArguments, CamPocketArguments, CamDrillArguments, CamEngraveArguments,
+                                   CamReliefArguments, CamThreadArguments>;
 
 struct PartOperation {
   PartKind kind = PartKind::profile;

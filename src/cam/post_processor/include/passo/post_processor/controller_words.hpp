@@ -61,6 +61,7 @@ struct ControllerWords {
   NumberForm numbers = {};
   ProgramForm form = {};
   CommentForm comments = {};
+  bool lacks_mist = false;  // M7 is an option of its build, which is off by default
 
   bool knows_letter(char letter) const { return letters.empty() || letters.find(letter) != std::string_view::npos; }
   // `number`: "38.2".

@@ -18,10 +18,11 @@
 
 namespace passo {
 
-enum class CuttingShape : std::uint8_t { flat, ball, bull, vee, taper, drill };
-inline constexpr std::size_t cutting_shapes = 6;
+// thread_mill: teeth on a narrower neck.
+enum class CuttingShape : std::uint8_t { flat, ball, bull, vee, taper, drill, thread_mill };
+inline constexpr std::size_t cutting_shapes = 7;
 
-// "flat", "ball", "bull", "vee", "taper", "drill", as in the file.
+// "flat", "ball", "bull", "vee", "taper", "drill", "thread-mill", as in the file.
 std::string_view name_of(CuttingShape shape);
 
 enum class ToolMaterial : std::uint8_t { carbide, hss };
@@ -31,10 +32,15 @@ struct CuttingTool {
   std::int32_t number = 0;  // of the T word, 0 to 99999
   std::string name;         // for the operator, one line; may be empty
   CuttingShape shape = CuttingShape::flat;
-  Mm diameter{3};       // at the widest point
-  Mm corner_radius{0};  // bull: radius of the corners
-  Radians angle{};      // vee, taper, drill: included angle of the tip
-  Mm tip{0};            // vee: diameter of the flat at the tip; taper: of the ball
+  Mm diameter{3};           // at the widest point
+  Mm corner_radius{0};      // bull: radius of the corners
+  Radians angle{};          // vee, taper, drill: included angle of the tip
+  Mm tip{0};                // vee: diameter of the flat at the tip; taper: of the ball
+  Mm neck_diameter{0};      // thread_mill
+  Mm tooth_pitch{0};        // thread_mill: along the axis, of several teeth
+  Mm tooth_tip{0};          // thread_mill: width of the flat at a tooth's tip; 0: unknown
+  Mm reach{0};              // thread_mill: length of teeth and neck; 0: unknown
+  std::uint32_t teeth = 1;  // thread_mill: along the axis
   std::uint32_t flutes = 2;
   Mm flute_length{0};          // height of the cutting edges above the tip; 0: unknown
   Mm stick_out{0};             // from the tip to the holder or the collet; 0: unknown

@@ -1,0 +1,239 @@
+// DrawnSolid: what a part of examples/jobs should be, from the shapes of its drawing: an oracle for the stock that a
+// job leaves. It shares no code with the readers, the planners or the simulation.
+//
+// It knows the SVG shapes rect, circle and polygon in layers, and asks at a position how high the part is, and how far
+// the walls are. Lengths are mm, Y points up.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace passo::test {
+
+struct FlatPoint {
+  double x = 0;
+  double y = 0;
+};
+using FlatRing = std::vector<FlatPoint>;
+
+// The closed shapes of a layer.
+class DrawnShapes {
+ public:
+  void add(FlatRing ring) {
+    Outline outline{.ring = std::move(ring)};
+    const std::size_t n = outline.ring.size();
+    constexpr double least_turn = 15 * std::numbers::pi / 180;
+    for (std::size_t i = 0; i < n; ++i) {
+      const FlatPoint a = outline.ring[(i + n - 1) % n];
+      const FlatPoint b = outline.ring[i];
+      const FlatPoint c = outline.ring[(i + 1) % n];
+      outline.low = {std::min(outline.low.x, b.x), std::min(outline.low.y, b.y)};
+      outline.high = {std::max(outline.high.x, b.x), std::max(outline.high.y, b.y)};
+      const double turn =
+          std::remainder(std::atan2(c.y - b.y, c.x - b.x) - std::atan2(b.y - a.y, b.x - a.x), 2 * std::numbers::pi);
+      if (std::abs(turn) > least_turn) corners_.push_back({b, std::tan(std::min(std::abs(turn), 3.1) / 2)});
+    }
+    outlines_.push_back(std::move(outline));
+  }
+
+  bool contains(FlatPoint at) const {
+    bool inside = false;
+    for (const Outline& outline : outlines_) {
+      if (outline.beside(at) > 0) continue;
+      outline.each_edge([&](FlatPoint a, FlatPoint b) {
+        if ((a.y > at.y) == (b.y > at.y)) return;
+        if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+      });
+    }
+    return inside;
+  }
+  // To the nearest edge; `most` if it is farther.
+  double distance(FlatPoint at, double most) const {
+    double best = most * most;
+    for (const Outline& outline : outlines_) {
+      const double beside = outline.beside(at);
+      if (beside * beside >= best) continue;
+      outline.each_edge([&](FlatPoint a, FlatPoint b) {
+        const double dx = b.x - a.x;
+        const double dy = b.y - a.y;
+        const double square = dx * dx + dy * dy;
+        const double t = square > 0 ? std::clamp(((at.x - a.x) * dx + (at.y - a.y) * dy) / square, 0.0, 1.0) : 0;
+        const double x = at.x - a.x - t * dx;
+        const double y = at.y - a.y - t * dy;
+        best = std::min(best, x * x + y * y);
+      });
+    }
+    return std::sqrt(best);
+  }
+  // Whether a cutter cannot reach the place, because it does not fit into a corner: where the direction turns by more
+  // than 15 degrees.
+  bool is_in_corner(FlatPoint at, double radius) const {
+    return std::ranges::any_of(corners_, [&](const Corner& corner) {
+      return std::hypot(at.x - corner.at.x, at.y - corner.at.y) < radius * corner.reach + 0.01;
+    });
+  }
+
+ private:
+  struct Outline {
+    FlatRing ring;
+    FlatPoint low{1e9, 1e9};
+    FlatPoint high{-1e9, -1e9};
+
+    // The distance from the bounding box.
+    double beside(FlatPoint at) const {
+      return std::hypot(std::max({low.x - at.x, 0.0, at.x - high.x}), std::max({low.y - at.y, 0.0, at.y - high.y}));
+    }
+    template <class Do>
+    void each_edge(Do&& act) const {
+      for (std::size_t i = 0; i < ring.size(); ++i) act(ring[i], ring[(i + 1) % ring.size()]);
+    }
+  };
+
+  std::vector<Outline> outlines_;
+  struct Corner {
+    FlatPoint at;
+    double reach = 0;  // from the corner to where a cutter of radius 1 touches its sides
+  };
+
+  std::vector<Corner> corners_;
+};
+
+// The layers of an SVG drawing whose units are mm.
+inline std::map<std::string, DrawnShapes> read_shapes(const std::string& svg) {
+  const auto attribute = [](std::string_view element, const std::string& name) -> std::string {
+    const std::size_t at = element.find(" " + name + "=\"");
+    if (at == std::string_view::npos) return "";
+    const std::size_t begin = at + name.size() + 3;
+    return std::string(element.substr(begin, element.find('"', begin) - begin));
+  };
+  const auto number = [&](std::string_view element, const char* name) {
+    return std::atof(attribute(element, name).c_str());
+  };
+  std::map<std::string, DrawnShapes> layers;
+  std::string layer;
+  double height = 0;
+  for (std::size_t at = svg.find('<'); at != std::string::npos; at = svg.find('<', at + 1)) {
+    const std::string_view element = std::string_view(svg).substr(at, svg.find('>', at) - at);
+    FlatRing ring;
+    const auto arc = [&](double x, double y, double r, double from, double to) {
+      const int pieces = std::max(2, static_cast<int>(std::abs(to - from)));  // one per degree
+      for (int i = 0; i <= pieces; ++i) {
+        const double angle = (from + (to - from) * i / pieces) * std::numbers::pi / 180;
+        ring.push_back({x + r * std::cos(angle), y + r * std::sin(angle)});
+      }
+    };
+    if (element.starts_with("<svg")) {
+      height = number(element, "height");
+    } else if (element.starts_with("<g")) {
+      layer = attribute(element, "inkscape:label");
+    } else if (element.starts_with("<circle")) {
+      arc(number(element, "cx"), height - number(element, "cy"), number(element, "r"), 0, 360);
+      ring.pop_back();
+    } else if (element.starts_with("<rect")) {
+      const double r = number(element, "rx");
+      const double left = number(element, "x");
+      const double right = left + number(element, "width");
+      const double top = height - number(element, "y");
+      const double bottom = top - number(element, "height");
+      if (r > 0) {
+        arc(left + r, bottom + r, r, 180, 270);
+        arc(right - r, bottom + r, r, 270, 360);
+        arc(right - r, top - r, r, 0, 90);
+        arc(left + r, top - r, r, 90, 180);
+      } else {
+        ring = {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
+      }
+    } else if (element.starts_with("<polygon")) {
+      const std::string points = attribute(element, "points");
+      const char* text = points.c_str();
+      double x = 0;
+      double y = 0;
+      int used = 0;
+      while (std::sscanf(text, "%lf,%lf%n", &x, &y, &used) == 2) {
+        ring.push_back({x, height - y});
+        text += used;
+      }
+    }
+    if (!ring.empty()) layers[layer].add(std::move(ring));
+  }
+  return layers;
+}
+
+// A cut of the part, as it is meant.
+struct DrawnCut {
+  // pocket: the inside of the shapes down to `z`. around, within: a groove as wide as the cutter, outside or inside of
+  // the shapes, through the stock except at tabs. outer_chamfer, inner_chamfer: of 45 degrees, as wide as `z`, on the
+  // edges of the shapes, whose inside is the part, or a hole.
+  enum class Kind : std::uint8_t { pocket, around, within, outer_chamfer, inner_chamfer };
+  Kind kind = Kind::pocket;
+  std::string layer = {};
+  double z = 0;
+  double cutter = 0;  // diameter of the last cutter
+};
+
+class DrawnSolid {
+ public:
+  DrawnSolid(std::map<std::string, DrawnShapes> layers, std::vector<DrawnCut> cuts, double thickness, double tolerance)
+      : layers_(std::move(layers)), cuts_(std::move(cuts)), thickness_(thickness), tolerance_(tolerance) {}
+
+  struct Heights {
+    double least = 0;          // what is lower was cut into
+    double most = 0;           // what is higher was left
+    double wall = 1e9;         // distance to the nearest wall
+    bool may_be_left = false;  // near a corner that is too narrow for the cutter
+  };
+  Heights at(FlatPoint at) const;
+
+ private:
+  std::map<std::string, DrawnShapes> layers_;
+  std::vector<DrawnCut> cuts_;
+  double thickness_;
+  double tolerance_;
+};
+
+inline DrawnSolid::Heights DrawnSolid::at(FlatPoint at) const {
+  using enum DrawnCut::Kind;
+  Heights heights;
+  bool is_free = false;  // beside the part, where tabs and scrap are
+  for (const DrawnCut& cut : cuts_) {
+    const DrawnShapes& shapes = layers_.at(cut.layer);
+    const bool inside = shapes.contains(at);
+    const double wall = shapes.distance(at, std::max(cut.cutter, 2.0) + 1);
+    heights.wall = std::min(heights.wall, wall);
+    const bool is_round = cut.kind == outer_chamfer || cut.kind == inner_chamfer;
+    if (is_round) {
+      const bool is_part = inside == (cut.kind == outer_chamfer);
+      // The flank goes on below the chamfer, beside the edge.
+      if (!is_part) is_free = is_free || wall < 1;
+      if (is_part && wall < cut.z) {
+        heights.least = std::min(heights.least, wall - cut.z);
+        heights.most = std::min(heights.most, wall - cut.z);
+      }
+      continue;
+    }
+    const bool is_groove = cut.kind == around || cut.kind == within;
+    if (is_groove) {
+      if (inside != (cut.kind == within)) continue;
+      is_free = true;
+      if (wall < cut.cutter - tolerance_) heights.most = std::min(heights.most, cut.z);
+    } else if (inside) {
+      heights.least = std::min(heights.least, cut.z);
+      heights.most = std::min(heights.most, cut.z);
+    }
+    if (shapes.is_in_corner(at, cut.cutter / 2)) heights.may_be_left = true;
+  }
+  if (is_free) heights.least = -1e9;
+  if (heights.least <= -thickness_) heights.least = -1e9;
+  return heights;
+}
+
+}  // namespace passo::test
