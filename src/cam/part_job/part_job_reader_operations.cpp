@@ -33,13 +33,14 @@ PartArguments arguments_of(PartKind kind, bool has_chamfer) {
   return CamProfileArguments();
 }
 
-std::string_view command_of(PartKind kind) {
-  switch (kind) {
+std::string_view command_of(const PartOperation& operation) {
+  switch (operation.kind) {
     case PartKind::face: return "pocket";
     case PartKind::bore: return "drill";
-    case PartKind::chamfer: return "profile";
+    case PartKind::chamfer:
+      return std::holds_alternative<CamProfileArguments>(operation.arguments) ? "profile" : "engrave";
     case PartKind::thread_mill: return "thread";
-    default: return name_of(kind);
+    default: return name_of(operation.kind);
   }
 }
 
@@ -132,7 +133,7 @@ std::vector<PartKindKeys> keys_of_part_kinds() {
     operation.kind = *part_kind_of(name);
     operation.arguments = arguments_of(operation.kind);
     PartKindKeys keys{.kind = operation.kind,
-                      .command = command_of(operation.kind),
+                      .command = command_of(operation),
                       .first_tool = first_tool_of(operation.kind).key,
                       .options = {},
                       .file = operation.kind == PartKind::relief ? "file" : "drawing",
