@@ -14,14 +14,14 @@ namespace passo {
 
 struct MillScene {
   const MillPlan& plan;
-  const Region& face;                  // the copper, or the board
-  std::string face_name = {};          // "Copper"
-  const Region& warned;                // remaining material that should have been milled
-  std::vector<DrawnPoint> marks = {};  // points to be marked by a ring
-  std::string mark_name = {};          // "Tab", "Gap"
-  DrawnPoint park = {};                // where the rapids begin and end
-  std::string warned_name = {};        // "Not reached"; empty: omitted from the legend
-  std::optional<DrawnBox> sheet = {};  // the sheet of material
+  const Region& face;                     // the copper, or the board
+  std::string face_name = {};             // "Copper"
+  const Region& warned;                   // remaining material that should have been milled
+  std::vector<DrawnPoint> marks = {};     // points to be marked by a ring
+  std::string mark_name = {};             // "Tab", "Gap"
+  DrawnPoint park = {};                   // where the rapids begin and end
+  std::string warned_name = {};           // "Not reached"; empty: omitted from the legend
+  std::optional<DrawnBox> sheet = {};     // the sheet of material
   std::optional<Nanometres> offcut = {};  // X from which the sheet stays whole
 };
 
