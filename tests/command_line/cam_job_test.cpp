@@ -58,7 +58,8 @@ TEST_F(CamJob, every_example_cuts_its_stock_and_nothing_else) {
       {"clock", "X-90:90,Y-90:90,Z-8.5:0", "--tool 1=vee:60:6:0.2 --tool 2=flat:3", 1},
       {"guitar", "X-12:218,Y-12:138,Z-20.5:0", "--tool 1=flat:8 --tool 2=flat:5", 1},
       {"coaster", "X-50:50,Y-50:50,Z-8.5:0", "--tool 1=flat:4 --tool 2=ball:4", 1},
-      {"gear", "X-45:45,Y-45:45,Z-6.5:0", "--tool 1=flat:4 --tool 2=flat:2", 2}};
+      {"gear", "X-45:45,Y-45:45,Z-6.5:0", "--tool 1=flat:4 --tool 2=flat:2", 2},
+      {"shelf-bracket", "X0:450,Y0:300,Z-9.5:0", "--tool 1=flat:5", 1}};
   for (const JobExample& one : examples) {
     SCOPED_TRACE(one.name);
     const Outcome made = passo("cam job " + example(one.name) + " -o " + path("p.ngc"));
@@ -369,6 +370,86 @@ TEST_F(CamJob, a_drawing_beside_the_stock_is_a_warning) {
   text.replace(text.find("size = [60, 50]"), 15, "size = [20, 20]");
   write("small.toml", text);
   EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("beside the stock [job.beside-stock]"));
+}
+
+struct CopyBox {
+  double left, low, right, high;
+};
+
+// Where a part from X10 Y10 to X50 Y40 lies, turned by quarters and moved.
+CopyBox box_of_copy(const nlohmann::json& copy) {
+  const double angle = copy["degrees"].get<double>() * 3.14159265358979 / 180;
+  const auto spot = [&](double x, double y) {
+    return std::pair(x * std::cos(angle) - y * std::sin(angle) + copy["x_mm"].get<double>(),
+                     x * std::sin(angle) + y * std::cos(angle) + copy["y_mm"].get<double>());
+  };
+  const auto [ax, ay] = spot(10, 10);
+  const auto [bx, by] = spot(50, 40);
+  return {std::min(ax, bx), std::min(ay, by), std::max(ax, bx), std::max(ay, by)};
+}
+
+TEST_F(CamJob, copies_lie_on_their_sheets_and_no_cut_enters_another_copy) {
+  small_job("", "[nest]\nquantity = 7\n[[clamp]]\nfrom = [0, 0]\nto = [20, 20]\nheight = 3\n");
+  std::string text = read(path("small.toml"));
+  text.replace(text.find("size = [60, 50]"), 15, "size = [150, 100]");
+  write("small.toml", text);
+  const Outcome made = passo("cam job " + path("small.toml") + " --picture " + path("small.svg.svg"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("nested: 7 copies of 1 part on 2 sheets of 150 x 100 mm, 4 mm apart"));
+  const nlohmann::json job = record("small");
+  ASSERT_EQ(job["programs"].size(), 2U);
+  ASSERT_EQ(job["nest"]["sheets"].size(), 2U);
+  for (std::size_t sheet = 0; sheet < 2; ++sheet) {
+    std::vector<CopyBox> boxes;
+    for (const auto& copy : job["nest"]["sheets"][sheet]["copies"]) {
+      boxes.push_back(box_of_copy(copy));
+      const CopyBox& box = boxes.back();
+      EXPECT_GE(std::min(box.left, box.low), 4 - 1e-3);
+      EXPECT_LE(box.right, 146 + 1e-3);
+      EXPECT_LE(box.high, 96 + 1e-3);
+      EXPECT_GE(std::hypot(std::max(box.left - 20, 0.0), std::max(box.low - 20, 0.0)), 4 - 1e-3);
+    }
+    const Outcome canon = passo("canon " + path(job["programs"][sheet]["file"]));
+    ASSERT_EQ(canon.code, 0) << canon.err;
+    std::istringstream lines(canon.out);
+    std::string line;
+    std::size_t seen = 0;
+    while (std::getline(lines, line)) {
+      const std::size_t feed = line.find("STRAIGHT_FEED(");
+      double x = 0;
+      double y = 0;
+      double z = 0;
+      if (feed == std::string::npos) continue;
+      ASSERT_EQ(std::sscanf(line.c_str() + feed, "STRAIGHT_FEED(%lf, %lf, %lf", &x, &y, &z), 3) << line;
+      if (z >= 0) continue;
+      ++seen;
+      for (const CopyBox& box : boxes) {
+        const double away =
+            std::hypot(std::max({box.left - x, x - box.right, 0.0}), std::max({box.low - y, y - box.high, 0.0}));
+        const double inside = std::min({x - box.left, box.right - x, y - box.low, box.high - y});
+        EXPECT_TRUE(away > 1.5 - 1e-3 || inside > 10) << line;  // the pocket lies in the middle of the part
+      }
+    }
+    EXPECT_GT(seen, 30U);
+  }
+  const std::string first = read(path("small-1.ngc"));
+  ASSERT_EQ(passo("cam job " + path("small.toml")).code, 0);
+  EXPECT_EQ(read(path("small-1.ngc")), first);
+  EXPECT_EQ(passo("cam job " + path("small.toml") + " --check").code, 0);
+}
+
+TEST_F(CamJob, a_part_that_cannot_be_nested_is_named_with_sizes) {
+  small_job("", "[nest]\nquantity = 2\nmargin = 15\n");
+  const Outcome made = passo("cam job " + path("small.toml"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("of 40 x 30 mm does not fit on a sheet of 60 x 50 mm with a margin of 15 mm"));
+  EXPECT_THAT(made.err, HasSubstr("small.toml:22:"));
+  small_job("", "[nest]\nquantity = 2\ngap = 2\n");
+  EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("at least 3 mm"));
+  small_job("", "[nest]\nquantity = 2\nsheet = [200, 100]\n");
+  EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("both stock.size and nest.sheet are given"));
+  small_job("", "[nest]\nquantity = 0\n");
+  EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("[job.out-of-range]"));
 }
 
 }  // namespace

@@ -400,4 +400,28 @@ TEST_F(CamPart, deep_letters_are_carved_in_layers) {
   EXPECT_EQ(passo(engrave + " --step 0.001").code, 2);
 }
 
+TEST_F(CamPart, parts_are_nested_on_sheets_with_a_program_each) {
+  const std::string drawing =
+      write("l.svg",
+            "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='60mm' viewBox='0 0 60 60'>"
+            "<path d='M0 0h40v15h-25v25h-15z'/><circle cx='8' cy='8' r='4'/><circle cx='50' cy='50' r='6'/></svg>");
+  const std::string order = "cam profile " + drawing + " --tool 3 --depth -3 --tabs 2 --quantity 9";
+  const Outcome made = passo(order + " --nest 130,90 --json -p " + path("n.svg") + " -o " + path("n.ngc"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const nlohmann::json told = nlohmann::json::parse(made.out);
+  EXPECT_EQ(told["nest"]["gap_mm"], 4.0);
+  ASSERT_EQ(told["nest"]["sheets"].size(), 2U);
+  EXPECT_EQ(told["nest"]["sheets"][0]["copies"].size() + told["nest"]["sheets"][1]["copies"].size(), 18U);
+  EXPECT_EQ(told["programs"].size(), 2U);
+  for (const char* file : {"n-1.ngc", "n-2.ngc"}) expect_cuts_well(path(file), "X-2:132,Y-2:92,Z-3:0");
+  EXPECT_THAT(read(path("n-2.svg")), HasSubstr("Offcut"));
+
+  EXPECT_THAT(passo(order + " --nest 130,90").err, HasSubstr("2 sheets have a program each"));
+  EXPECT_THAT(passo(order + " --nest 35,60 -o " + path("x.ngc")).err,
+              HasSubstr("of 40 x 40 mm does not fit on a sheet of 35 x 60 mm with a margin of 4 mm"));
+  EXPECT_THAT(passo(order + " --nest 130,90 --gap 2 -o " + path("x.ngc")).err,
+              HasSubstr("--gap: expected at least 3 mm, which the cutter and its lead-in need, found '2'"));
+  EXPECT_THAT(passo(order + " --nest 130 -o " + path("x.ngc")).err, HasSubstr("--nest: expected X,Y, found '130'"));
+}
+
 }  // namespace

@@ -1,4 +1,4 @@
-// The only file that sees Clipper.
+// The only file of cam/ that sees Clipper.
 #include "passo/cam/region.hpp"
 
 #include <algorithm>

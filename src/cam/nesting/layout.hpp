@@ -15,11 +15,11 @@ namespace passo::nesting {
 // A shape as turned by each rotation.
 struct TurnedShape {
   double degrees = 0;
-  Polygons grown = {};   // by half of the gap
-  Extent extent = {};    // of the shape itself
-  bool fits = false;     // the sheet
-  Extent places = {};    // of its position, so that it lies on the sheet
-  Polygons free = {};    // of an empty sheet
+  Polygons grown = {};  // by half of the gap
+  Extent extent = {};   // of the shape itself
+  bool fits = false;    // the sheet
+  Extent places = {};   // of its position, so that it lies on the sheet
+  Polygons free = {};   // of an empty sheet
 };
 
 struct ShapeToNest {
@@ -46,7 +46,7 @@ struct Layout {
   std::vector<std::vector<LaidCopy>> sheets = {};
   ClipperLib::cInt length = 0;  // used on the last sheet, steps
   ClipperLib::cInt height = 0;  // on the last sheet
-  double work = 0;          // corners that Clipper was given
+  double work = 0;              // corners that Clipper was given
 
   bool is_better_than(const Layout& other) const;
 };

@@ -26,9 +26,18 @@ Extent extent_of_outlines(const std::vector<DrawnRing>& outlines, double degrees
   Region all;
   for (const DrawnRing& ring : outlines) all.rings.push_back(placed(ring, turn));
   const DrawnBox box = bounds(all).value_or(DrawnBox{});
-  const auto down = [](Nanometres at) { return std::llround(std::floor(static_cast<double>(at.count) / nanometres_per_step)); };
-  const auto up = [](Nanometres at) { return std::llround(std::ceil(static_cast<double>(at.count) / nanometres_per_step)); };
+  const auto down = [](Nanometres at) {
+    return std::llround(std::floor(static_cast<double>(at.count) / nanometres_per_step));
+  };
+  const auto up = [](Nanometres at) {
+    return std::llround(std::ceil(static_cast<double>(at.count) / nanometres_per_step));
+  };
   return {{down(box.least.x), down(box.least.y)}, {up(box.most.x), up(box.most.y)}};
+}
+
+DrawnPoint lower_left_of_outlines(const std::vector<DrawnRing>& outlines) {
+  const Extent drawn = extent_of_outlines(outlines, 0);
+  return {{drawn.least.X * nanometres_per_step}, {drawn.least.Y * nanometres_per_step}};
 }
 
 ClipperLib::Path box_path(const Spot& least, const Spot& most) {
@@ -38,10 +47,9 @@ ClipperLib::Path box_path(const Spot& least, const Spot& most) {
 // The positions of a turned shape on an empty sheet.
 void find_places(TurnedShape& turned, const NestOptions& options, const Polygons& obstacles) {
   const ClipperLib::cInt margin = whole_steps(options.margin);
-  turned.places = {
-      {margin - turned.extent.least.X, margin - turned.extent.least.Y},
-      {whole_steps(options.sheet.x) - margin - turned.extent.most.X,
-       whole_steps(options.sheet.y) - margin - turned.extent.most.Y}};
+  turned.places = {{margin - turned.extent.least.X, margin - turned.extent.least.Y},
+                   {whole_steps(options.sheet.x) - margin - turned.extent.most.X,
+                    whole_steps(options.sheet.y) - margin - turned.extent.most.Y}};
   const Extent& places = turned.places;
   if (places.least.X > places.most.X || places.least.Y > places.most.Y) return;
   // A shape that fits exactly has a place, too.
@@ -79,7 +87,9 @@ Result<ShapeToNest, NestFailure> prepared(const NestShape& shape, std::size_t in
   ShapeToNest ready;
   const double by = static_cast<double>(options.gap.count) / 2 / nanometres_per_step;
   const Extent drawn = extent_of_outlines(shape.outlines, 0);
-  const auto mm = [](ClipperLib::cInt length) { return static_cast<double>(length * nanometres_per_step) / nanometres_per_mm; };
+  const auto mm = [](ClipperLib::cInt length) {
+    return static_cast<double>(length * nanometres_per_step) / nanometres_per_mm;
+  };
   const std::string size =
       fmt::format("{:.6g} x {:.6g} mm", mm(drawn.most.X - drawn.least.X), mm(drawn.most.Y - drawn.least.Y));
   const double largest = 2.0 * mm(whole_steps(std::max(options.sheet.x, options.sheet.y)));
@@ -87,11 +97,11 @@ Result<ShapeToNest, NestFailure> prepared(const NestShape& shape, std::size_t in
       {index, fmt::format("'{}' of {} does not fit on a sheet of {}{}", shape.name, size, sheet_words(options),
                           options.rotations == 1 ? " as it is drawn" : "")}};
   if (mm(drawn.most.X - drawn.least.X) > largest || mm(drawn.most.Y - drawn.least.Y) > largest) return too_large;
-  // About 0,0 of the drawing, which may be far away: the shape is first moved near it.
+  // The drawing may be far from 0,0: the shape is first moved near it.
   ready.area_mm2 = area_mm2(filled(shape.outlines));
   if (!(ready.area_mm2 > 0)) return Failure{NestFailure{index, fmt::format("'{}' has no area", shape.name)}};
   std::vector<DrawnRing> near = shape.outlines;
-  const DrawnPoint corner{{drawn.least.X * nanometres_per_step}, {drawn.least.Y * nanometres_per_step}};
+  const DrawnPoint corner = lower_left_of_outlines(near);
   for (DrawnRing& ring : near) {
     for (DrawnPoint& point : ring) point = {point.x - corner.x, point.y - corner.y};
   }
@@ -166,6 +176,22 @@ std::vector<LayoutItem> Changes::changed(std::vector<LayoutItem> sequence) {
   return sequence;
 }
 
+// Each shape's kind: the first shape with the same outlines, wherever they are. Drawings repeat parts.
+bool are_alike(const std::vector<DrawnRing>& a, const DrawnPoint& corner_a, const std::vector<DrawnRing>& b,
+               const DrawnPoint& corner_b) {
+  constexpr std::int64_t least = 500;  // nm
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].size() != b[i].size()) return false;
+    for (std::size_t j = 0; j < a[i].size(); ++j) {
+      const std::int64_t dx = (a[i][j].x.count - corner_a.x.count) - (b[i][j].x.count - corner_b.x.count);
+      const std::int64_t dy = (a[i][j].y.count - corner_a.y.count) - (b[i][j].y.count - corner_b.y.count);
+      if (std::abs(dx) > least || std::abs(dy) > least) return false;
+    }
+  }
+  return true;
+}
+
 double longest_side(const ShapeToNest& shape) {
   const Extent& extent = shape.turns.front().extent;
   return static_cast<double>(std::max(extent.most.X - extent.least.X, extent.most.Y - extent.least.Y));
@@ -173,8 +199,8 @@ double longest_side(const ShapeToNest& shape) {
 
 class NestSearch {
  public:
-  NestSearch(LayoutMaker& maker, const std::vector<NestShape>& shapes, std::uint32_t rounds)
-      : maker_(maker), shapes_(shapes), rounds_(rounds) {}
+  NestSearch(LayoutMaker& maker, const std::vector<std::uint32_t>& quantities, std::uint32_t rounds)
+      : maker_(maker), quantities_(quantities), rounds_(rounds) {}
 
   Layout run(const WorkProgress& progress);
   std::uint32_t layouts() const { return layouts_; }
@@ -186,7 +212,7 @@ class NestSearch {
   bool may_go_on() const;
 
   LayoutMaker& maker_;
-  const std::vector<NestShape>& shapes_;
+  const std::vector<std::uint32_t>& quantities_;
   std::uint32_t rounds_;
   std::uint32_t layouts_ = 0;
   double work_ = 0;
@@ -197,13 +223,13 @@ class NestSearch {
 
 template <class Measure>
 std::vector<LayoutItem> NestSearch::largest_first(Measure measure) const {
-  std::vector<std::uint32_t> order(shapes_.size());
+  std::vector<std::uint32_t> order(quantities_.size());
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
     return std::invoke(measure, maker_.shapes()[a]) > std::invoke(measure, maker_.shapes()[b]);
   });
   std::vector<LayoutItem> sequence;
-  for (const std::uint32_t shape : order) sequence.insert(sequence.end(), shapes_[shape].quantity, {.shape = shape});
+  for (const std::uint32_t shape : order) sequence.insert(sequence.end(), quantities_[shape], {.shape = shape});
   return sequence;
 }
 
@@ -222,7 +248,7 @@ bool NestSearch::attempt(const std::vector<LayoutItem>& sequence, PlaceRule rule
 }
 
 bool NestSearch::may_go_on() const {
-  constexpr double most_work = 12e6;  // corners: some ten seconds
+  constexpr double most_work = 4e6;  // corners: some ten seconds of CPU time
   return layouts_ < rounds_ && work_ < most_work;
 }
 
@@ -230,7 +256,7 @@ Layout NestSearch::run(const WorkProgress& progress) {
   const auto by_area = largest_first(&ShapeToNest::area_mm2);
   const auto by_length = largest_first(longest_side);
   attempt(by_area, PlaceRule::right);
-  const bool is_one_kind = shapes_.size() == 1;
+  const bool is_one_kind = quantities_.size() == 1;
   for (const PlaceRule rule : {PlaceRule::left, PlaceRule::box}) {
     if (may_go_on()) attempt(by_area, rule);
   }
@@ -280,31 +306,43 @@ Result<Nest, NestFailure> nest_on_sheets(const std::vector<NestShape>& shapes, c
                                          const WorkProgress& progress) {
   std::uint64_t copies = 0;
   for (const NestShape& shape : shapes) copies += shape.quantity;
-  if (copies > most_nested) return Failure{NestFailure{0, fmt::format("{} copies are more than {}", copies, most_nested)}};
+  if (copies > most_nested)
+    return Failure{NestFailure{0, fmt::format("{} copies are more than {}", copies, most_nested)}};
   const Polygons obstacles = grown_obstacles(options);
-  std::vector<ShapeToNest> ready;
   Nest nest;
   std::vector<DrawnPoint> corners;
+  for (const NestShape& shape : shapes) corners.push_back(lower_left_of_outlines(shape.outlines));
+  std::vector<ShapeToNest> kinds;
+  std::vector<std::vector<std::size_t>> of_kinds;  // the shape of each copy
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    auto shape = prepared(shapes[i], i, options, obstacles);
-    if (!shape) return Failure{shape.error()};
-    nest.parts_mm2 += shape->area_mm2 * shapes[i].quantity;
-    ready.push_back(std::move(*shape));
-    const Extent drawn = extent_of_outlines(shapes[i].outlines, 0);
-    corners.push_back(
-        {{drawn.least.X * nanometres_per_step}, {drawn.least.Y * nanometres_per_step}});
+    const auto same = std::ranges::find_if(of_kinds, [&](const std::vector<std::size_t>& of_kind) {
+      const std::size_t first = of_kind.front();
+      return are_alike(shapes[i].outlines, corners[i], shapes[first].outlines, corners[first]);
+    });
+    if (same == of_kinds.end()) {
+      auto kind = prepared(shapes[i], i, options, obstacles);
+      if (!kind) return Failure{kind.error()};
+      kinds.push_back(std::move(*kind));
+      of_kinds.emplace_back();
+    }
+    const auto kind = same == of_kinds.end() ? of_kinds.size() - 1 : static_cast<std::size_t>(same - of_kinds.begin());
+    of_kinds[kind].insert(of_kinds[kind].end(), shapes[i].quantity, i);
+    nest.parts_mm2 += kinds[kind].area_mm2 * shapes[i].quantity;
   }
   if (copies == 0) return nest;
-  LayoutMaker maker(std::move(ready), options.rotations);
-  NestSearch search(maker, shapes, std::max(1U, options.rounds));
+  std::vector<std::uint32_t> quantities;
+  for (const auto& of_kind : of_kinds) quantities.push_back(static_cast<std::uint32_t>(of_kind.size()));
+  LayoutMaker maker(std::move(kinds), options.rotations);
+  NestSearch search(maker, quantities, std::max(1U, options.rounds));
   const Layout layout = search.run(progress);
   nest.layouts = search.layouts();
   for (const auto& laid : layout.sheets) {
     NestSheet sheet;
     for (const LaidCopy& copy : laid) {
       const TurnedShape& turn = maker.shapes()[copy.shape].turns[copy.turn];
-      NestPlacement placement{.shape = copy.shape, .degrees = turn.degrees};
-      const DrawnPoint corner = placed(corners[copy.shape], placement);
+      NestPlacement placement{.shape = of_kinds[copy.shape].back(), .degrees = turn.degrees};
+      of_kinds[copy.shape].pop_back();
+      const DrawnPoint corner = placed(corners[placement.shape], placement);
       placement.offset = {{copy.at.X * nanometres_per_step - corner.x.count},
                           {copy.at.Y * nanometres_per_step - corner.y.count}};
       sheet.placements.push_back(placement);
@@ -313,8 +351,7 @@ Result<Nest, NestFailure> nest_on_sheets(const std::vector<NestShape>& shapes, c
     nest.sheets.push_back(std::move(sheet));
   }
   const double whole = to_mm(options.sheet.x).value() * to_mm(options.sheet.y).value();
-  const double last = std::min(to_mm(options.sheet.x).value(),
-                               to_mm(nest.sheets.back().used + options.margin).value());
+  const double last = std::min(to_mm(options.sheet.x).value(), to_mm(nest.sheets.back().used + options.margin).value());
   nest.sheets_mm2 = whole * static_cast<double>(nest.sheets.size() - 1) + last * to_mm(options.sheet.y).value();
   progress.update(1);
   return nest;

@@ -41,8 +41,8 @@ Path with_fewer_corners(const Path& path, double tolerance, double& most) {
   if (path.size() < 5) return path;
   // A ring has two ends that stay: its leftmost point and the point farthest from it.
   Path ring = path;
-  const auto first = std::ranges::min_element(
-      ring, [](const Spot& a, const Spot& b) { return a.X != b.X ? a.X < b.X : a.Y < b.Y; });
+  const auto first =
+      std::ranges::min_element(ring, [](const Spot& a, const Spot& b) { return a.X != b.X ? a.X < b.X : a.Y < b.Y; });
   std::rotate(ring.begin(), first, ring.end());
   ring.push_back(ring.front());
   std::size_t far = 0;

@@ -21,7 +21,7 @@ constexpr NumberKey feed_key{"feed_mm_min", 0.1, 1e6, "900"};
 constexpr NumberKey plunge_key{"plunge_mm_min", 0.1, 1e6, "300"};
 constexpr NumberKey speed_key{"spindle_rpm", 0, 1e6, "18000"};
 constexpr double longest = 10'000;  // mm, of the stock
-constexpr std::array<std::string_view, 5> job_tables = {"job", "stock", "clamp", "tool", "operation"};
+constexpr std::array<std::string_view, 6> job_tables = {"job", "stock", "nest", "clamp", "tool", "operation"};
 
 }  // namespace
 
@@ -31,7 +31,11 @@ void PartJobReader::read() {
   const auto entry = [&](std::string_view key) { return find(document_.root, key); };
   // Operations need the contents of the tables before them.
   if (const TomlEntry* job = top.table("job", "a table [job]", Need::optional)) read_job(*job);
+  if (const TomlEntry* nest = top.table("nest", "a table [nest]", Need::optional)) read_nest(*nest);
   if (const TomlEntry* stock = top.table("stock", "a table [stock]", Need::optional)) read_stock(*stock);
+  if (job_.nesting && !job_.stock && find(document_.root, "stock") == nullptr) {
+    top.missing("stock", "a table [stock], with the thickness of the sheets");
+  }
   const Need own_tools = job_.tools.empty() ? Need::required : Need::optional;
   if (const TomlEntry* tools = top.table("tool", "a table [tool.1] for each tool", own_tools)) read_tools(*tools);
   for (auto& [number, tool] : job_.tools) find_feeds(tool);
@@ -218,7 +222,11 @@ void PartJobReader::read_stock(const TomlEntry& entry) {
   const auto& table = std::get<TomlTable>(entry.value.content);
   TableReader reader(table, "stock", entry.place, reporter_);
   PartStock stock;
-  const auto size = pair(table, reader, "size", 1e-3, Need::required);
+  const auto own_size = pair(table, reader, "size", 1e-3, sheet_ ? Need::optional : Need::required);
+  const auto size = sheet_ ? sheet_ : own_size;
+  if (sheet_ && own_size) {
+    reader.error("job.bad-value", "size", "both stock.size and nest.sheet are given", "one of them");
+  }
   const auto corner = pair(table, reader, "corner", -longest, Need::optional);
   stock.thickness = length(table, reader, "thickness", 1e-3, "12", Need::required).value_or(0);
   stock.margin_below = length(table, reader, "below", 0, "0.5", Need::optional).value_or(stock.margin_below);
@@ -233,6 +241,20 @@ void PartJobReader::read_stock(const TomlEntry& entry) {
   stock.width = size->low;
   stock.length = size->high;
   job_.stock = stock;
+}
+
+void PartJobReader::read_nest(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "nest", entry.place, reporter_);
+  constexpr NumberKey quantity{"quantity", 1, 1000, "12"};
+  constexpr NumberKey rotations{"rotations", 1, 72, "4"};
+  PartNesting nesting{.place = entry.place};
+  sheet_ = pair(reader, "sheet", 1e-3, Need::optional);
+  nesting.quantity = static_cast<std::uint32_t>(reader.whole_number(quantity, Need::required).value_or(1));
+  nesting.rotations = static_cast<std::uint32_t>(reader.whole_number(rotations, Need::optional).value_or(4));
+  nesting.gap = length(reader, "gap", 0, "8", Need::optional);
+  nesting.margin = length(reader, "margin", 0, "10", Need::optional);
+  reader.finish(document_.complete, {});
+  job_.nesting = nesting;
 }
 
 void PartJobReader::read_clamp(const TomlTable& table, const std::string& path, const SourceLocation& place) {

@@ -31,6 +31,7 @@ class PartJobReader {
   void read_job(const TomlEntry& entry);
   void read_program_words(const TomlTable& table, TableReader& reader);
   void read_stock(const TomlEntry& entry);
+  void read_nest(const TomlEntry& entry);
   void read_tools(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
   void read_library(const std::string& path, const SourceLocation& place);
@@ -60,7 +61,8 @@ class PartJobReader {
   const TomlReporter& reporter_;
   PartJob& job_;
   double unit_mm_ = 1;
-  TomlTable defaults_;  // options in [job] for all operations
+  std::optional<LowHigh> sheet_ = {};  // of [nest], instead of the size of the stock
+  TomlTable defaults_;                 // options in [job] for all operations
 };
 
 }  // namespace passo

@@ -1,13 +1,12 @@
 #include "passo/nesting/nesting.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "kit/seed.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {
@@ -44,8 +43,12 @@ DrawnRing star_ring(std::mt19937_64& random, double radius, int corners) {
   return ring;
 }
 
-double x_of(const DrawnPoint& point) { return to_mm(point.x).value(); }
-double y_of(const DrawnPoint& point) { return to_mm(point.y).value(); }
+double x_of(const DrawnPoint& point) {
+  return to_mm(point.x).value();
+}
+double y_of(const DrawnPoint& point) {
+  return to_mm(point.y).value();
+}
 
 double distance_to_segment(const DrawnPoint& p, const DrawnPoint& a, const DrawnPoint& b) {
   const double dx = x_of(b) - x_of(a);
@@ -82,7 +85,8 @@ double distance_of(const DrawnRing& a, const DrawnRing& b) {
   for (std::size_t i = 0, before_i = a.size() - 1; i < a.size(); before_i = i++) {
     for (std::size_t j = 0, before_j = b.size() - 1; j < b.size(); before_j = j++) {
       if (do_cross(a[before_i], a[i], b[before_j], b[j])) return -1;
-      least = std::min({least, distance_to_segment(a[i], b[before_j], b[j]), distance_to_segment(b[j], a[before_i], a[i])});
+      least =
+          std::min({least, distance_to_segment(a[i], b[before_j], b[j]), distance_to_segment(b[j], a[before_i], a[i])});
     }
   }
   if (least > tolerance_mm && (is_inside(a, b.front()) || is_inside(b, a.front()))) return -1;
@@ -182,7 +186,8 @@ TEST(Nesting, a_shape_larger_than_the_sheet_is_named_with_sizes) {
   const auto nest = nest_on_sheets(shapes, options, {});
   ASSERT_FALSE(nest.has_value());
   EXPECT_EQ(nest.error().shape, 1);
-  EXPECT_EQ(nest.error().message, "'beam' of 250 x 30 mm does not fit on a sheet of 200 x 100 mm with a margin of 5 mm");
+  EXPECT_EQ(nest.error().message,
+            "'beam' of 250 x 30 mm does not fit on a sheet of 200 x 100 mm with a margin of 5 mm");
 }
 
 TEST(Nesting, grain_permits_half_turns_only) {

@@ -5,8 +5,10 @@
 #include <filesystem>
 
 #include "cam_job.hpp"
+#include "cam_profile_nest.hpp"
 #include "cam_program.hpp"
 #include "named_files.hpp"
+#include "part_job_nest.hpp"
 #include "part_job_operation.hpp"
 #include "part_job_programs.hpp"
 #include "part_job_record.hpp"
@@ -31,7 +33,10 @@ struct JobRun {
   std::string fingerprint = {};
   std::vector<OrderedOperation> order = {};
   std::vector<MadeOperation> made = {};  // as in PartJob::operations
+  std::optional<NestedJob> nested = {};
   std::vector<TrialProgram> programs = {};
+
+  std::size_t sheets() const { return nested ? nested->nest.sheets.size() : 1; }
 };
 
 // A program that is written to /dev/null has no record.
@@ -69,11 +74,11 @@ std::string park_words(const PartJob& job, const PartOperation& operation) {
                      program_number(job, "park", park.substr(comma + 1)));
 }
 
-JoinedOperation joined_operation(const JobRun& run, std::size_t index) {
+JoinedOperation joined_operation(const JobRun& run, std::size_t index, std::string program) {
   const PartOperation& operation = run.job.operations[index];
   JoinedOperation joined{
       .title = fmt::format("{}: {}, tool {}", operation.title, name_of(operation.kind), operation.tool),
-      .program = run.made[index].program};
+      .program = std::move(program)};
   for (const std::int32_t tool : {operation.first_tool, operation.tool}) {
     if (tool > 0) joined.tools.push_back({tool, tool_words(run.job, tool)});
   }
@@ -81,13 +86,29 @@ JoinedOperation joined_operation(const JobRun& run, std::size_t index) {
   return joined;
 }
 
-void join_programs(JobRun& run) {
+// An operation once, or for each copy on the sheet. Facing is of the whole sheet.
+void join_operation(const JobRun& run, std::size_t index, TrialProgram& program, JoinedProgram& joined) {
+  const std::string& made = run.made[index].program;
+  std::vector<std::string> texts = {made};
+  if (run.nested && run.job.operations[index].kind != PartKind::face) {
+    texts =
+        programs_on_sheet(run.job, made, park_words(run.job, run.job.operations[index]), *run.nested, program.sheet);
+  }
+  for (std::string& text : texts) {
+    joined.add(joined_operation(run, index, std::move(text)));
+    program.operations.push_back(index);
+  }
+}
+
+void join_sheet(JobRun& run, std::size_t sheet) {
   const PartJob& job = run.job;
+  const std::string output = sheet_file(run.output, sheet, run.sheets());
+  std::size_t number = 0;
   std::size_t at = 0;
   while (at < run.order.size()) {
-    TrialProgram program;
+    TrialProgram program{.sheet = sheet};
     const std::int32_t tool = job.operations[run.order[at].index].tool;
-    program.file = job.one_program ? run.output : program_of_tool(run.output, run.programs.size() + 1, tool);
+    program.file = job.one_program ? output : program_of_tool(output, ++number, tool);
     std::vector<std::string> head = {
         fmt::format("{}, by passo cam job", std::filesystem::path(program.file).filename().string()),
         fmt::format("from {}, inputs {}", std::filesystem::path(job.file).filename().string(), run.fingerprint)};
@@ -96,13 +117,43 @@ void join_programs(JobRun& run) {
     for (; at < run.order.size(); ++at) {
       const std::size_t index = run.order[at].index;
       if (!job.one_program && job.operations[index].tool != tool) break;
-      joined.add(joined_operation(run, index));
-      program.operations.push_back(index);
+      join_operation(run, index, program, joined);
     }
     program.first_lines = joined.first_lines();
     program.text = joined.take();
     run.programs.push_back(std::move(program));
   }
+}
+
+// What the operations take on all sheets.
+Trial all_of_trials(const std::vector<Trial>& trials) {
+  Trial all = trials.front();
+  for (std::size_t sheet = 1; sheet < trials.size(); ++sheet) {
+    for (std::size_t i = 0; i < all.operations.size(); ++i) {
+      TriedOperation& sum = all.operations[i];
+      const TriedOperation& one = trials[sheet].operations[i];
+      sum.moves += one.moves;
+      sum.cut_mm += one.cut_mm;
+      sum.cut_s += one.cut_s;
+      sum.rapid_mm += one.rapid_mm;
+      sum.removed_mm3 += one.removed_mm3;
+      sum.depth_mm = std::max(sum.depth_mm, one.depth_mm);
+      sum.pass_mm = std::max(sum.pass_mm, one.pass_mm);
+      sum.plunges = sum.plunges || one.plunges;
+    }
+  }
+  return all;
+}
+
+std::vector<Trial> try_sheets(const JobRun& run, Diagnostics& findings) {
+  std::vector<Trial> trials;
+  for (std::size_t sheet = 0; sheet < run.sheets(); ++sheet) {
+    std::vector<TrialProgram> programs;
+    std::ranges::copy_if(run.programs, std::back_inserter(programs),
+                         [&](const TrialProgram& program) { return program.sheet == sheet; });
+    trials.push_back(try_programs(run.job, programs, findings));
+  }
+  return trials;
 }
 
 // All operations are tried, so that all errors are shown at once.
@@ -122,6 +173,14 @@ bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& pro
     const double from = share * static_cast<double>(i);
     auto made = make_operation(run.job, operation, *zero, folder.name(), findings, progress.part(from, from + share));
     if (made) run.made[index] = std::move(*made);
+  }
+  if (findings.any_error() || !run.job.nesting) return !findings.any_error();
+  run.nested = nest_job(run.job, run.made, *zero, findings, progress.part(0.8, 0.84));
+  if (run.nested && run.sheets() > 1 && run.arguments.only_folder) {
+    findings.add(
+        run.job.finding("job.nest-sheets", run.job.nesting->place,
+                        fmt::format("{} sheets need a program each, and only one is possible here", run.sheets()),
+                        "fewer copies, or a larger sheet"));
   }
   return !findings.any_error();
 }
@@ -180,7 +239,7 @@ Status<OutputError> write_all(const JobRun& run, const std::string& record) {
   return Unit{};
 }
 
-int draw(const JobRun& run, const Trial& trial) {
+int draw(const JobRun& run, const Trial& trial, std::size_t sheet) {
   MillPlan plan;
   for (const OrderedOperation& ordered : run.order) {
     const PartOperation& operation = run.job.operations[ordered.index];
@@ -194,14 +253,23 @@ int draw(const JobRun& run, const Trial& trial) {
                           .runs = std::move(ways)});
   }
   Region face;
+  const Region nothing;
+  MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing};
   if (run.job.stock) {
     const PartStock& stock = *run.job.stock;
-    face = filled({rectangle({{to_nanometres(Mm(stock.x)), to_nanometres(Mm(stock.y))},
-                              {to_nanometres(Mm(stock.x + stock.width)), to_nanometres(Mm(stock.y + stock.length))}})});
+    const DrawnBox box{{to_nanometres(Mm(stock.x)), to_nanometres(Mm(stock.y))},
+                       {to_nanometres(Mm(stock.x + stock.width)), to_nanometres(Mm(stock.y + stock.length))}};
+    face = filled({rectangle(box)});
+    if (run.nested) {
+      face = run.nested->outlines_on(sheet, stock);
+      scene.face_name = "Parts";
+      scene.sheet = box;
+      scene.offcut = run.nested->offcut_of(sheet, stock);
+    }
   }
-  const Region nothing;
-  const MillScene scene{.plan = plan, .face = face, .face_name = "Stock", .warned = nothing, .rapids = trial.rapids};
-  return write_picture(run.arguments.picture, run.job.name, [&](const PictureOptions& options, OutputFile& file) {
+  scene.rapids = trial.rapids;
+  const std::string file_name = sheet_file(run.arguments.picture, sheet, run.sheets());
+  return write_picture(file_name, run.job.name, [&](const PictureOptions& options, OutputFile& file) {
     return draw_mill_plan(scene, options, file);
   });
 }
@@ -265,11 +333,13 @@ bool names_are_apart(const JobRun& run) {
   files.reads("the tool library", run.job.library);
   name_texts_read(run.job.program, files);
   files.writes("--output", run.output);
-  if (!run.job.one_program) {
+  if (!run.job.one_program || run.sheets() > 1) {
     for (const TrialProgram& program : run.programs) files.writes("a program", program.file);
   }
   if (keeps_record(run)) files.writes("the record", record_file_of(run.output));
-  files.writes("--picture", run.arguments.picture);
+  for (std::size_t sheet = 0; sheet < run.sheets(); ++sheet) {
+    files.writes("--picture", sheet_file(run.arguments.picture, sheet, run.sheets()));
+  }
   return files.are_apart();
 }
 
@@ -316,6 +386,7 @@ void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<
     return;
   }
   std::string text = report_of(record);
+  if (run.nested) text += nest_words(run.nested->nest, run.nested->options, 1);
   for (const OrderedOperation& ordered : run.order) {
     for (const std::string& words : run.made[ordered.index].notes) {
       text += fmt::format("note: '{}': {}\n", run.job.operations[ordered.index].title, words);
@@ -376,10 +447,15 @@ int make_job(JobRun& run, const WorkProgress& progress) {
     show(findings, run.job.file);
     return exit_bad_program;
   }
-  join_programs(run);
+  if (run.sheets() > 1 && run.output == "/dev/null") {
+    return fail(exit_bad_program,
+                fmt::format("{} sheets have a program each; --output must name a file", run.sheets()));
+  }
+  for (std::size_t sheet = 0; sheet < run.sheets(); ++sheet) join_sheet(run, sheet);
   if (!names_are_apart(run)) return exit_bad_program;
   progress.update(0.85);
-  const Trial trial = try_programs(run.job, run.programs, findings);
+  const std::vector<Trial> trials = try_sheets(run, findings);
+  const Trial trial = all_of_trials(trials);
   warn_beside_stock(run, trial, findings);
   if (!findings.any_error()) static_cast<void>(rewrite_programs(run, findings));
   if (findings.any_error()) {
@@ -393,12 +469,15 @@ int make_job(JobRun& run, const WorkProgress& progress) {
   show(findings, run.job.file);
   if (findings.any_error()) return exit_failed;
   note_tools(run, trial);
-  const nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
+  nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
+  if (run.nested) record["nest"] = nest_json(run.nested->nest, run.nested->options);
   const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();
   const std::string text = record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (const auto written = write_all(run, text); !written) return fail(exit_failed, written.error().message);
   if (!run.arguments.picture.empty()) {
-    if (const int code = draw(run, trial); code != exit_done) return code;
+    for (std::size_t sheet = 0; sheet < run.sheets(); ++sheet) {
+      if (const int code = draw(run, trials[sheet], sheet); code != exit_done) return code;
+    }
   }
   progress.update(1);
   report(run, record, changes, before.has_value(), remove_old_programs(earlier));

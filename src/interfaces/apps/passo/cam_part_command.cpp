@@ -385,7 +385,7 @@ int cut_sheets(const CamProfileArguments& arguments, MillJob& job, const Profile
     const CutProfile& cut = cuts[i];
     const bool is_last = i + 1 == sheets;
     const std::string name = sheets > 1 ? fmt::format("{}:\n", orders[i].output) : "";
-    const std::string words = name + cut.words + (is_last ? nest_words(nested) : "");
+    const std::string words = name + cut.words + (is_last ? nest_words(nested.nest, nested.options, nested.parts) : "");
     const int code = deliver(orders[i], job,
                              {cut.plan.outline.mill, cut.plan.face, cut.plan.unreached, cut.plan.outline.tabs, words,
                               is_last ? all.dump(2) : "", nested.nest.sheets[i].used + nested.options.margin},
@@ -430,10 +430,9 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
   const std::optional<CutProfile> cut = cut_profile(arguments, *part, options);
   if (!cut) return exit_bad_program;
   const ProfilePlan& plan = cut->plan;
-  return deliver(
-      arguments, job,
-      {plan.outline.mill, plan.face, plan.unreached, plan.outline.tabs, cut->words, cut->json.dump(2)},
-      progress.part(0.8, 1));
+  return deliver(arguments, job,
+                 {plan.outline.mill, plan.face, plan.unreached, plan.outline.tabs, cut->words, cut->json.dump(2)},
+                 progress.part(0.8, 1));
 }
 
 int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress) {

@@ -42,12 +42,6 @@ DrawnBox box_of_loops(const std::vector<ClosedLoop>& loops) {
 
 }  // namespace
 
-std::size_t NestedDrawing::copies() const {
-  std::size_t count = 0;
-  for (const NestSheet& sheet : nest.sheets) count += sheet.placements.size();
-  return count;
-}
-
 Nanometres least_gap(const OutlineOptions& cut) {
   return cut.cutter + cut.lead + cut.allowance;
 }
@@ -92,10 +86,10 @@ std::optional<NestedDrawing> nest_drawing(const PartDrawing& drawing, const std:
   std::vector<NestShape> shapes;
   for (const Region& part : parts) {
     const DrawnBox box = bounds(part).value_or(DrawnBox{});
-    shapes.push_back({.name = fmt::format("the part at X{:.6g} Y{:.6g}", to_mm(box.least.x).value(),
-                                          to_mm(box.least.y).value()),
-                      .outlines = {part.rings.front()},
-                      .quantity = quantity});
+    shapes.push_back(
+        {.name = fmt::format("the part at X{:.6g} Y{:.6g}", to_mm(box.least.x).value(), to_mm(box.least.y).value()),
+         .outlines = {part.rings.front()},
+         .quantity = quantity});
   }
   Diagnostics findings;
   auto nest = nest_on_sheets(shapes, options, progress);
@@ -121,14 +115,16 @@ std::optional<NestedDrawing> nest_drawing(const PartDrawing& drawing, const std:
   return nested;
 }
 
-std::string nest_words(const NestedDrawing& nested) {
-  const NestOptions& options = nested.options;
+std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t parts) {
+  std::size_t copies = 0;
+  for (const NestSheet& sheet : nest.sheets) copies += sheet.placements.size();
   return fmt::format(
-      "nested: {} of {} on {} of {:g} x {:g} mm, {:g} mm apart; {:.1f} % of the used area is parts; the last sheet is "
+      "nested: {} of {} on {} of {:g} x {:g} mm, {:.4g} mm apart; {:.1f} % of the used area is parts; the last sheet "
+      "is "
       "used up to X{:.6g} mm\n",
-      counted(nested.copies(), "copy", "copies"), counted(nested.parts, "part"),
-      counted(nested.nest.sheets.size(), "sheet"), to_mm(options.sheet.x).value(), to_mm(options.sheet.y).value(),
-      to_mm(options.gap).value(), 100 * nested.nest.density(), to_mm(nested.nest.sheets.back().used).value());
+      counted(copies, "copy", "copies"), counted(parts, "part"), counted(nest.sheets.size(), "sheet"),
+      to_mm(options.sheet.x).value(), to_mm(options.sheet.y).value(), to_mm(options.gap).value(), 100 * nest.density(),
+      to_mm(nest.sheets.back().used).value());
 }
 
 nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options) {

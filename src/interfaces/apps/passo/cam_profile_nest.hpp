@@ -17,8 +17,6 @@ struct NestedDrawing {
   Nest nest = {};
   NestOptions options = {};
   std::size_t parts = 0;  // of the drawing
-
-  std::size_t copies() const;
 };
 
 // The options of nesting; `cut` has the cutter and its lead-in.
@@ -31,7 +29,8 @@ std::optional<NestedDrawing> nest_drawing(const PartDrawing& drawing, const std:
 // The least gap with which the cutter of one part does not touch another part.
 Nanometres least_gap(const OutlineOptions& cut);
 
-std::string nest_words(const NestedDrawing& nested);
+// `parts`: number of different parts.
+std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t parts);
 nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options);
 // plate-2.ngc of plate.ngc, if there are several sheets.
 std::string sheet_file(const std::string& file, std::size_t sheet, std::size_t sheets);

@@ -253,6 +253,36 @@ std::optional<PartJobZero> find_zero(const PartJob& job, Diagnostics& findings) 
   return zero;
 }
 
+Region outline_of_part(const PartJob& job, const PartJobZero& zero) {
+  LengthArguments lengths(1);
+  const DrawnPoint at = zero.words == "file" ? DrawnPoint{} : lengths.place("zero", zero.words);
+  constexpr Nanometres join{100'000};
+  constexpr Nanometres chords{10'000};
+  std::vector<DrawnRing> rings;
+  Diagnostics ignored;
+  for (const PartOperation& operation : job.operations) {
+    const auto* engrave = std::get_if<CamEngraveArguments>(&operation.arguments);
+    const bool has_drawing = operation.kind != PartKind::relief && operation.kind != PartKind::face &&
+                             !(engrave != nullptr && engrave->trace);
+    if (!has_drawing) continue;
+    for (const std::string& file : operation.files) {
+      Drawing drawing = read_drawing(file, reading_of(operation, false), ignored);
+      move_zero_to(at, drawing);
+      for (const auto& loop : edge_loops(drawing, join, ignored, OpenRows::kept).loops) {
+        rings.push_back(chords_of_path(loop, true, chords));
+      }
+      for (const DrawnHole& hole : drawing.holes) {
+        if (hole.diameter.count <= 0) continue;
+        for (DrawnRing& ring : swept({{hole.at}}, {hole.diameter.count / 2}, chords).rings) rings.push_back(ring);
+      }
+    }
+  }
+  const Region all = filled(std::move(rings));
+  Region outside;
+  for (const Region& part : parts_of(all)) outside.rings.push_back(part.rings.front());
+  return filled(std::move(outside.rings));
+}
+
 std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperation& operation, const PartJobZero& zero,
                                             const std::string& folder, Diagnostics& findings,
                                             const WorkProgress& progress) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/base/work_progress.hpp"
+#include "passo/cam/region.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/part_job/part_job.hpp"
 
@@ -28,6 +29,10 @@ struct PartJobZero {
 // The zero of the job: of --zero lower-left, the corner of all drawings together. Also checks that the layers of the
 // operations exist. Nothing: there are errors in `findings`.
 std::optional<PartJobZero> find_zero(const PartJob& job, Diagnostics& findings);
+
+// The outside of all closed contours and holes that the operations cut, from the job's zero. Facing is left out, which
+// is of the whole stock. Empty: there are none.
+Region outline_of_part(const PartJob& job, const PartJobZero& zero);
 
 // Nothing: there are errors in `findings`. `folder`: for files that are only needed while the operation runs.
 std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperation& operation, const PartJobZero& zero,

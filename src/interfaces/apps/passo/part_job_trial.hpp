@@ -28,10 +28,11 @@ struct TriedOperation {
 
 // A program, and the first line of each of its operations, which are indices into PartJob::operations.
 struct TrialProgram {
-  std::string file;
-  std::string text;
-  std::vector<std::uint32_t> first_lines;
-  std::vector<std::size_t> operations;
+  std::string file = {};
+  std::string text = {};
+  std::vector<std::uint32_t> first_lines = {};
+  std::vector<std::size_t> operations = {};
+  std::size_t sheet = 0;
 };
 
 struct Trial {

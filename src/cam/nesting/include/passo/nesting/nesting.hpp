@@ -22,18 +22,18 @@
 namespace passo {
 
 struct NestShape {
-  std::string name = {};                  // for messages
-  std::vector<DrawnRing> outlines = {};   // closed, in any direction; at least one with an area
+  std::string name = {};                 // for messages
+  std::vector<DrawnRing> outlines = {};  // closed, in any direction; at least one with an area
   std::uint32_t quantity = 1;
 };
 
 struct NestOptions {
-  DrawnPoint sheet = {};               // the upper right corner; the lower left one is 0,0
-  Nanometres gap = {};                 // the least distance of two copies, and of a copy from an obstacle
-  Nanometres margin = {};              // the least distance of a copy from the edge of the sheet
-  std::uint32_t rotations = 4;         // of equal angles: 1 as drawn, 2 also half a turn (grain), 4 quarter turns, …
+  DrawnPoint sheet = {};        // the upper right corner; the lower left one is 0,0
+  Nanometres gap = {};          // the least distance of two copies, and of a copy from an obstacle
+  Nanometres margin = {};       // the least distance of a copy from the edge of the sheet
+  std::uint32_t rotations = 4;  // of equal angles: 1 as drawn, 2 also half a turn (grain), 4 quarter turns, …
   std::vector<DrawnBox> obstacles = {};  // on each sheet, e.g. clamps
-  std::uint32_t rounds = 200;          // layouts to try, at most; large nests try fewer
+  std::uint32_t rounds = 200;            // layouts to try, at most; large nests try fewer
 };
 
 // Turn the shape about 0,0 by `degrees`, counterclockwise, then move it by `offset`.
@@ -58,7 +58,7 @@ struct Nest {
 };
 
 inline constexpr Nanometres nesting_tolerance{1'000};
-inline constexpr std::uint32_t most_nested = 1000;      // copies of all shapes
+inline constexpr std::uint32_t most_nested = 1000;  // copies of all shapes
 inline constexpr std::uint32_t most_rotations = 72;
 inline constexpr Nanometres largest_sheet{10'000'000'000};
 

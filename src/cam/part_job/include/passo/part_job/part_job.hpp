@@ -9,6 +9,9 @@
 //     size = [120, 80]
 //     thickness = 8
 //
+//     [nest]                       # copies of the part on sheets as large as the stock
+//     quantity = 12
+//
 //     [[clamp]]
 //     from = [-30, 20]
 //     to = [6, 50]
@@ -108,6 +111,15 @@ struct PartClamp {
   double height = 0;  // of its top, above Z0
 };
 
+// Copies of the part, close together on sheets as large as the stock. Lengths in mm.
+struct PartNesting {
+  std::uint32_t quantity = 1;
+  std::optional<double> gap = {};     // between two copies; empty: what the cutters need, and 1 mm
+  std::optional<double> margin = {};  // at the edge of the sheet; empty: as `gap`
+  std::uint32_t rotations = 4;
+  SourceLocation place = {};
+};
+
 struct PartJob {
   std::string file = {};
   std::string name = {};
@@ -121,6 +133,7 @@ struct PartJob {
   bool one_program = true;  // otherwise one for each tool
   bool keeps_order = false;
   std::optional<PartStock> stock = {};
+  std::optional<PartNesting> nesting = {};
   std::vector<PartClamp> clamps = {};
   std::string library = {};  // the tool library; empty: none
   std::map<std::int32_t, PartTool> tools = {};
