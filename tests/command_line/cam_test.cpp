@@ -139,11 +139,11 @@ TEST_F(CamDrill, layers_of_a_job_are_told_and_drawn) {
 }
 
 TEST_F(CamDrill, shapes_of_a_drawing_are_told_as_operations_select_them) {
-  const std::string drawing = write(
-      "two.svg",
-      "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' "
-      "width='40mm' height='20mm' viewBox='0 0 40 20'><g inkscape:groupmode='layer' inkscape:label='cut'>"
-      "<rect id='r' x='10' y='5' width='20' height='10' stroke='red'/><circle cx='4' cy='4' r='2'/></g></svg>");
+  const std::string drawing =
+      write("two.svg",
+            "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' "
+            "width='40mm' height='20mm' viewBox='0 0 40 20'><g inkscape:groupmode='layer' inkscape:label='cut'>"
+            "<rect id='r' x='10' y='5' width='20' height='10' stroke='red'/><circle cx='4' cy='4' r='2'/></g></svg>");
   const Outcome shown = passo("cam show --shapes " + drawing);
   EXPECT_EQ(shown.code, 0) << shown.err;
   const nlohmann::json told = nlohmann::json::parse(shown.out);

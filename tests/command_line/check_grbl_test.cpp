@@ -78,7 +78,8 @@ std::vector<Row> rows() {
   std::vector<Row> all;
   for (std::string row; std::getline(readme, row);) {
     std::smatch found;
-    if (!std::regex_match(row, found, std::regex(R"(\| (p\d\d) [^|]*\|[^|]*\|[^|]*\|[^|]*\| ([0-9.]+) \|.*)"))) continue;
+    if (!std::regex_match(row, found, std::regex(R"(\| (p\d\d) [^|]*\|[^|]*\|[^|]*\|[^|]*\| ([0-9.]+) \|.*)")))
+      continue;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().filename().string().starts_with(found[1].str() + "_")) {
         all.push_back({.file = entry.path().string(), .time = std::stod(found[2])});
@@ -95,8 +96,7 @@ TEST_F(CheckGrbl, is_within_a_percent_of_grbl_itself) {
   for (std::size_t i = 0; i < all.size(); i += passo::test::in_full() == 0 ? 3 : 1) {
     const double time = json_of(all[i].file, "bench.toml")["board"]["time_s"];
     EXPECT_NEAR(time / all[i].time, 1, 0.01) << all[i].file;
-    std::printf("%.4f of Grbl's time: %s\n", time / all[i].time,
-                std::filesystem::path(all[i].file).filename().c_str());
+    std::printf("%.4f of Grbl's time: %s\n", time / all[i].time, std::filesystem::path(all[i].file).filename().c_str());
   }
 }
 

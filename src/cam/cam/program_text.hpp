@@ -40,8 +40,8 @@ class ProgramText {
     SafeChange change = {};
   };
   void begin_tool(const ToolChange& change);
-  // Moves the last tool up, switches coolant and spindle off, then moves to the park position, if there is one, and ends
-  // the program. `height`: without a Z axis, none.
+  // Moves the last tool up, switches coolant and spindle off, then moves to the park position, if there is one, and
+  // ends the program. `height`: without a Z axis, none.
   void end(bool has_spindle, std::optional<DrawnPoint> park, std::optional<Nanometres> height);
 
   // Formats a length in the program's units, without trailing zeros.

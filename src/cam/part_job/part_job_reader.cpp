@@ -244,15 +244,16 @@ void PartJobReader::read_stock(const TomlEntry& entry) {
 }
 
 void PartJobReader::read_nest(const TomlEntry& entry) {
-  TableReader reader(std::get<TomlTable>(entry.value.content), "nest", entry.place, reporter_);
+  const auto& table = std::get<TomlTable>(entry.value.content);
+  TableReader reader(table, "nest", entry.place, reporter_);
   constexpr NumberKey quantity{"quantity", 1, 1000, "12"};
   constexpr NumberKey rotations{"rotations", 1, 72, "4"};
   PartNesting nesting{.place = entry.place};
-  sheet_ = pair(reader, "sheet", 1e-3, Need::optional);
+  sheet_ = pair(table, reader, "sheet", 1e-3, Need::optional);
   nesting.quantity = static_cast<std::uint32_t>(reader.whole_number(quantity, Need::required).value_or(1));
   nesting.rotations = static_cast<std::uint32_t>(reader.whole_number(rotations, Need::optional).value_or(4));
-  nesting.gap = length(reader, "gap", 0, "8", Need::optional);
-  nesting.margin = length(reader, "margin", 0, "10", Need::optional);
+  nesting.gap = length(table, reader, "gap", 0, "8", Need::optional);
+  nesting.margin = length(table, reader, "margin", 0, "10", Need::optional);
   reader.finish(document_.complete, {});
   job_.nesting = nesting;
 }
