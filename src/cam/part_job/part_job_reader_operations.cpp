@@ -131,7 +131,7 @@ std::vector<PartKindKeys> keys_of_part_kinds() {
   for (const std::string_view name : names_of_part_kinds()) {
     PartOperation operation;
     operation.kind = *part_kind_of(name);
-    operation.arguments = arguments_of(operation.kind);
+    operation.arguments = arguments_of(operation.kind, true);
     PartKindKeys keys{.kind = operation.kind,
                       .command = command_of(operation),
                       .first_tool = first_tool_of(operation.kind).key,
@@ -139,7 +139,7 @@ std::vector<PartKindKeys> keys_of_part_kinds() {
                       .file = operation.kind == PartKind::relief ? "file" : "drawing",
                       .has_place = operation.kind == PartKind::engrave};
     for (const CamOption& option : cam_options_of(operation)) {
-      if (!is_set_by_job(option)) keys.options.push_back(option.name);
+      if (!is_set_by_job(option, operation)) keys.options.push_back(option.name);
     }
     all.push_back(std::move(keys));
   }
