@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "axis_ramp.hpp"
 #include "rounding.hpp"
 
 namespace passo::proof {
