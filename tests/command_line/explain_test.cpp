@@ -57,7 +57,7 @@ max_acceleration_deg_s2 = 3000
   // With X and Z: the root of 10² + 20² + 15.708² at the mean radius of 10 mm.
   const std::string by_tool = " -m " + write("t.toml", std::string(machine) + "radius_mm = \"tool\"\n");
   EXPECT_THAT(passo("explain " + file + ":3" + by_tool).out,
-              HasSubstr("feed     27.330 mm on the surface at a radius of 10 mm (A), 2.733 s at"));
+              HasSubstr("feed     27.327 mm on the surface at a radius of 10 mm (A), 2.733 s at"));
   const nlohmann::json json = nlohmann::json::parse(passo("explain " + file + ":2 --json" + fixed).out);
   EXPECT_EQ(json["lines"][0]["moves"]["feed_unit"], "mm");
   EXPECT_EQ(json["lines"][0]["moves"]["surface_radius_mm"]["A"], 20);

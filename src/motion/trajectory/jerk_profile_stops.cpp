@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "arithmetic.hpp"
 #include "jerk_profile.hpp"
 
 namespace passo {
