@@ -10,7 +10,8 @@
 // width and knots farther out. Swinging wide is excluded where the axis that limits the speed reverses (for slow
 // bending: only in a sharp corner), and next to an arc that leaves no room. Knots that are at most 0.4 radii apart
 // follow an arc well. Where the knots of two nodes would meet, the nodes share the room. If the remaining path between
-// two nodes is long compared with the knot spacing, it stays as programmed: an exact piece. (This is never so for a
+// two nodes is long compared with the knot spacing, it stays as programmed: an exact piece. If it is so short that each
+// node has at most two knots in it, there are more knots in between, at most a width apart. (This is never so for a
 // curve that was fitted to chords; knots at most 0.08 radii apart follow it.) The knots between two exact pieces form
 // one smoothed section.
 //

@@ -53,8 +53,10 @@ void TubeSpline::add(const Knot& knot) {
     taken_ = 0;
     closed_ = false;
     wide_ = false;
+    has_even_ = false;
     relaxation_.begin();
   }
+  has_even_ = has_even_ || knot.is_even;
   relaxation_.make_room(knots_ + 2, taken_ - 1);
   begin_site(knot);
   if (knots_ == 0) begins_freely_ = knot.s == 0 && may_turn(piece(knot.piece));
@@ -87,7 +89,7 @@ void TubeSpline::close() {
   if (turns_end(knots_ - 2)) find_steps(knots_ - 2);
   // Nothing more comes: each sweep and each check goes on to the end.
   const std::int64_t begun = controls_ - 1 - reach_of_control;
-  for (int sweep = 0; sweep < sweeps_.even; ++sweep) {
+  for (int sweep = 0; sweep < (has_even_ ? sweeps_.even : sweeps_.all); ++sweep) {
     for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 1); k <= knots_ - 2; ++k) {
       if (moves(k)) relax(k, sweep);
     }
@@ -109,7 +111,8 @@ void TubeSpline::advance() {
   ++controls_;
   if (moves(ready)) find_steps(ready);
   std::int64_t k = ready;
-  for (int sweep = 0; sweep < sweeps_.even && k >= 1; ++sweep, k -= lag) {
+  const int sweeps = has_even_ ? sweeps_.even : sweeps_.all;
+  for (int sweep = 0; sweep < sweeps && k >= 1; ++sweep, k -= lag) {
     if (moves(k)) relax(k, sweep);
   }
   k = ready - lag * sweeps_.even - 1;

@@ -181,7 +181,8 @@ class TubeSpline {
   std::int64_t controls_ = -1;  // the next control point to initialise
   std::int64_t taken_ = 0;      // the number of spans returned
   bool closed_ = false;
-  bool wide_ = false;  // axes other than X, Y and Z move too
+  bool wide_ = false;      // axes other than X, Y and Z move too
+  bool has_even_ = false;  // knots in even rows
   bool begins_freely_ = false;
   bool ends_freely_ = false;
 };

@@ -8,6 +8,7 @@ namespace {
 
 using test::apart;
 using test::Faults;
+using test::faults_of;
 using test::PathSmootherTest;
 using test::Random;
 using test::RandomPath;
@@ -76,6 +77,36 @@ TEST_F(PathSmootherTest, a_corner_to_a_slow_feed_does_not_swing) {
       EXPECT_GT(segment.curve.extents().low[Axis::y], -0.2 * tolerance_);
       EXPECT_LT(segment.curve.extents().high[Axis::x], 10 + 0.2 * tolerance_);
     }
+  }
+}
+
+// From a stop the path may go in any direction, so it swings wide before the first corner. A slow feed has no use for
+// the swing: it would only be longer.
+TEST_F(PathSmootherTest, short_legs_leave_a_stop_toward_the_outer_side) {
+  const auto stairs = [&](double feed) {
+    path_.clear();
+    position_ = Point();
+    for (int i = 0; i < 12; ++i) {
+      const double along = (i / 2 + 1) * 6 * tolerance_;
+      (i % 2 == 0 ? go(along, position_[Axis::y]) : go(position_[Axis::x], along)).speed = MmPerSecond(feed);
+    }
+  };
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+    stairs(1000);
+    const std::vector<PathItem> fast = smooth(path_, smoothness);
+    const Faults faults = faults_of(path_, fast);
+    EXPECT_LE(faults.excess, 0) << faults.where;
+    EXPECT_EQ(faults.gaps, 0U);
+    EXPECT_LT(faults.tangent_jump, 1e-9);
+    const std::vector<Segment> segments = segments_of(fast);
+    EXPECT_LT(segments.front().curve.tangent(Mm(0))[Axis::y], -0.05);
+    EXPECT_LT(segments.back().curve.tangent(segments.back().curve.length())[Axis::x], -0.05);
+    EXPECT_EQ(segments.front().curve.start(), xyz(0, 0));
+    EXPECT_EQ(segments.back().curve.end(), position_);
+
+    stairs(5);
+    const std::vector<Segment> slow = segments_of(smooth(path_, smoothness));
+    EXPECT_NEAR(slow.front().curve.tangent(Mm(0))[Axis::y], 0, 1e-9);
   }
 }
 

@@ -154,6 +154,41 @@ TEST(JerkLimitedPlanner, corners_to_and_fro_are_nearly_the_fastest) {
   EXPECT_LT(time_of(zigzag(5, 0.5)), 0.91426 * 1.062);
 }
 
+// Eight legs of ten and five tolerances, with and without jerk limits. The optima are those of bench/tube_optimum.hpp.
+TEST(JerkLimitedPlanner, rows_of_short_legs_are_nearly_the_fastest) {
+  const auto row = [](double leg, double turn, bool goes_back) {
+    std::vector<PathItem> legs;
+    Point at;
+    for (int i = 0; i < 8; ++i) {
+      const double heading = turn * (goes_back ? i % 2 : i);
+      const Point to = at + xyz(leg * std::cos(heading), leg * std::sin(heading));
+      legs.emplace_back(line(at, to, 1000));
+      at = to;
+    }
+    return legs;
+  };
+  const double right_angle = std::acos(0.0);
+  struct Row {
+    std::vector<PathItem> legs;
+    double optimum;
+    double ratio;
+    double slow_optimum;  // with jerk limits
+    double slow_ratio;
+  };
+  for (const Row& one : {Row{row(0.1, right_angle, true), 0.14441, 1.028, 0.22702, 1.031},
+                         Row{row(0.05, right_angle, true), 0.08295, 1.038, 0.15609, 1.057},
+                         Row{row(0.1, right_angle / 2, false), 0.10501, 1.022, 0.14072, 1.038}}) {
+    SCOPED_TRACE(one.optimum);
+    const auto expect_time = [&](Smoothness smoothness, const MotionLimits& limits, double most) {
+      const auto motion = plan(smoothed(one.legs, smoothness), limits);
+      expect_within_limits(motion, limits);
+      EXPECT_LT(total_time(motion), most);
+    };
+    expect_time(Smoothness::least_bending, jerk_limits(100, 500, 0), one.ratio * one.optimum);
+    expect_time(Smoothness::slow_bending, jerk_limits(100, 500, 25'000), one.slow_ratio * one.slow_optimum);
+  }
+}
+
 TEST(JerkLimitedPlanner, the_acceleration_goes_on_across_joints) {
   std::vector<PathItem> whole{line(xyz(0, 0), xyz(20, 0), 80)};
   std::vector<PathItem> pieces;
