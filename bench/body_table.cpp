@@ -197,7 +197,7 @@ void add_scans(std::vector<Body>& all) {
   const auto cliffs = [](double x, double y) {
     return 4 * std::round(0.5 + 0.5 * std::sin(x * 0.6 + std::sin(y * 0.4)));
   };
-  all.push_back({"hills", by_contours, {"ball:3"}, terrain(200, 150, hills)});
+  all.push_back({"hills", by_contours, {"ball:3"}, terrain(80, 60, hills)});
   all.push_back({"scan of 24,000 triangles", by_rows, {"ball:3"}, terrain(128, 96, scan)});
   all.push_back({"scan of 196,000 triangles", by_rows, {"ball:3"}, terrain(362, 271, scan)});
   all.push_back({"rough scan", "--step 0.3", {"taper:1:10:3"}, terrain(160, 120, rough)});
@@ -280,7 +280,8 @@ Use used_by(const std::vector<std::string>& words) {
   rusage usage{};
   for (pid_t ended = 0; ended == 0; ended = wait4(child, &status, WNOHANG, &usage)) {
     usleep(1000);
-    most_kib = std::max(most_kib, peak_kib(of_child));
+    const double here = peak_kib(of_child);
+    if (here > 0) most_kib = here;  // the last one: the first may be from before the program was started
   }
   const auto seconds = [](const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;

@@ -185,7 +185,7 @@ TEST(BodyCarving, never_cuts_into_a_body) {
 
 // Pits between the triangles of a smooth surface may be narrower than the tolerance by which contours are moved.
 TEST(BodyCarving, contours_never_cut_into_the_sides_of_narrow_pits) {
-  const Faces body = terrain(8, 6, 40, 30, [](double x, double y) {
+  const Faces body = terrain(8, 6, 16, 12, [](double x, double y) {
     return 3 * std::sin(x * 0.7) * std::cos(y * 0.5) + 0.6 * std::sin(x * 1.7 + y);
   });
   ReliefProgramOptions options = options_of("ball:3");
