@@ -7,15 +7,6 @@
 namespace passo {
 namespace {
 
-bool has_prefix(std::string_view text, std::string_view prefix) {
-  if (text.size() < prefix.size()) return false;
-  for (std::size_t i = 0; i < prefix.size(); ++i) {
-    const char c = text[i] >= 'A' && text[i] <= 'Z' ? static_cast<char>(text[i] - 'A' + 'a') : text[i];
-    if (c != prefix[i]) return false;
-  }
-  return true;
-}
-
 void skip_blanks(std::string_view& text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
 }
@@ -25,14 +16,14 @@ void skip_blanks(std::string_view& text) {
 std::int32_t tool_named_in(std::string_view comment) {
   constexpr std::int32_t largest = 99'999;
   skip_blanks(comment);
-  if (has_prefix(comment, "msg,")) comment.remove_prefix(4);
+  if (comment.starts_with("MSG,")) comment.remove_prefix(4);
   skip_blanks(comment);
-  bool has_colon = has_prefix(comment, "tool:");
-  if (!has_colon && !has_prefix(comment, "tool ")) return 0;
+  bool has_colon = comment.starts_with("tool:");
+  if (!has_colon && !comment.starts_with("tool ")) return 0;
   comment.remove_prefix(5);
   skip_blanks(comment);
   if (has_colon) {
-    if (!has_prefix(comment, "t")) return 0;
+    if (!comment.starts_with('T')) return 0;
     comment.remove_prefix(1);
   }
   std::int32_t tool = 0;
@@ -46,7 +37,7 @@ std::int32_t tool_named_in(std::string_view comment) {
 void HandToolChange::name(std::int32_t tool) {
   if (tool == 0) return;
   next_ = tool;
-  if (!has_fed_) at_start_ = tool;
+  if (!has_fed_ && at_start_ == 0) at_start_ = tool;
 }
 
 void HandToolChange::watch(const Operation& operation) {

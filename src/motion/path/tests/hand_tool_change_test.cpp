@@ -62,7 +62,8 @@ TEST(HandToolChanges, read_the_comments_of_passo_cam) {
   EXPECT_EQ(tool_named_in("tool 2: flat end, 5 mm"), 2);
   EXPECT_EQ(tool_named_in("MSG, tool 12: drill"), 12);
   EXPECT_EQ(tool_named_in("tool: T6 \"one flute\", flat end, 3 mm"), 6);
-  EXPECT_EQ(tool_named_in("Tool 6 mm end mill"), 0);
+  EXPECT_EQ(tool_named_in("Tool 1: of another program, which may call it later"), 0);
+  EXPECT_EQ(tool_named_in("tool 6 mm end mill"), 0);
   EXPECT_EQ(tool_named_in("tool: 6 mm"), 0);
   EXPECT_EQ(tool_named_in("tool 0: none"), 0);
   EXPECT_EQ(tool_named_in("tool 99999999999: none"), 0);
