@@ -64,7 +64,7 @@ isolate() {  # OPTION...; `said` becomes the report, `took` the seconds
   said=$(timeout "$limit" "$passo" cam isolate "$layer" "$@" -o "$work/i.ngc" 2>&1) || true
   took=$(awk "BEGIN { printf \"%.1f\", $EPOCHREALTIME - $begin }")
 }
-joined() { sed -nE 's/.* nets?( in [0-9]+ islands)?, (.*)/\2/p' <<<"$said" | sed -E 's/ of them still joined.*//; s/all apart.*/0/' | tail -n 1; }
+joined() { sed -nE 's/.* nets?( in [^,]+ islands)?, (.*)/\2/p' <<<"$said" | sed -E 's/ of them still joined.*//; s/all apart.*/0/' | tail -n 1; }
 
 failed=0
 printf '| layer | nets | joined | advice | joined then | oracle | s |\n|---|---:|---:|---|---:|---|---:|\n'
@@ -73,7 +73,7 @@ for layer in "${layers[@]}"; do
   [[ -e $layer ]] || continue
   isolate --tool 0.2
   first=$took
-  nets=$(sed -nE 's/^proof: [^;]*; ([0-9]+) nets?[ ,].*/\1/p' <<<"$said" | tail -n 1)
+  nets=$(sed -nE 's/^proof: [^;]*; ([^;]*[0-9]) nets?[ ,].*/\1/p' <<<"$said" | tail -n 1 | tr -dc 0-9)
   before=$(joined)
   advice=$(sed -nE 's/.*: (-.*) was tried: .*/\1/p' <<<"$said" | tail -n 1)
   promise=$(sed -nE 's/.* was tried: (all nets are apart|[0-9]+).*/\1/p' <<<"$said" | tail -n 1)

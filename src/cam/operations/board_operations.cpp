@@ -29,8 +29,8 @@ std::vector<CamOption> cam_options_of(CamDrillArguments& a) {
       {"align", &a.align, length, "X,Y,X,Y: positions of two extra holes for alignment pins", experts_of_one_job},
       {"align-drill", &a.align_drill, length, "diameter of the alignment holes", experts_only},
       {"tools", &a.tools, length,
-       "diameters of the available drills, e.g. 0.8,1.0,1.3, or their numbers in --tool-table, or all: all drills of\n"
-       "--tool-table (default: one drill for each hole diameter)"},
+       "available drills: diameters, e.g. 0.8,1.0,1.3, numbers in --tool-table, or all (its drills); default: one\n"
+       "drill for each hole diameter"},
       {"tolerance", &a.tolerance, length, "largest difference between a hole and its drill from --tools", experts_only},
       {"drill", &a.drill, length, "diameter of a single drill for all holes, or its number in --tool-table"},
       {"mill", &a.mill, length,

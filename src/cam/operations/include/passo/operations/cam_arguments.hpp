@@ -24,6 +24,14 @@ struct CamProgramArguments {
   std::string coolant = "off";         // mist or flood
 };
 
+// The feed of a drill of the library.
+struct CamDrillFeed {
+  double diameter_mm = 0;
+  double feed_mm = 0;         // per minute; 0: that of the other drills
+  std::uint32_t spindle = 0;  // rpm; 0: that of the other drills
+  std::string words = {};     // for the head of the program
+};
+
 // The tools of a library. Options for a cutter then take its number: T3.
 struct CamToolArguments {
   std::string tool_table;  // tool library (TOML); empty: none
@@ -32,6 +40,7 @@ struct CamToolArguments {
   // Not options: remarks from the library, for the head of the program and for the summary.
   std::vector<std::string> tool_remarks = {};
   std::string tool_warnings_json = {};
+  std::vector<CamDrillFeed> drill_feeds = {};  // of the drills in CamDrillArguments::tools that the library knows
 };
 
 // The shapes of SVG drawings to read, in addition to layers.
@@ -43,14 +52,6 @@ struct CamShapeSelection {
 // The summary of an operation.
 struct CamSummaryArguments {
   bool json = false;  // as JSON on standard output
-};
-
-// The feed of a drill of the library.
-struct CamDrillFeed {
-  double diameter_mm = 0;
-  double feed_mm = 0;         // per minute; 0: that of the other drills
-  std::uint32_t spindle = 0;  // rpm; 0: that of the other drills
-  std::string words = {};     // for the head of the program
 };
 
 struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelection, CamSummaryArguments {
@@ -74,7 +75,6 @@ struct CamDrillArguments : CamProgramArguments, CamToolArguments, CamShapeSelect
   std::string drill;    // a single drill for all holes; empty: none
   std::string mill;     // diameter of the milling cutter; empty: none
   bool in_job = false;  // an operation of a job file, which chooses the holes for its tool: see DrillOptions
-  std::vector<CamDrillFeed> drill_feeds = {};  // not an option: of drills in `tools` that the library knows
   std::string mill_step = "0.5mm";
   std::string clearance = "2mm";
   std::string feed_height = "0.5mm";  // at most `clearance`
@@ -297,9 +297,15 @@ struct CamWireArguments : CamMillArguments {
 };
 std::vector<CamOption> cam_options_of(CamWireArguments& arguments);
 
+// A board several times on one blank.
+struct CamPanelArguments {
+  std::string copies;       // COLUMNSxROWS boards; empty: one
+  std::string gap = "5mm";  // between two copies
+};
+
 // Runs the three commands on all files of a board.
 // The options of the controller and of the tools apply to all three.
-struct CamBoardArguments : CamProgramArguments, CamToolArguments {
+struct CamBoardArguments : CamProgramArguments, CamToolArguments, CamPanelArguments {
   std::vector<std::string> paths;    // Gerber and drill files, folders, or a zip archive
   std::string output = ".";          // folder for programs, pictures and the web page
   std::string profile;               // options of the three commands (TOML); empty: none
@@ -308,8 +314,6 @@ struct CamBoardArguments : CamProgramArguments, CamToolArguments {
   std::string margin = "10mm";       // distance of the board's lower left corner from X0 and from Y0
   std::string pin_distance = "5mm";  // distance of the alignment holes from the board's edge; 0: no holes
   bool probe_holes = false;          // the holes are for probing the position of the flipped board
-  std::string copies;                // COLUMNSxROWS boards on one blank; empty: one
-  std::string gap = "5mm";           // between two copies
   std::string park;                  // X,Y of tool changes and ends, or "last"; empty: as in the profile
   std::string mask;                  // diameter of the cutter for the solder mask's openings; empty: none
   std::string mask_depth = "-0.05mm";
