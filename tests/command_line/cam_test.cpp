@@ -139,11 +139,11 @@ TEST_F(CamDrill, layers_of_a_job_are_told_and_drawn) {
 }
 
 TEST_F(CamDrill, shapes_of_a_drawing_are_told_as_operations_select_them) {
-  const std::string drawing = write(
-      "two.svg",
-      "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' "
-      "width='40mm' height='20mm' viewBox='0 0 40 20'><g inkscape:groupmode='layer' inkscape:label='cut'>"
-      "<rect id='r' x='10' y='5' width='20' height='10' stroke='red'/><circle cx='4' cy='4' r='2'/></g></svg>");
+  const std::string drawing =
+      write("two.svg",
+            "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' "
+            "width='40mm' height='20mm' viewBox='0 0 40 20'><g inkscape:groupmode='layer' inkscape:label='cut'>"
+            "<rect id='r' x='10' y='5' width='20' height='10' stroke='red'/><circle cx='4' cy='4' r='2'/></g></svg>");
   const Outcome shown = passo("cam show --shapes " + drawing);
   EXPECT_EQ(shown.code, 0) << shown.err;
   const nlohmann::json told = nlohmann::json::parse(shown.out);
@@ -152,7 +152,7 @@ TEST_F(CamDrill, shapes_of_a_drawing_are_told_as_operations_select_them) {
   ASSERT_EQ(told["shapes"].size(), 2U);
   EXPECT_EQ(told["shapes"][0]["color"], "#ff0000");
   EXPECT_EQ(told["shapes"][0]["names"], nlohmann::json({"cut", "r"}));
-  EXPECT_EQ(told["shapes"][0]["d"], "M10 15L30 15L30 5L10 5Z");
+  EXPECT_EQ(told["shapes"][0]["d"], "M30 15L30 5L10 5L10 15Z");
   EXPECT_EQ(told["shapes"][1]["layer"], "cut");
   EXPECT_NE(passo("cam show --shapes " + drawing + " " + drawing).code, 0);
   EXPECT_NE(passo("cam show --shapes " + write("x.svg", "<svg")).code, 0);

@@ -211,7 +211,8 @@ TEST(ApiTools, are_read_as_the_simulation_has_them) {
   EXPECT_EQ(shape(3).substr(0, 10), "4 bull 6.0");
   EXPECT_EQ(shape(4), "5 taper 6.0 12.0 1.0");
   EXPECT_EQ(shape(7), "8 vee 3.0 118.0 0.0") << "a drill";
-  const Json wrong = run.ask("POST", "/tools", "[tool.1]\ndiameter_mm = 3\nshape = \"round\"\n", "", "application/octet-stream");
+  const Json wrong =
+      run.ask("POST", "/tools", "[tool.1]\ndiameter_mm = 3\nshape = \"round\"\n", "", "application/octet-stream");
   EXPECT_TRUE(wrong["tools"].empty());
   EXPECT_EQ(wrong["findings"][0]["line"], 3) << wrong;
 }

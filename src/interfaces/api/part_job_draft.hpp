@@ -15,7 +15,7 @@ namespace passo {
 // Bytes; a job of 100 operations has 20 KB. The server edits it between two updates of the board's queue, which may be
 // late by 60 ms.
 inline constexpr std::size_t longest_job_text = std::size_t{24} << 10;
-inline constexpr std::size_t most_job_edits = 10;                       // of one request
+inline constexpr std::size_t most_job_edits = 10;  // of one request
 
 struct DraftPlace {
   std::string name;                // of the job file
