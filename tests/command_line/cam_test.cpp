@@ -152,7 +152,7 @@ TEST_F(CamDrill, shapes_of_a_drawing_are_told_as_operations_select_them) {
   ASSERT_EQ(told["shapes"].size(), 2U);
   EXPECT_EQ(told["shapes"][0]["color"], "#ff0000");
   EXPECT_EQ(told["shapes"][0]["names"], nlohmann::json({"cut", "r"}));
-  EXPECT_EQ(told["shapes"][0]["d"], "M10 15L30 15L30 5L10 5Z");
+  EXPECT_EQ(told["shapes"][0]["d"], "M30 15L30 5L10 5L10 15Z");
   EXPECT_EQ(told["shapes"][1]["layer"], "cut");
   EXPECT_NE(passo("cam show --shapes " + drawing + " " + drawing).code, 0);
   EXPECT_NE(passo("cam show --shapes " + write("x.svg", "<svg")).code, 0);

@@ -36,18 +36,23 @@ function cutOf(operation: JobOperation, index: number): { cut: CutOperation; pla
 }
 
 // "plate.toml:52:1: error: ..." and errors in the program, which name the title of their operation.
-function saidOf(file: JobFile, index: number): string[] {
+interface Said {
+  line: number; // of the job file; 0: an error in the program
+  words: string;
+}
+function saidOf(file: JobFile, index: number): Said[] {
   if (cam.value?.job !== 'job' || cam.value.state !== 'failed') return [];
   const title = file.operations[index]?.values.title;
   return cam.value.words.split('\n').flatMap((words) => {
     const found = /^(.*?):(\d+)(?::\d+)?: error: (.*)$/.exec(words);
     if (found === null) return [];
-    const isOwn = found[1] === file.name ? ownerOf(file, Number(found[2])) === index : typeof title === 'string' && words.includes(`'${title}'`);
-    return isOwn && !file.findings.some((one) => words.includes(one.message)) ? [found[3]!] : [];
+    const isOfFile = found[1] === file.name;
+    const isOwn = isOfFile ? ownerOf(file, Number(found[2])) === index : typeof title === 'string' && words.includes(`'${title}'`);
+    return isOwn && !file.findings.some((one) => words.includes(one.message)) ? [{ line: isOfFile ? Number(found[2]) : 0, words: found[3]! }] : [];
   });
 }
 
-function Errors({ findings, said = [] }: { findings: readonly Finding[]; said?: readonly string[] }) {
+function Errors({ findings, said = [] }: { findings: readonly Finding[]; said?: readonly Said[] }) {
   if (findings.length + said.length === 0) return null;
   return (
     <ul class="job-errors">
@@ -63,9 +68,10 @@ function Errors({ findings, said = [] }: { findings: readonly Finding[]; said?: 
           )}
         </li>
       ))}
-      {said.map((words) => (
-        <li key={words} lang="en">
-          {words}
+      {said.map(({ line, words }) => (
+        <li key={words}>
+          {line > 0 && <b>{say('job.line', { line })}: </b>}
+          <span lang="en">{words}</span>
         </li>
       ))}
     </ul>
@@ -157,7 +163,8 @@ interface KeyProps {
 // Whether a finding is about this key.
 const isWrong = ({ file, index, name }: KeyProps): boolean => {
   const line = file.operations[index]?.lines[name];
-  return line !== undefined && file.findings.some((one) => one.line === line && one.severity === 'error');
+  if (line === undefined) return false;
+  return file.findings.some((one) => one.line === line && one.severity === 'error') || saidOf(file, index).some((one) => one.line === line);
 };
 
 function TextKey({ placeholder = '', read, ...key }: KeyProps & { placeholder?: string; read: (typed: string) => Value | undefined }) {

@@ -27,6 +27,7 @@ export const job = {
   'job.kind.engrave': 'Engrave',
   'job.kind.chamfer': 'Chamfer',
   'job.kind.relief': 'Relief',
+  'job.kind.thread-mill': 'Mill a thread',
   'job.tool': 'Tool',
   'job.first-tool': 'Second tool, for roughing',
   'job.none': 'none',

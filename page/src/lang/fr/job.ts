@@ -30,6 +30,7 @@ export const job: Same<typeof en> = {
   'job.kind.engrave': 'Gravure',
   'job.kind.chamfer': 'Chanfrein',
   'job.kind.relief': 'Relief',
+  'job.kind.thread-mill': 'Fraisage de filet',
   'job.tool': 'Outil',
   'job.first-tool': 'Second outil, pour l’ébauche',
   'job.none': 'aucun',

@@ -30,6 +30,7 @@ export const job: Same<typeof en> = {
   'job.kind.engrave': 'Incisione',
   'job.kind.chamfer': 'Smusso',
   'job.kind.relief': 'Rilievo',
+  'job.kind.thread-mill': 'Fresatura di filetto',
   'job.tool': 'Utensile',
   'job.first-tool': 'Secondo utensile, per la sgrossatura',
   'job.none': 'nessuno',

@@ -30,6 +30,7 @@ export const job: Same<typeof en> = {
   'job.kind.engrave': '雕刻',
   'job.kind.chamfer': '倒角',
   'job.kind.relief': '浮雕',
+  'job.kind.thread-mill': '铣螺纹',
   'job.tool': '刀具',
   'job.first-tool': '第二把刀具（粗加工）',
   'job.none': '无',

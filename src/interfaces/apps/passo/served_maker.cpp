@@ -52,8 +52,9 @@ bool ServedMaker::keep(const std::string& name, std::string_view bytes) {
   // dot.
   const std::string temporary = folder_.path(".new");
   std::error_code failed;
-  if (write_content(temporary, bytes)) fs::rename(temporary, folder_.path(name), failed);
-  if (failed || fs::exists(temporary)) {
+  const bool is_written = write_content(temporary, bytes);
+  if (is_written) fs::rename(temporary, folder_.path(name), failed);
+  if (!is_written || failed) {
     fs::remove(temporary, failed);
     return false;
   }
