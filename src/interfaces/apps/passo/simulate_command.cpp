@@ -81,7 +81,9 @@ HeightField at_most(const StockJob& job, const Wishes& wishes, const FeedLook& l
   Mm tip{0};
   for (ToolShape& tool : thin) {
     tip = std::max(tip, thinned_tip(tool.cutter, thinner));
-    tool = ToolShape{.cutter = thinned(tool.cutter, thinner)};
+    const bool has_neck = tool.neck_radius > Mm(0);
+    const Mm neck = has_neck ? std::max(tool.neck_radius - thinner, Mm(1e-3)) : Mm(0);
+    tool = ToolShape{.cutter = thinned(tool.cutter, thinner), .neck_radius = neck};
   }
   cut_stock(job, wishes.stock, look, thin, threads, highest, {});
   for (std::size_t row = 0; row < highest.rows(); ++row) {
