@@ -111,11 +111,10 @@ CamOption layer_row(std::vector<std::string>& layers, const char* help, CamFor m
 }
 
 CamOption color_row(std::vector<std::string>& colors) {
-  return {
-      "color", &colors, CamKind::text,
-      "SVG, DXF: colour of shapes to read, e.g. red or #f00 (SVG: of the stroke, without one of the fill; DXF: also a "
-      "number of the palette); can be repeated",
-      experts_of_one_job};
+  return {"color", &colors, CamKind::text,
+          "SVG, DXF: colour of shapes to read, e.g. red or #f00 (SVG: of the stroke, else of the fill; DXF: also its "
+          "number, 30); can be repeated",
+          experts_of_one_job};
 }
 
 CamOption name_row(std::vector<std::string>& names) {
