@@ -260,7 +260,7 @@ TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
   EXPECT_THAT(read(path("made.ngc")), HasSubstr("(roughing: T1 \"roughing\", flat end, 6 mm; "));
   // A feed that is far too low: the warning is shown, and stands once in the summary.
   for (const std::string& command : {"drill " + checkout + "/examples/boards/timer.drl --drill T8 --route-steps 0",
-                                    "relief " + heights + " --cutter T2 --depth -2 --scallop 0.2"}) {
+                                     "relief " + heights + " --cutter T2 --depth -2 --scallop 0.2"}) {
     const Outcome slow = passo("cam " + command + " --material fr4 --feed 2 --json" + with);
     EXPECT_EQ(slow.code, 0) << slow.err;
     const json summary = json::parse(slow.out);
