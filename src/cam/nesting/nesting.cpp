@@ -11,6 +11,8 @@
 #include "layout.hpp"
 #include <fmt/format.h>
 
+#include "passo/units/units.hpp"
+
 namespace passo {
 namespace {
 
