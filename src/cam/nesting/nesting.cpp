@@ -11,6 +11,8 @@
 #include "layout.hpp"
 #include <fmt/format.h>
 
+#include "passo/units/units.hpp"
+
 namespace passo {
 namespace {
 
@@ -319,13 +321,13 @@ Result<Nest, NestFailure> nest_on_sheets(const std::vector<NestShape>& shapes, c
       const std::size_t first = of_kind.front();
       return are_alike(shapes[i].outlines, corners[i], shapes[first].outlines, corners[first]);
     });
-    if (same == of_kinds.end()) {
-      auto kind = prepared(shapes[i], i, options, obstacles);
-      if (!kind) return Failure{kind.error()};
-      kinds.push_back(std::move(*kind));
+    const auto kind = static_cast<std::size_t>(same - of_kinds.begin());
+    if (kind == of_kinds.size()) {
+      auto ready = prepared(shapes[i], i, options, obstacles);
+      if (!ready) return Failure{ready.error()};
+      kinds.push_back(std::move(*ready));
       of_kinds.emplace_back();
     }
-    const auto kind = same == of_kinds.end() ? of_kinds.size() - 1 : static_cast<std::size_t>(same - of_kinds.begin());
     of_kinds[kind].insert(of_kinds[kind].end(), shapes[i].quantity, i);
     nest.parts_mm2 += kinds[kind].area_mm2 * shapes[i].quantity;
   }
