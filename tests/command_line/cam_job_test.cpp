@@ -211,7 +211,7 @@ TEST_F(CamJob, the_same_inputs_give_the_same_program) {
 TEST_F(CamJob, a_wrong_value_points_at_its_key) {
   const Outcome made = passo("cam job " + small_job("", "", "2"));
   EXPECT_EQ(made.code, 2);
-  EXPECT_THAT(made.err, HasSubstr("small.toml:22:9: error: 'pocket pockets' cannot have this depth [job.bad-value]"));
+  EXPECT_THAT(made.err, HasSubstr("small.toml:23:9: error: 'pocket pockets' cannot have this depth [job.bad-value]"));
   EXPECT_THAT(made.err, HasSubstr("expected: a length below 0, e.g. -3, found '2'"));
   EXPECT_FALSE(std::filesystem::exists(path("small.ngc")));
 }
@@ -389,13 +389,13 @@ CopyBox box_of_copy(const nlohmann::json& copy) {
 }
 
 TEST_F(CamJob, copies_lie_on_their_sheets_and_no_cut_enters_another_copy) {
-  small_job("", "[nest]\nquantity = 7\n[[clamp]]\nfrom = [0, 0]\nto = [20, 20]\nheight = 3\n");
+  small_job("", "[nest]\nquantity = 10\n[[clamp]]\nfrom = [0, 0]\nto = [20, 20]\nheight = 3\n");
   std::string text = read(path("small.toml"));
   text.replace(text.find("size = [60, 50]"), 15, "size = [150, 100]");
   write("small.toml", text);
   const Outcome made = passo("cam job " + path("small.toml") + " --picture " + path("small.svg.svg"));
   ASSERT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("nested: 7 copies of 1 part on 2 sheets of 150 x 100 mm, 4 mm apart"));
+  EXPECT_THAT(made.out, HasSubstr("nested: 10 copies of 1 part on 2 sheets of 150 x 100 mm, 4 mm apart"));
   const nlohmann::json job = record("small");
   ASSERT_EQ(job["programs"].size(), 2U);
   ASSERT_EQ(job["nest"]["sheets"].size(), 2U);
@@ -443,7 +443,7 @@ TEST_F(CamJob, a_part_that_cannot_be_nested_is_named_with_sizes) {
   const Outcome made = passo("cam job " + path("small.toml"));
   EXPECT_EQ(made.code, 2);
   EXPECT_THAT(made.err, HasSubstr("of 40 x 30 mm does not fit on a sheet of 60 x 50 mm with a margin of 15 mm"));
-  EXPECT_THAT(made.err, HasSubstr("small.toml:22:"));
+  EXPECT_THAT(made.err, HasSubstr("small.toml:23:"));
   small_job("", "[nest]\nquantity = 2\ngap = 2\n");
   EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("at least 3 mm"));
   small_job("", "[nest]\nquantity = 2\nsheet = [200, 100]\n");

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "length_argument.hpp"
 #include <fmt/format.h>
 
+#include "passo/operations/length_text.hpp"
 #include "passo/part_job/placed_program.hpp"
 
 namespace passo {
@@ -95,7 +95,8 @@ double reach_of(const PartJob& job, const std::vector<MadeOperation>& made, cons
       }
     }
   }
-  return reach;
+  // Arcs of the program differ from the chords of the outline by some micrometres.
+  return std::round(reach * 100) / 100;
 }
 
 NestOptions options_of(const PartJob& job, double reach, Diagnostics& findings) {
@@ -106,10 +107,10 @@ NestOptions options_of(const PartJob& job, double reach, Diagnostics& findings) 
   const double gap = wish.gap.value_or(reach + to_mm(usual_room).value());
   constexpr double rounding = 1e-3;
   if (gap < reach - rounding) {
-    findings.add(job.finding(
-        "job.nest-gap", wish.place,
-        fmt::format("with nest.gap = {:g} mm, the tools would cut into the neighbouring copy", gap),
-        fmt::format("at least {:.4g} mm: so far do the cuts reach beyond the part", std::ceil(reach * 1000) / 1000)));
+    findings.add(
+        job.finding("job.nest-gap", wish.place,
+                    fmt::format("with nest.gap = {:g} mm, the tools would cut into the neighbouring copy", gap),
+                    fmt::format("at least {:.4g} mm: so far do the cuts reach beyond the part", reach)));
   }
   options.gap = to_nanometres(Mm(gap));
   options.margin = to_nanometres(Mm(wish.margin.value_or(gap)));
