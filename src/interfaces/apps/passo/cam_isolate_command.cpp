@@ -326,8 +326,14 @@ bool is_sound(const IsolationProof& proof) {
 
 int draw(const CamIsolateArguments& arguments, const MillJob& job, const RouteLink& link, const Region& copper,
          const IsolationResult& result) {
-  MillScene scene{result.plan.mill, copper, "Copper", result.plan.unmilled, {}, "Gap too narrow", job.program.park,
-                  "Still joined",   {},     link};
+  MillScene scene{.plan = result.plan.mill,
+                  .face = copper,
+                  .face_name = "Copper",
+                  .warned = result.plan.unmilled,
+                  .mark_name = "Gap too narrow",
+                  .park = job.program.park,
+                  .warned_name = "Still joined",
+                  .link = link};
   for (const CopperGap& gap : result.nets.gaps) scene.marks.push_back(gap.at);
   std::ranges::copy(result.plan.narrow_openings, std::back_inserter(scene.marks));
   return write_picture(arguments.picture, job.program.name, [&](const PictureOptions& picture, OutputFile& file) {

@@ -113,7 +113,14 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   progress.update(0.9);
   if (!arguments.picture.empty()) {
     const Region nothing;
-    const MillScene scene{plan.mill, board, "Board", nothing, plan.tabs, "Tab", options.park, "", {}, options.link};
+    const MillScene scene{.plan = plan.mill,
+                          .face = board,
+                          .face_name = "Board",
+                          .warned = nothing,
+                          .marks = plan.tabs,
+                          .mark_name = "Tab",
+                          .park = options.park,
+                          .link = options.link};
     const int code = write_picture(
         arguments.picture, job.program.name,
         [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });

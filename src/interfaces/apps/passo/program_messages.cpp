@@ -12,7 +12,7 @@ namespace passo {
 namespace {
 
 // Control characters in a program must not reach the terminal.
-std::string printable(std::string_view text) {
+std::string without_controls(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);  // "(MSG, text)"
   std::string shown(text);
   for (char& c : shown) {
@@ -36,7 +36,7 @@ void ProgramMessages::show(const Operation& operation, const std::function<void(
   }
   const std::string_view file = operation.file.empty() ? std::string_view(program_) : operation.file;
   fmt::print(stderr, "{}:{}: {}: {}\n", file, operation.source.line, message != nullptr ? "message" : "print",
-             printable(message != nullptr ? message->text : print->text));
+             without_controls(message != nullptr ? message->text : print->text));
 }
 
 }  // namespace passo

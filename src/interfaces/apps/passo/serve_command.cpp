@@ -69,7 +69,7 @@ std::optional<MachineDescription> described(const std::string& text, const std::
 }
 
 // Returns why it cannot be written; empty: it is.
-std::string write_file(const std::string& file, const std::string& text) {
+std::string write_whole(const std::string& file, const std::string& text) {
   Result<OutputFile, OutputError> output = OutputFile::open(file);
   if (!output) return output.error().message;
   output->write(text);
@@ -81,14 +81,14 @@ std::string write_file(const std::string& file, const std::string& text) {
 std::string replace_file(const std::string& file, const std::string& before, const std::string& after) {
   Diagnostics ignored;
   if (machine_file_text(file, ignored) != before) return "the file was changed by another program in the meantime";
-  return write_file(file, after);
+  return write_whole(file, after);
 }
 
 // What senders have set outlives the daemon, as it outlives a reset of a controller's board.
 void remember(GrblController& grbl, const std::string& folder) {
   const std::string file = (std::filesystem::path(folder) / "grbl.txt").string();
   grbl.remember(read_grbl_memory(read_state_file(file).value_or("")),
-                [file](const GrblMemory& memory) { return write_file(file, grbl_memory_text(memory)).empty(); });
+                [file](const GrblMemory& memory) { return write_whole(file, grbl_memory_text(memory)).empty(); });
 }
 
 MachineFileAccess access_to(const std::string& file) {
