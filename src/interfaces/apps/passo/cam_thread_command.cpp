@@ -133,7 +133,7 @@ std::vector<DrawnPoint> places_of(const Drawing& drawing, const ThreadJob& job, 
   std::string others;
   std::size_t count = 0;
   for (const DrawnHole& hole : drawing.holes) {
-    if (hole.is_dot || std::ranges::find(places, hole.at) != places.end()) continue;
+    if (std::ranges::find(places, hole.at) != places.end()) continue;
     places.push_back(hole.at);
     const bool may_be = hole.diameter.count == 0 || (hole.diameter.count >= least.count - tolerance &&
                                                      hole.diameter.count <= job.plan.size.major.count + tolerance);
