@@ -17,7 +17,7 @@ struct SettingsBlock {
   int first;
   double fallback;
 };
-constexpr SettingsBlock steps_per_unit{100, 0};
+constexpr SettingsBlock steps_per_mm{100, 0};
 constexpr SettingsBlock velocity{110, 500};
 constexpr SettingsBlock acceleration{120, 10};
 
@@ -53,7 +53,7 @@ GrblLimits limits_of(const GrblMachine& machine) {
     const auto axis = axis_of(machine.axes[i]);
     if (!axis) continue;
     const int number = static_cast<int>(i);
-    limits.steps_per_unit[*axis] = setting(steps_per_unit.first + number, steps_per_unit.fallback);
+    limits.steps_per_mm[*axis] = setting(steps_per_mm.first + number, steps_per_mm.fallback);
     limits.velocity[*axis] = MmPerSecond(setting(velocity.first + number, velocity.fallback) / 60);
     limits.acceleration[*axis] = MmPerSecond2(setting(acceleration.first + number, acceleration.fallback));
   }

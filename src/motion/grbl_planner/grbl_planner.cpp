@@ -29,7 +29,7 @@ double square(double value) {
 GrblPlanner::GrblPlanner(const GrblLimits& limits, const Point& start) : limits_(limits), at_(start) {
   assert(limits.blocks >= 1);
   for (const Axis axis : all_axes) {
-    if (limits_.steps_per_unit[axis] <= 0) continue;
+    if (limits_.steps_per_mm[axis] <= 0) continue;
     fastest_[axis] = limits_.velocity[axis].value();
     strongest_[axis] = limits_.acceleration[axis].value();
   }
@@ -39,7 +39,7 @@ GrblPlanner::GrblPlanner(const GrblLimits& limits, const Point& start) : limits_
 Point GrblPlanner::rounded(const Point& place) const {
   Point steps;
   for (const Axis axis : all_axes) {
-    const double per_unit = limits_.steps_per_unit[axis];
+    const double per_unit = limits_.steps_per_mm[axis];
     if (per_unit > 0) steps[axis] = std::round(place[axis] * per_unit) / per_unit;
   }
   return steps;

@@ -12,6 +12,7 @@
 #include "part_job_operation.hpp"
 #include "part_job_programs.hpp"
 #include "part_job_record.hpp"
+#include "part_job_tool_use.hpp"
 #include "part_job_trial.hpp"
 #include "picture_names.hpp"
 #include <fmt/format.h>
@@ -20,7 +21,6 @@
 #include "passo/confinement/temporary_folder.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
 #include "passo/part_job/joined_program.hpp"
-#include "passo/tooling/tool_warnings.hpp"
 
 namespace passo {
 namespace {
@@ -48,13 +48,6 @@ bool keeps_record(const JobRun& run) {
 std::string tool_words(const PartJob& job, std::int32_t number) {
   const std::string words = describe(job.tools.at(number).tool);
   return words.substr(words.find(' ') + 1);
-}
-
-// The value of an option, in the job's unit without a unit's name.
-std::string option_text(PartOperation operation, std::string_view name) {
-  const std::vector<CamOption> options = cam_options_of(operation);
-  const auto found = std::ranges::find(options, name, &CamOption::name);
-  return found == options.end() ? "" : text_of(*found);
 }
 
 // A length of the job as a word of the program: "5" of "5mm" in a program in mm.
@@ -274,45 +267,6 @@ int draw(const JobRun& run, const Trial& trial, std::size_t sheet) {
   });
 }
 
-double number_of(const JobRun& run, const PartOperation& operation, std::string_view option) {
-  const std::string text = option_text(operation, option);
-  const Result<Mm, std::string> length = parse_length("", text, *mm_of_unit(run.job.units));
-  return length ? length->value() : 0;
-}
-
-// How the tool is used, as seen in the trial.
-ToolUse use_of(const JobRun& run, const PartOperation& operation, const TriedOperation& tried) {
-  ToolUse use;
-  use.depth = Mm(tried.depth_mm);
-  use.depth_per_pass = Mm(tried.pass_mm);
-  use.plunges = tried.plunges && operation.kind != PartKind::drill;
-  std::visit([&](const auto& arguments) { use.rpm = arguments.spindle; }, operation.arguments);
-  const bool mills =
-      operation.kind == PartKind::face || operation.kind == PartKind::pocket || operation.kind == PartKind::profile;
-  if (!mills) return use;
-  constexpr double seconds_per_minute = 60;
-  use.feed = MmPerSecond(number_of(run, operation, "feed") / seconds_per_minute);
-  if (const auto* pocket = std::get_if<CamPocketArguments>(&operation.arguments)) {
-    const double diameter = run.job.tools.at(operation.tool).tool.diameter.value();
-    if (pocket->engagement <= 0) use.step_over = Mm(diameter * pocket->step_over / 100);
-  }
-  return use;
-}
-
-// Adds the origin of the feeds, and warnings about them, to the notes of each operation.
-void note_tools(JobRun& run, const Trial& trial) {
-  const auto material = run.job.stock ? run.job.stock->known_material : std::nullopt;
-  for (std::size_t i = 0; i < run.job.operations.size(); ++i) {
-    const PartOperation& operation = run.job.operations[i];
-    const PartTool& tool = run.job.tools.at(operation.tool);
-    std::vector<std::string>& notes = run.made[i].notes;
-    if (!tool.feeds_from.empty() && !operation.has("feed")) notes.push_back(tool.feeds_from);
-    for (const ToolWarning& warning : warnings_of(tool.tool, use_of(run, operation, trial.operations[i]), material)) {
-      notes.push_back(fmt::format("warning: {}: {} [{}]", warning.message, warning.advice, warning.code));
-    }
-  }
-}
-
 int check_only(const JobRun& run) {
   const auto record = read_job_record(run.output);
   const std::string why = record ? out_of_date(*record, run.fingerprint, run.output)
@@ -468,7 +422,10 @@ int make_job(JobRun& run, const WorkProgress& progress) {
   check_edited(earlier, run.arguments.force, findings);
   show(findings, run.job.file);
   if (findings.any_error()) return exit_failed;
-  note_tools(run, trial);
+  for (std::size_t i = 0; i < run.made.size(); ++i) {
+    const std::vector<std::string> notes = tool_notes(run.job, run.job.operations[i], trial.operations[i]);
+    run.made[i].notes.insert(run.made[i].notes.end(), notes.begin(), notes.end());
+  }
   nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
   if (run.nested) record["nest"] = nest_json(run.nested->nest, run.nested->options);
   const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();

@@ -22,7 +22,7 @@ GrblLimits limits_of(const MachineDescription& machine) {
   GrblLimits limits;
   for (const AxisDescription& axis : machine.axes) {
     if (axis.axis > Axis::z) continue;
-    limits.steps_per_unit[axis.axis] = axis.steps_per_unit;
+    limits.steps_per_mm[axis.axis] = 1 / axis.step().value();
     limits.velocity[axis.axis] = axis.velocity;
     limits.acceleration[axis.axis] = axis.acceleration;
   }
@@ -59,7 +59,7 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
                   .limits = passo::limits_of(board),
                   .line = {.bytes_per_second = bytes_per_second(*address, board), .buffer = sender.buffer_size()},
                   .zero = first_work_zero(board)};
-  const auto& steps = found.limits.steps_per_unit.values;
+  const auto& steps = found.limits.steps_per_mm.values;
   if (std::ranges::all_of(steps, [](double per_unit) { return per_unit <= 0; })) {
     code = fail(exit_failed, name +
                                  ": the machine has not reported its steps per millimetre ($100 to $102). It may be "

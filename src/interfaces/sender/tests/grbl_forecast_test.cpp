@@ -26,8 +26,8 @@ TEST(GrblForecast, takes_the_limits_that_the_board_reports) {
   const GrblLimits limits = router();
   EXPECT_EQ(limits.velocity[Axis::z], MmPerSecond(50));
   EXPECT_EQ(limits.acceleration[Axis::z], MmPerSecond2(250));
-  EXPECT_EQ(limits.steps_per_unit[Axis::y], 400);
-  EXPECT_EQ(limits.steps_per_unit[Axis::a], 0);
+  EXPECT_EQ(limits.steps_per_mm[Axis::y], 400);
+  EXPECT_EQ(limits.steps_per_mm[Axis::a], 0);
   EXPECT_EQ(limits.junction_deviation, Mm(0.01));
   EXPECT_EQ(limits.blocks, 15U);
 }

@@ -18,7 +18,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 GrblLimits limits_of_router(std::size_t blocks = 15) {
   GrblLimits limits{.blocks = blocks};
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-    limits.steps_per_unit[axis] = 400;
+    limits.steps_per_mm[axis] = 400;
     limits.velocity[axis] = MmPerSecond(100);
     limits.acceleration[axis] = MmPerSecond2(500);
   }

@@ -15,6 +15,7 @@
 #include "passo/sender/grbl_code.hpp"
 #include "passo/sender/grbl_forecast.hpp"
 #include "passo/session/program_motion.hpp"
+#include "passo/trajectory/phase.hpp"
 
 namespace passo {
 

@@ -32,7 +32,7 @@ namespace passo {
 
 // Settings of the board. An axis exists if its steps per unit are above 0.
 struct GrblLimits {
-  PerAxis<double> steps_per_unit = {};      // $100 …, steps per mm or degree
+  PerAxis<double> steps_per_mm = {};        // $100 …, steps per mm or degree
   PerAxis<MmPerSecond> velocity = {};       // $110 …
   PerAxis<MmPerSecond2> acceleration = {};  // $120 …
   Mm junction_deviation{0.01};              // $11
