@@ -211,7 +211,7 @@ TEST_F(CamJob, the_same_inputs_give_the_same_program) {
 TEST_F(CamJob, a_wrong_value_points_at_its_key) {
   const Outcome made = passo("cam job " + small_job("", "", "2"));
   EXPECT_EQ(made.code, 2);
-  EXPECT_THAT(made.err, HasSubstr("small.toml:23:9: error: 'pocket pockets' cannot have this depth [job.bad-value]"));
+  EXPECT_THAT(made.err, HasSubstr("small.toml:22:9: error: 'pocket pockets' cannot have this depth [job.bad-value]"));
   EXPECT_THAT(made.err, HasSubstr("expected: a length below 0, e.g. -3, found '2'"));
   EXPECT_FALSE(std::filesystem::exists(path("small.ngc")));
 }

@@ -30,34 +30,37 @@ class CheckGrbl : public passo::test::CommandLine {
 TEST_F(CheckGrbl, tells_the_time_of_the_motion_of_grbl) {
   const auto json = json_of(write("p.ngc", "G21 G90 F3000\nG1 X50\nG4 P2\nG1 X0\nM2\n"), "bench.toml");
   const double move = 50.0 / 50 + 50.0 / 500;
-  EXPECT_NEAR(json["board"]["time_s"], 2 * move + 2, 1e-6);
+  EXPECT_NEAR(json["board"]["time_s"], 2 * move + 2, 0.005) << "the first line must arrive";
   EXPECT_NEAR(json["time_s"], 2 * move, 1e-6);
-  EXPECT_NEAR(json["dwell_s"], 2, 1e-9);
+  EXPECT_NEAR(json["dwell_s"], 2, 1e-6);
   EXPECT_NEAR(json["axes"]["X"]["peak_speed"], 50, 1e-6);
   EXPECT_EQ(json["board"]["blocks"], 15);
 }
 
 TEST_F(CheckGrbl, tells_that_the_connection_is_too_slow) {
-  std::string program = "G21 G90 F3000\nG1\n";
-  for (int i = 1; i <= 6000; ++i) program += fmt::format("X{:.3f} Y{:.3f}\n", 0.05 * i, 0.05 * (i % 2));
-  const std::string file = write("dense.ngc", program);
+  std::string program = "G21 G90 F6000\nG1\n";
+  for (int i = 1; i <= 6000; ++i) program += fmt::format("X{0:.4f} Y{0:.4f}\n", 10 + 0.0177 * i);
+  const std::string file = write("dense.ngc", program + "M2\n");
   const Outcome outcome = passo("check " + file + " -m " + machines_ + "bench.toml --board grbl");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("board           Grbl 1.1, 15 blocks: 0:00:"));
-  EXPECT_THAT(outcome.out, HasSubstr("connection      115200 baud"));
+  EXPECT_THAT(outcome.out, HasSubstr("connection      115200 baud: too slow for this program, which takes "));
 }
 
 // The motion of Grbl jumps at each corner: motors that our planner drives safely may lose steps.
 TEST_F(CheckGrbl, judges_the_motors_with_that_motion) {
   std::string program = "G21 G90 F6000\nG1\n";
   for (int i = 1; i <= 100; ++i) program += fmt::format("X{} Y{}\n", i, 3 * (i % 2));
-  const auto json = json_of(write("zigzag.ngc", program + "M2\n"), "router.toml");
-  EXPECT_FALSE(json["margin"].is_null());
-  EXPECT_TRUE(json["line"].is_null());
+  const std::string check =
+      "check " + write("zigzag.ngc", program + "M2\n") + " -m " + machines_ + "strong-router.toml";
+  EXPECT_EQ(passo(check).code, 0);
+  const Outcome on_grbl = passo(check + " --board grbl");
+  EXPECT_EQ(on_grbl.code, 1);
+  EXPECT_THAT(on_grbl.err, HasSubstr("check.steps-lost"));
 }
 
 TEST_F(CheckGrbl, refuses_what_grbl_cannot_do_and_other_boards) {
-  const std::string program = write("p.ngc", "G21 G33 Z-5 K1\nM2\n");
+  const std::string program = write("p.ngc", "G21 S1000 M3\nG33 Z-5 K1\nM2\n");
   const Outcome thread = passo("check " + program + " -m " + machines_ + "router.toml --board grbl");
   EXPECT_EQ(thread.code, 2);
   EXPECT_THAT(thread.err, HasSubstr("grbl.cannot"));

@@ -6,7 +6,7 @@
 namespace passo {
 namespace {
 
-constexpr Seconds shortest_rest{1e-6};
+constexpr Seconds shortest_rest{0.005};  // shorter ones do not count
 
 bool covers(const PlannedMove& move, const GrblBlock& block) {
   const Curve& curve = move.segment.curve;
