@@ -180,7 +180,7 @@ TEST_F(CamMill, programs_of_a_board_are_for_one_controller) {
   EXPECT_FALSE(std::filesystem::exists(path("none")));
 }
 
-TEST_F(CamMill, all_programs_of_a_board_can_be_one_route) {
+TEST_F(CamMill, all_programs_of_a_board_can_be_one_route_and_have_coolant) {
   const std::string drill = write("board-PTH.drl",
                                   "M48\nMETRIC,TZ\nT1C0.800\nT2C1.000\n%\nG90\nG05\nT1\nX5.0Y5.0\nX15.0Y5.0\nT2\n"
                                   "X16.0Y12.0\nX4.0Y12.0\nM30\n");
@@ -201,6 +201,10 @@ TEST_F(CamMill, all_programs_of_a_board_can_be_one_route) {
   EXPECT_EQ(check(path("job/1-drill.ngc")).code, 0);
   EXPECT_EQ(cam(files + "--park 0,50 -o " + path("far")).code, 0);
   EXPECT_THAT(read(path("far/2-isolate-front.ngc")), HasSubstr("G0 X0 Y50\nM2\n"));
+  EXPECT_EQ(cam(files + "--coolant flood -o " + path("wet")).code, 0);
+  for (const char* const name : {"wet/1-drill.ngc", "wet/2-isolate-front.ngc", "wet/3-outline.ngc"}) {
+    EXPECT_THAT(read(path(name)), HasSubstr("\nM8\n")) << name;
+  }
   const Outcome wrong = cam(files + "--park there -o " + path("none"));
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("--park: expected X,Y or last, found 'there'"));

@@ -154,6 +154,7 @@ void take_controller(const CamBoardArguments& board, const IsGiven& is_given, Ca
   if (is_given("--end-text")) arguments.end_text = board.end_text;
   if (is_given("--change-height")) arguments.change_height = board.change_height;
   if (is_given("--spindle-delay")) arguments.spindle_delay = board.spindle_delay;
+  if (is_given("--coolant")) arguments.coolant = board.coolant;
 }
 
 int make_board_job(CamArguments& all, const IsGiven& is_given, const WorkProgress& progress) {
