@@ -103,6 +103,25 @@ TEST_F(CamJobPrograms, that_were_edited_are_overwritten_only_by_force) {
   EXPECT_EQ(read(path("two.ngc")), made);
 }
 
+TEST_F(CamJobPrograms, of_sheets_are_kept_and_removed_in_the_same_way) {
+  const auto nested = [this](const std::string& words, const char* copies) {
+    return two_tools(words, std::string("[nest]\nquantity = ") + copies + "\n");
+  };
+  ASSERT_EQ(passo("cam job " + nested("", "12")).code, 0);
+  const std::string made = read(path("two-2.ngc"));
+  write("two-2.ngc", made + "(by hand)\n");
+  const Outcome refused = passo("cam job " + nested("", "12"));
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("two-2.ngc: error: it was edited after the job had written it [job.edited]"));
+  write("two-2.ngc", made);
+  ASSERT_EQ(passo("cam job " + nested(each_tool, "12")).code, 0);
+  EXPECT_FALSE(exists("two-1.ngc") || exists("two-2.ngc"));
+  EXPECT_TRUE(exists("two-2-1-T1.ngc"));
+  ASSERT_EQ(passo("cam job " + nested("", "1")).code, 0);
+  EXPECT_FALSE(exists("two-1-1-T1.ngc") || exists("two-2-1-T1.ngc"));
+  EXPECT_TRUE(exists("two.ngc"));
+}
+
 TEST_F(CamJobPrograms, changed_in_order_or_controller_are_reported) {
   ASSERT_EQ(passo("cam job " + two_tools("")).code, 0);
   EXPECT_THAT(passo("cam job " + two_tools("for = \"linuxcnc\"")).out,

@@ -399,6 +399,7 @@ TEST_F(CamJob, copies_lie_on_their_sheets_and_no_cut_enters_another_copy) {
   const nlohmann::json job = record("small");
   ASSERT_EQ(job["programs"].size(), 2U);
   ASSERT_EQ(job["nest"]["sheets"].size(), 2U);
+  EXPECT_NEAR(job["stock_mm3"], 2 * 150 * 100 * 4, 1) << "of both sheets";
   for (std::size_t sheet = 0; sheet < 2; ++sheet) {
     std::vector<CopyBox> boxes;
     for (const auto& copy : job["nest"]["sheets"][sheet]["copies"]) {

@@ -122,6 +122,7 @@ void join_sheet(JobRun& run, std::size_t sheet) {
 Trial all_of_trials(const std::vector<Trial>& trials) {
   Trial all = trials.front();
   for (std::size_t sheet = 1; sheet < trials.size(); ++sheet) {
+    all.stock_mm3 += trials[sheet].stock_mm3;
     for (std::size_t i = 0; i < all.operations.size(); ++i) {
       TriedOperation& sum = all.operations[i];
       const TriedOperation& one = trials[sheet].operations[i];

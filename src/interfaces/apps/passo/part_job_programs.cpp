@@ -11,21 +11,30 @@
 namespace passo {
 namespace {
 
-std::string_view without_digits(std::string_view text) {
-  while (!text.empty() && text.front() >= '0' && text.front() <= '9') text.remove_prefix(1);
-  return text;
+// The text without the mark and the number at its beginning; if it has none, the text itself.
+std::string_view without_number(std::string_view text, std::string_view mark) {
+  if (!text.starts_with(mark)) return text;
+  std::string_view rest = text.substr(mark.size());
+  while (!rest.empty() && rest.front() >= '0' && rest.front() <= '9') rest.remove_prefix(1);
+  return rest.size() + mark.size() < text.size() ? rest : text;
+}
+
+// What a job adds to the name of its output: "-2" for a sheet, "-1-T3" for a tool, "-2-1-T3" for both.
+bool is_of_sheet_or_tool(std::string_view added) {
+  const std::string_view first = without_number(added, "-");
+  if (first.size() == added.size()) return false;
+  if (first.empty()) return true;
+  const std::string_view tool = without_number(first, "-");
+  return tool.starts_with("-T") && without_number(tool, "-T").empty();
 }
 
 // A record may have been edited: it must not lead to other files.
 bool may_be_of_job(const std::string& name, const std::filesystem::path& output) {
   if (name == output.filename().string()) return true;
-  const std::string begin = output.stem().string() + "-";
+  const std::string begin = output.stem().string();
   const std::string end = output.extension().string();
   if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size()) return false;
-  const std::string_view middle = std::string_view(name).substr(begin.size(), name.size() - begin.size() - end.size());
-  const std::string_view tool = without_digits(middle);
-  return tool.size() < middle.size() && tool.starts_with("-T") && tool.size() > 2 &&
-         without_digits(tool.substr(2)).empty();
+  return is_of_sheet_or_tool(std::string_view(name).substr(begin.size(), name.size() - begin.size() - end.size()));
 }
 
 Diagnostic edited(const EarlierProgram& program, Severity severity, std::string message, std::string expected) {

@@ -21,7 +21,7 @@ struct EarlierProgram {
 // plate-1-T3.ngc of plate.ngc: the program of one tool.
 std::string program_of_tool(const std::string& output, std::size_t number, std::int32_t tool);
 
-// The programs of `record` that exist. Only names that a job with this output can write are looked at.
+// The programs of `record` that exist. Names that a job with this output cannot write are ignored.
 std::vector<EarlierProgram> earlier_programs(const nlohmann::ordered_json& record, const std::string& output,
                                              const std::vector<TrialProgram>& programs);
 
