@@ -176,6 +176,16 @@ TEST(ApiCam, edits_a_job_file_and_keeps_all_else) {
     EXPECT_EQ(run.status, 409U) << wrong;
     EXPECT_EQ(maker.kept["plate.toml"], good) << wrong;
   }
+  // A key that is too deep for the parser, and a text that is too long for a line.
+  std::string deep = "operation.1";
+  for (int i = 0; i < 2000; ++i) deep += ".x";
+  for (const std::string& wrong :
+       {fmt::format(R"({{"do": "set", "path": "{}", "value": 1}})", deep),
+        fmt::format(R"({{"do": "set", "path": "operation.1.title", "value": "{}"}})", std::string(5000, 'x'))}) {
+    edit(draft["stamp"], wrong);
+    EXPECT_EQ(run.status, 409U) << wrong.substr(0, 40);
+    EXPECT_EQ(maker.kept["plate.toml"], good) << wrong.substr(0, 40);
+  }
   // A text with errors is kept, so that it can be mended.
   draft = run.post("/cam/job",
                    fmt::format(R"({{"name": "plate.toml", "stamp": {}, "text": "[job\n"}})", draft["stamp"].dump()));

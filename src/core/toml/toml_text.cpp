@@ -418,6 +418,8 @@ Status<TomlTextError> TomlText::set(std::string_view path, const Setting& settin
 
 Status<TomlTextError> TomlText::set_words(std::string_view path, const std::string& words) {
   const std::vector<std::string_view> parts = parts_of(path);
+  // The parser recurses as deep as a key has parts.
+  if (parts.size() > most_parts) return text_refusal(fmt::format("a key has more than {} parts", most_parts));
   if (!std::ranges::all_of(parts, is_plain_key)) return text_refusal(fmt::format("'{}' is not a key", path));
   const auto value = tree_of_value(words);
   if (!value) return text_refusal(fmt::format("{} cannot be {}", path, words));

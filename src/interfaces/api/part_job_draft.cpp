@@ -109,6 +109,13 @@ std::string words_of(const Json& value, int depth = 0) {
   return "[" + words + "]";
 }
 
+// Why the parser must not read a text; empty: it may.
+std::string unfit_for_parser(std::string_view text) {
+  Diagnostics findings;
+  const TomlReporter reporter(text, "", findings);
+  return is_fit_for_parser(reporter) ? "" : std::string(findings.all().front().message);
+}
+
 class Editor {
  public:
   Editor(TomlText& text, const Json& edit) : text_(text), edit_(edit) {}
@@ -133,7 +140,8 @@ class Editor {
 std::string Editor::insert() {
   std::vector<TomlText::NewKey> keys;
   const Json values = edit_.value("values", Json::object());
-  if (!values.is_object() || values.size() > most_new_keys) return "\"values\": expected an object";
+  if (!values.is_object() || values.size() > most_new_keys)
+    return fmt::format("\"values\": expected an object with at most {} keys", most_new_keys);
   for (const auto& [key, value] : values.items()) {
     const std::string words = words_of(value);
     if (words.empty()) return fmt::format("{}: expected a number, a text, true, false, or a list of them", key);
@@ -212,10 +220,9 @@ Json draft_of_job(const std::string& text, const DraftPlace& place) {
 }
 
 Result<std::string, std::string> edited_job(const std::string& text, const Json& edits) {
-  if (!edits.is_array() || edits.size() > most_job_edits) return Failure{std::string("\"edits\": expected a list")};
-  Diagnostics syntax;
-  const TomlReporter reporter(text, "", syntax);
-  if (!is_fit_for_parser(reporter)) return Failure{std::string(syntax.all().front().message)};
+  if (!edits.is_array() || edits.size() > most_job_edits)
+    return Failure{fmt::format("\"edits\": expected a list of at most {} edits", most_job_edits)};
+  if (const std::string why = unfit_for_parser(text); !why.empty()) return Failure{why};
   auto toml = TomlText::read(text);
   if (!toml) return Failure{toml.error().message};
   for (const Json& edit : edits) {
@@ -224,6 +231,8 @@ Result<std::string, std::string> edited_job(const std::string& text, const Json&
   if (toml->text().size() > longest_job_text) {
     return Failure{fmt::format("the job file would be longer than {} bytes", longest_job_text)};
   }
+  // A new value may be too long for a line. The text could then not be edited again.
+  if (const std::string why = unfit_for_parser(toml->text()); !why.empty()) return Failure{why};
   return toml->text();
 }
 

@@ -75,6 +75,9 @@ TEST(TomlText, refuses_what_would_break_the_file) {
   EXPECT_EQ(set(text, "a", std::numeric_limits<double>::infinity()), "refused: a must be finite");
   EXPECT_EQ(set(text, "a b", 1.0), "refused: 'a b' is not a key");
   EXPECT_EQ(set(text, "", 1.0), "refused: '' is not a key");
+  std::string deep = "a";
+  for (int i = 0; i < 100'000; ++i) deep += ".a";
+  EXPECT_EQ(set(text, deep, 1.0), "refused: a key has more than 16 parts");
   EXPECT_FALSE(TomlText::read("a = = 1\n"));
 }
 

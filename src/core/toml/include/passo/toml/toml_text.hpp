@@ -1,5 +1,5 @@
-// TomlText: edits values in the text of a machine file. Everything else remains unchanged, byte for byte: comments,
-// order, spaces, line ends.
+// TomlText: edits values in the text of a machine file or a job file. Everything else remains unchanged, byte for byte:
+// comments, order, spaces, line ends.
 //
 //   max_velocity_mm_s = 200     # 2400 rpm                   set("axis.X.max_velocity_mm_s", 85.5)
 //   max_velocity_mm_s = 85.5    # 2400 rpm                   the comment stays in its column, if there is room
@@ -31,13 +31,15 @@ struct TomlTextError {
 
 class TomlText {
  public:
+  static constexpr std::size_t most_parts = 16;  // of a path
   // Numbers must be finite. A list of numbers is written on one line.
   using Setting = std::variant<double, bool, std::string, std::vector<double>>;
 
   // `text`: a file that is_fit_for_parser(). (The TOML library does not limit the depth of keys.)
   static Result<TomlText, TomlTextError> read(std::string text);
 
-  // `path`: the key with its tables, "axis.X.max_velocity_mm_s". Its parts are letters, digits, '_' and '-'.
+  // `path`: the key with its tables, "axis.X.max_velocity_mm_s". Its parts are letters, digits, '_' and '-', and
+  // there are at most `most_parts`.
   Status<TomlTextError> set(std::string_view path, const Setting& setting);
 
   // The same for any value, as TOML has it: "[[10, 0], [40, 0]]", on one line.
