@@ -47,8 +47,9 @@ GrblLimits limits_of(const GrblMachine& machine) {
     const auto found = machine.settings.find(number);
     return found == machine.settings.end() ? fallback : found->second;
   };
-  GrblLimits limits{
-      .junction_deviation = Mm(setting(11, 0.01)), .arc_tolerance = Mm(setting(12, 0.002)), .blocks = machine.blocks};
+  GrblLimits limits{.junction_deviation = Mm(std::max(0.0, setting(11, 0.01))),
+                    .arc_tolerance = Mm(setting(12, 0.002)),
+                    .blocks = machine.blocks};
   for (std::size_t i = 0; i < machine.axes.size() && i < axis_count; ++i) {
     const auto axis = axis_of(machine.axes[i]);
     if (!axis) continue;

@@ -66,6 +66,15 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
                                  "in an alarm: home it first [grbl.locked]");
     return std::nullopt;
   }
+  for (const Axis axis : all_axes) {
+    const bool moves =
+        found.limits.velocity[axis] > MmPerSecond(0) && found.limits.acceleration[axis] > MmPerSecond2(0);
+    if (found.limits.steps_per_mm[axis] <= 0 || moves) continue;
+    code = fail(exit_failed, fmt::format("{}: the machine reports a maximum rate ($110 to $112) or an acceleration "
+                                         "($120 to $122) of 0 for {}",
+                                         name, letter_of(axis)));
+    return std::nullopt;
+  }
   return found;
 }
 

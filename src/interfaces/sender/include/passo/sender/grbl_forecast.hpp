@@ -3,7 +3,7 @@
 //
 // Position in the pipeline: beside GrblSender, which sends the same lines. The lines are sent as the sender does it:
 // the bytes of unanswered lines fill the receive buffer at most, and the board answers a line when its planner has
-// taken it. A second planner, which receives every line in time, tells what the connection costs.
+// taken it. A second planner, which receives every line in time, shows how much time the connection costs.
 //
 // The times are those of the board's planner: neither the debounce of switches nor the operator is in them.
 #pragma once
