@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace passo::nesting {
-namespace {
-
-std::size_t corner_count(const Polygons& polygons) {
-  std::size_t count = 0;
-  for (const auto& path : polygons) count += path.size();
-  return count;
-}
-
-}  // namespace
 
 bool Layout::is_better_than(const Layout& other) const {
   if (sheets.size() != other.sheets.size()) return sheets.size() < other.sheets.size();
@@ -19,7 +10,8 @@ bool Layout::is_better_than(const Layout& other) const {
   return height < other.height;
 }
 
-// Those of quarter turns follow from one another; so do those of all equal differences of turns.
+// Half and quarter turns are exact. Then only the difference of the two turns counts: the polygon of the unturned
+// resting shape is turned with it.
 const Polygons& LayoutMaker::no_fit(const LaidCopy& resting, std::uint32_t shape, std::uint8_t turn) {
   const std::array<std::uint32_t, 4> key = {resting.shape, resting.turn, shape, turn};
   if (const auto found = no_fits_.find(key); found != no_fits_.end()) return found->second;

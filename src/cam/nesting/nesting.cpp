@@ -18,10 +18,6 @@ namespace {
 
 using namespace nesting;
 
-ClipperLib::cInt whole_steps(Nanometres length) {
-  return std::llround(static_cast<double>(length.count) / nanometres_per_step);
-}
-
 // A nanometre may be lost to rounding: outwards.
 Extent extent_of_outlines(const std::vector<DrawnRing>& outlines, double degrees) {
   const NestPlacement turn{.degrees = degrees};
@@ -48,10 +44,10 @@ ClipperLib::Path box_path(const Spot& least, const Spot& most) {
 
 // The positions of a turned shape on an empty sheet.
 void find_places(TurnedShape& turned, const NestOptions& options, const Polygons& obstacles) {
-  const ClipperLib::cInt margin = whole_steps(options.margin);
+  const ClipperLib::cInt margin = steps_of(options.margin);
   turned.places = {{margin - turned.extent.least.X, margin - turned.extent.least.Y},
-                   {whole_steps(options.sheet.x) - margin - turned.extent.most.X,
-                    whole_steps(options.sheet.y) - margin - turned.extent.most.Y}};
+                   {steps_of(options.sheet.x) - margin - turned.extent.most.X,
+                    steps_of(options.sheet.y) - margin - turned.extent.most.Y}};
   const Extent& places = turned.places;
   if (places.least.X > places.most.X || places.least.Y > places.most.Y) return;
   // A shape that fits exactly has a place, too.
@@ -64,16 +60,16 @@ void find_places(TurnedShape& turned, const NestOptions& options, const Polygons
 }
 
 Polygons grown_obstacles(const NestOptions& options) {
-  const ClipperLib::cInt by = whole_steps(options.gap) / 2 + 1;
+  const ClipperLib::cInt by = steps_of(options.gap) / 2 + 1;
   Polygons all;
   for (const DrawnBox& box : options.obstacles) {
-    // Only what can matter, so that all coordinates stay small.
+    // Only the part near the sheet, so that all coordinates stay small.
     const auto on_sheet = [](Nanometres at, Nanometres most) {
-      return whole_steps(std::clamp(at, Nanometres{-most.count}, Nanometres{2 * most.count}));
+      return steps_of(std::clamp(at, Nanometres{-most.count}, Nanometres{2 * most.count}));
     };
-    const NestOptions& o = options;
-    all.push_back(box_path({on_sheet(box.least.x, o.sheet.x) - by, on_sheet(box.least.y, o.sheet.y) - by},
-                           {on_sheet(box.most.x, o.sheet.x) + by, on_sheet(box.most.y, o.sheet.y) + by}));
+    const DrawnPoint& sheet = options.sheet;
+    all.push_back(box_path({on_sheet(box.least.x, sheet.x) - by, on_sheet(box.least.y, sheet.y) - by},
+                           {on_sheet(box.most.x, sheet.x) + by, on_sheet(box.most.y, sheet.y) + by}));
   }
   return all;
 }
@@ -94,7 +90,7 @@ Result<ShapeToNest, NestFailure> prepared(const NestShape& shape, std::size_t in
   };
   const std::string size =
       fmt::format("{:.6g} x {:.6g} mm", mm(drawn.most.X - drawn.least.X), mm(drawn.most.Y - drawn.least.Y));
-  const double largest = 2.0 * mm(whole_steps(std::max(options.sheet.x, options.sheet.y)));
+  const double largest = 2.0 * mm(steps_of(std::max(options.sheet.x, options.sheet.y)));
   const Failure<NestFailure> too_large{
       {index, fmt::format("'{}' of {} does not fit on a sheet of {}{}", shape.name, size, sheet_words(options),
                           options.rotations == 1 ? " as it is drawn" : "")}};
@@ -178,7 +174,7 @@ std::vector<LayoutItem> Changes::changed(std::vector<LayoutItem> sequence) {
   return sequence;
 }
 
-// Each shape's kind: the first shape with the same outlines, wherever they are. Drawings repeat parts.
+// Whether two shapes have the same outlines, wherever they are: drawings repeat parts.
 bool are_alike(const std::vector<DrawnRing>& a, const DrawnPoint& corner_a, const std::vector<DrawnRing>& b,
                const DrawnPoint& corner_b) {
   constexpr std::int64_t least = 500;  // nm

@@ -12,10 +12,6 @@ namespace {
 using ClipperLib::cInt;
 using ClipperLib::Path;
 
-cInt steps_of(Nanometres length) {
-  return std::llround(static_cast<double>(length.count) / nanometres_per_step);
-}
-
 Spot difference(const Spot& a, const Spot& b) {
   return {a.X - b.X, a.Y - b.Y};
 }
@@ -88,12 +84,6 @@ Path with_fewer_corners(const Path& path, double tolerance, double& most) {
 Polygons outer_rings(Polygons rings) {
   std::erase_if(rings, [](const Path& path) { return path.size() < 3 || !ClipperLib::Orientation(path); });
   return rings;
-}
-
-std::size_t corners_of(const Polygons& polygons) {
-  std::size_t corners = 0;
-  for (const Path& path : polygons) corners += path.size();
-  return corners;
 }
 
 // Whether direction d lies in the turn from a to b, counterclockwise, a included and b not.
@@ -176,16 +166,14 @@ Polygons Convolution::loops() {
 
 }  // namespace
 
-Extent extent_of(const Polygons& polygons) {
-  constexpr cInt far = 1LL << 40;
-  Extent extent{{far, far}, {-far, -far}};
-  for (const Path& path : polygons) {
-    for (const Spot& at : path) {
-      extent.least = {std::min(extent.least.X, at.X), std::min(extent.least.Y, at.Y)};
-      extent.most = {std::max(extent.most.X, at.X), std::max(extent.most.Y, at.Y)};
-    }
-  }
-  return extent;
+cInt steps_of(Nanometres length) {
+  return std::llround(static_cast<double>(length.count) / nanometres_per_step);
+}
+
+std::size_t corner_count(const Polygons& polygons) {
+  std::size_t count = 0;
+  for (const Path& path : polygons) count += path.size();
+  return count;
 }
 
 Polygons moved(Polygons polygons, const Spot& by) {
@@ -225,7 +213,7 @@ Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by) {
     fewer.clear();
     left_out = 0;
     for (const Path& ring : rings) fewer.push_back(with_fewer_corners(ring, tolerance, left_out));
-    if (corners_of(fewer) <= most_corners) break;
+    if (corner_count(fewer) <= most_corners) break;
   }
   // Sharper corners than right angles are cut off. One step less: copies that fit exactly leave a place.
   constexpr double miter_limit = 1.5;

@@ -19,11 +19,13 @@ struct Extent {
 
 inline constexpr std::int64_t nanometres_per_step = 100;
 
-Extent extent_of(const Polygons& polygons);
+ClipperLib::cInt steps_of(Nanometres length);
+std::size_t corner_count(const Polygons& polygons);
 Polygons moved(Polygons polygons, const Spot& by);
 Polygons turned(const Polygons& polygons, double degrees);
 
-// The outside of the outlines, with few corners, grown by `by` and by what the left out corners need. Counterclockwise.
+// The outside of the outlines, with few corners, grown by `by`, and by as much as the omitted corners need.
+// Counterclockwise.
 Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by);
 
 // The positions of a moving shape at which it overlaps the resting one. Both are outsides.

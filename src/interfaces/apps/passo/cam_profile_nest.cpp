@@ -11,8 +11,6 @@
 namespace passo {
 namespace {
 
-constexpr Nanometres usual_nest_room{1'000'000};  // between the cuts of two parts
-
 using ClosedLoop = std::vector<PathPoint>;
 
 ClosedLoop placed_loop(ClosedLoop loop, const NestPlacement& placement) {
@@ -120,8 +118,7 @@ std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t
   for (const NestSheet& sheet : nest.sheets) copies += sheet.placements.size();
   return fmt::format(
       "nested: {} of {} on {} of {:g} x {:g} mm, {:.4g} mm apart; {:.1f} % of the used area is parts; the last sheet "
-      "is "
-      "used up to X{:.6g} mm\n",
+      "is used up to X{:.6g} mm\n",
       counted(copies, "copy", "copies"), counted(parts, "part"), counted(nest.sheets.size(), "sheet"),
       to_mm(options.sheet.x).value(), to_mm(options.sheet.y).value(), to_mm(options.gap).value(), 100 * nest.density(),
       to_mm(nest.sheets.back().used).value());

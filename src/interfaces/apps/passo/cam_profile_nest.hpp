@@ -12,6 +12,8 @@
 
 namespace passo {
 
+inline constexpr Nanometres usual_nest_room{1'000'000};  // between the cuts of two copies
+
 struct NestedDrawing {
   std::vector<PartDrawing> sheets = {};  // the contours on each
   Nest nest = {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam_profile_nest.hpp"
 #include <fmt/format.h>
 
 #include "passo/operations/length_text.hpp"
@@ -10,8 +11,6 @@
 
 namespace passo {
 namespace {
-
-constexpr Nanometres usual_room{1'000'000};  // between the cuts of two copies
 
 double segment_distance(const DrawnPoint& at, const DrawnPoint& a, const DrawnPoint& b) {
   const auto across = static_cast<double>(b.x.count - a.x.count);
@@ -104,13 +103,13 @@ NestOptions options_of(const PartJob& job, double reach, Diagnostics& findings) 
   const PartStock& stock = *job.stock;
   NestOptions options{.sheet = {to_nanometres(Mm(stock.width)), to_nanometres(Mm(stock.length))},
                       .rotations = wish.rotations};
-  const double gap = wish.gap.value_or(reach + to_mm(usual_room).value());
+  const double gap = wish.gap.value_or(reach + to_mm(usual_nest_room).value());
   constexpr double rounding = 1e-3;
   if (gap < reach - rounding) {
     findings.add(
         job.finding("job.nest-gap", wish.place,
                     fmt::format("with nest.gap = {:g} mm, the tools would cut into the neighbouring copy", gap),
-                    fmt::format("at least {:.4g} mm: so far do the cuts reach beyond the part", reach)));
+                    fmt::format("at least {:.4g} mm, the distance that the cuts reach beyond the part", reach)));
   }
   options.gap = to_nanometres(Mm(gap));
   options.margin = to_nanometres(Mm(wish.margin.value_or(gap)));
@@ -173,7 +172,7 @@ std::optional<NestedJob> nest_job(const PartJob& job, const std::vector<MadeOper
     if (wish.rotations == 1 || !is_of_part(job.operations[i]) || can_be_turned(made[i].program)) continue;
     findings.add(
         job.finding("job.nest-turn", wish.place,
-                    fmt::format("'{}' has arcs in upright planes, which cannot be turned", job.operations[i].title),
+                    fmt::format("'{}' has arcs in vertical planes, which cannot be turned", job.operations[i].title),
                     "nest.rotations = 1"));
   }
   if (nested.outline.empty()) {

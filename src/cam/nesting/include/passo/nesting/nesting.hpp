@@ -1,7 +1,7 @@
 // nest_on_sheets: places copies of shapes on as few sheets as possible, at the left of the last one.
 //
-// A shape is the outside of its outlines: nothing is placed in the holes of another shape. Each copy takes the place of
-// the no-fit polygons that a rule prefers, e.g. the one that is farthest left. Several orders and rules are tried, then
+// A shape is the outside of its outlines: nothing is placed in the holes of another shape. Each copy goes to the
+// corner of its free positions that a rule prefers, e.g. the leftmost one. Several orders and rules are tried, then
 // the best order is changed a little, a bounded number of times. Only counts decide, so equal input gives equal output.
 //
 // Gaps and margins are kept within `nesting_tolerance`. Curves must come as chords within a few micrometres.
