@@ -4,6 +4,7 @@
 //
 // PASSO: another build of the program to measure. `body_table --write FOLDER` only writes the models, as STL. The exit
 // code is 1 if a program cuts deeper than 0.01 mm into its model.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

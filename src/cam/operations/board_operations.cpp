@@ -140,8 +140,9 @@ std::vector<CamOption> cam_options_of(CamBoardArguments& a) {
       {"copies", &a.copies, text, "copies of the board in a grid on one blank, COLUMNSxROWS, e.g. 3x4"},
       {"gap", &a.gap, length, "gap between two copies"},
       {"park", &a.park, text,
-       "X,Y of tool changes and ends (default: as in the profile, or 0,0); last: above the last cut, so that all\n"
-       "programs are one route",
+       "X,Y: park position at tool changes and ends (default: as in the profile, or 0,0); last: above the last cut, "
+       "so\n"
+       "that all programs form one route",
        experts_only},
       {"mask", &a.mask, length,
        "diameter of a cutter that clears the openings of a cured solder mask (default:\nno program for the mask)"},

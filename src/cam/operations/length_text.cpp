@@ -1,5 +1,6 @@
 #include "passo/operations/length_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>

@@ -43,7 +43,7 @@ std::vector<CamOption> nest_rows(CamNestArguments& a) {
        number,
        "nesting: copies of each part",
        {.range = CamRange{1, 1000}, .matters_to = cli, .is_of_job = true}},
-      {"gap", &a.gap, length, "nesting: gap between two parts (default: the cutter's diameter, the lead-in and 1 mm)",
+      {"gap", &a.gap, length, "nesting: gap between two parts (default: cutter diameter, lead-in, allowance and 1 mm)",
        of_nest},
       {"nest-margin", &a.nest_margin, length, "nesting: margin at the edge of the sheet (default: as --gap)", of_nest},
       {"rotations",

@@ -38,7 +38,7 @@ struct PartResult {
   const Region& unreached;
   const std::vector<DrawnPoint>& tabs;
   std::string words;
-  std::string json;                       // empty: one of several programs, and the last one's tells of all
+  std::string json;                       // empty: for all but the last of several programs, whose summary is of all
   std::optional<Nanometres> offcut = {};  // X from which the sheet stays whole
 };
 // Writes and prints everything. Returns an exit code.

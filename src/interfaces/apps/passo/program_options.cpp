@@ -140,8 +140,8 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
       "--motion", arguments.motion,
       "plan the motion too, check it against every limit, and compare its time with the shortest possible");
   command.add_option("--board", arguments.board,
-                     "grbl: for the motion that Grbl plans on an Uno with the limits of the machine file; "
-                     "grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT: with the settings of that machine");
+                     "Grbl board whose motion is predicted: grbl (an Uno with the limits of the machine file), "
+                     "grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT (with the settings that it reports)");
   command.add_option("-p,--picture", arguments.picture,
                      "picture of the motion: toolpath and tolerance, speed along the path, acceleration and jerk "
                      "(FILE.svg or FILE.png)");
@@ -184,7 +184,7 @@ void add_explain_options(CLI::App& command, ExplainArguments& arguments) {
   add_program(command, arguments.program, "program and lines: FILE:LINE, FILE:FROM-TO or FILE; - is standard input");
   add_files(command, arguments.program, true);
   command.add_option("-m,--machine", arguments.machine,
-                     "machine file (TOML): the feed counts the surfaces of cylinders (radius_mm)");
+                     "machine file (TOML); lengths and times then include the surfaces of cylinders (radius_mm)");
   command.add_flag("--json", arguments.json, "print the result as JSON");
   command.footer(
       "Examples:\n  passo explain part.ngc:12             what the line does, with the positions and modes there\n"

@@ -53,8 +53,8 @@ struct DrillTool {
   std::vector<DrillTarget> targets = {};  // in machining order
   std::size_t holes = 0;                  // number of holes, drilled or milled
   std::size_t slots = 0;
-  double rapids_before_nm =
-      0;  // length of the rapids in file order, with the ways to the first target and from the last
+  // The length of the rapids in file order, with the ways to the first target and from the last.
+  double rapids_before_nm = 0;
   double rapids_after_nm = 0;
 };
 

@@ -6,8 +6,8 @@
 // thread's helix there too, so it cuts nothing outside of the thread. On a boss it comes from outside, on a half circle
 // at constant Z.
 //
-// Climb milling of a right-hand thread in a bore goes from the bottom up. The hand, the side and the way of milling
-// determine the direction: one of them turns it around.
+// Climb milling of a right-hand thread in a bore goes from the bottom up. The other hand, a boss instead of a bore, or
+// conventional milling: each reverses the direction.
 //
 // Invariant: the tooth never goes beyond the thread's outline (in a bore the major diameter, on a boss the root), and
 // rises by one pitch per turn, each to a nanometre.

@@ -314,7 +314,7 @@ struct CamBoardArguments : CamProgramArguments, CamToolArguments, CamPanelArgume
   std::string margin = "10mm";       // distance of the board's lower left corner from X0 and from Y0
   std::string pin_distance = "5mm";  // distance of the alignment holes from the board's edge; 0: no holes
   bool probe_holes = false;          // the holes are for probing the position of the flipped board
-  std::string park;                  // X,Y of tool changes and ends, or "last"; empty: as in the profile
+  std::string park;                  // X,Y at tool changes and ends, or "last"; empty: as in the profile
   std::string mask;                  // diameter of the cutter for the solder mask's openings; empty: none
   std::string mask_depth = "-0.05mm";
   std::string stencil;  // diameter of the cutter for a paste stencil; empty: none

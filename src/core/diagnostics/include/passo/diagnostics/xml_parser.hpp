@@ -1,7 +1,7 @@
 // XmlParser: reads an XML text with expat, and knows the place of what is wrong with it.
 //
-// A reader has the member functions begin(const char* name, const char** attributes) and end(const char* name); it is
-// told each element in turn. The handlers of other parts of the text are set with get().
+// A reader has the member functions begin(const char* name, const char** attributes) and end(const char* name); they
+// are called for each element. Handlers of other parts of the text are set with get().
 #pragma once
 
 #include <cstddef>

@@ -203,7 +203,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   std::size_t tap_step_ = tap_.size();
   std::deque<PathItem> held_;  // items that wait until the items before them are returned
   PathMemory kept_;
-  // A change of the tool by hand; as kept_.
+  // Tool changes by hand; kept and restored like the memory.
   HandToolChange hand_;
   HandToolChange kept_hand_;
 };
