@@ -13,14 +13,38 @@ namespace {
 
 constexpr std::size_t longest_line = 4096;
 // The TOML library recurses as deep as keys have dots, and limits only the nesting of brackets. A machine file needs a
-// dot or two in a line, and numbers have some.
+// dot or two in a line.
 constexpr std::size_t most_dots = 16;
 
-// The number of dots that may belong to keys, without those of comments. Never less than the true number.
+bool is_digit(char c) {
+  return (c >= '0' && c <= '9') || c == '_';
+}
+
+// Whether the dot can only be that of a number: 1.5, but neither 1.5.2 nor 1.5 = 2.
+bool is_dot_of_number(std::string_view line, std::size_t dot) {
+  std::size_t first = dot;
+  while (first > 0 && is_digit(line[first - 1])) --first;
+  std::size_t end = dot + 1;
+  while (end < line.size() && is_digit(line[end])) ++end;
+  constexpr std::string_view starts = " \t,[-+=";
+  constexpr std::string_view ends = " \t,]}";
+  if (first == dot || end == dot + 1) return false;
+  if (first > 0 && starts.find(line[first - 1]) == std::string_view::npos) return false;
+  if (end < line.size() && ends.find(line[end]) == std::string_view::npos) return false;
+  const std::size_t before = line.substr(0, first).find_last_not_of(" \t");
+  const std::size_t after = line.find_first_not_of(" \t", end);
+  const bool follows_dot = before != std::string_view::npos && line[before] == '.';
+  return !follows_dot && (after == std::string_view::npos || (line[after] != '.' && line[after] != '='));
+}
+
+// The number of dots that may belong to keys, without those of comments and numbers. Never less than the true number.
 std::size_t dots_of(std::string_view line) {
   const bool has_quotes = line.find_first_of("\"'") != std::string_view::npos;
   const std::string_view relevant = has_quotes ? line : line.substr(0, line.find('#'));
-  return static_cast<std::size_t>(std::ranges::count(relevant, '.'));
+  std::size_t dots = 0;
+  for (std::size_t i = 0; i < relevant.size(); ++i)
+    dots += relevant[i] == '.' && !is_dot_of_number(relevant, i) ? 1 : 0;
+  return dots;
 }
 
 // The offset of the first byte outside of strings and comments that is not ASCII, or npos. TOML has none there. The

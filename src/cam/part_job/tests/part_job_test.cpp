@@ -53,6 +53,19 @@ TEST(PartJob, an_operation_takes_precedence_over_its_tool_and_the_job) {
   EXPECT_EQ(profile.tab_places, (std::vector<std::string>{"1,2", "3,4"}));
 }
 
+// Their dots are no depth.
+TEST(PartJob, a_line_may_have_many_numbers) {
+  std::string places = "[1.5, -2.5]";
+  std::vector<std::string> expected = {"1.5,-2.5"};
+  for (int i = 0; i < 40; ++i) {
+    places += ",[ 1.25 ,2.5]";
+    expected.emplace_back("1.25,2.5");
+  }
+  const PartJob job =
+      job_of(std::string(head) + "[[operation]]\nkind = \"profile\"\ntool = 1\ntab = [" + places + "]\n");
+  EXPECT_EQ(std::get<CamProfileArguments>(job.operations[0].arguments).tab_places, expected);
+}
+
 TEST(PartJob, a_misspelt_key_is_shown_with_its_position_and_the_nearest_key) {
   EXPECT_EQ(errors_of(std::string(head) + "[[operation]]\nkind = \"pocket\"\ntool = 1\ndeph = -4\n"),
             "shop/plate.toml:13:1: error: a job file has no key operation.1.deph [job.unknown-key]\n"

@@ -343,9 +343,10 @@ TEST(MachineDiagnostics, deep_nesting_is_refused_without_harm) {
   const std::string deepest =
       dots + " = [\n" + repeated(std::string("{").append(dots).append(" = [\n"), 120) + repeated("]}\n", 120) + "]\n";
   for (const std::string& text :
-       {too_many + " = 1\n", std::string("[").append(too_many).append("]\n"), std::string("a = ").append(4000, '['),
-        std::string("[").append(dots).append("]\n").append(deepest), std::string("a = \"\"\"\n# \"\"\"\n"),
-        repeated("a = [\n", 100'000)}) {
+       {too_many + " = 1\n", std::string("[").append(too_many).append("]\n"), repeated("1.", 1000) + "1 = 1\n",
+        repeated("1.2 .", 500) + "1 = 1\n", "a = {" + repeated("1 . ", 500) + "1 = 1}\n",
+        std::string("a = ").append(4000, '['), std::string("[").append(dots).append("]\n").append(deepest),
+        std::string("a = \"\"\"\n# \"\"\"\n"), repeated("a = [\n", 100'000)}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_machine(text, "m.toml", diagnostics));
     EXPECT_TRUE(diagnostics.any_error());
