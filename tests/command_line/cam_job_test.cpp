@@ -389,7 +389,7 @@ CopyBox box_of_copy(const nlohmann::json& copy) {
 }
 
 TEST_F(CamJob, copies_lie_on_their_sheets_and_no_cut_enters_another_copy) {
-  small_job("", "[nest]\nquantity = 10\n[[clamp]]\nfrom = [0, 0]\nto = [20, 20]\nheight = 3\n");
+  small_job("", "[nest]\nquantity = 10\ngap = 4\n[[clamp]]\nfrom = [0, 0]\nto = [20, 20]\nheight = 3\n");
   std::string text = read(path("small.toml"));
   text.replace(text.find("size = [60, 50]"), 15, "size = [150, 100]");
   write("small.toml", text);
@@ -439,12 +439,40 @@ TEST_F(CamJob, copies_lie_on_their_sheets_and_no_cut_enters_another_copy) {
   EXPECT_EQ(passo("cam job " + path("small.toml") + " --check").code, 0);
 }
 
+// A key that no operation can have is not dropped in silence.
+TEST_F(CamJob, keys_of_whole_programs_are_none_of_jobs_or_operations) {
+  for (const char* key : {"mirror = \"x\"", "sheet = [10, 10]", "chamfer = 0.5"}) {
+    const std::string job = small_job();
+    write("small.toml", read(job).replace(0, 5, std::string("[job]\n") + key));
+    const Outcome made = passo("cam job " + job);
+    EXPECT_EQ(made.code, 2) << key;
+    EXPECT_THAT(made.err, HasSubstr("small.toml:2:1: error: a job file has no key job.")) << key;
+  }
+  for (const char* key : {"nest = \"80,70\"", "quantity = 4", "gap = 9", "rotations = 2"}) {
+    small_job();
+    write("small.toml",
+          read(path("small.toml")) + "[[operation]]\nkind = \"profile\"\ntool = 1\nlayer = \"cut\"\n" + key);
+    const Outcome made = passo("cam job " + path("small.toml"));
+    EXPECT_EQ(made.code, 2) << key;
+    EXPECT_THAT(made.err, HasSubstr("[job.unknown-key]")) << key;
+  }
+}
+
 TEST_F(CamJob, a_part_that_cannot_be_nested_is_named_with_sizes) {
   small_job("", "[nest]\nquantity = 2\nmargin = 15\n");
   const Outcome made = passo("cam job " + path("small.toml"));
   EXPECT_EQ(made.code, 2);
   EXPECT_THAT(made.err, HasSubstr("of 40 x 30 mm does not fit on a sheet of 60 x 50 mm with a margin of 15 mm"));
   EXPECT_THAT(made.err, HasSubstr("small.toml:23:"));
+  small_job("", "[nest]\nquantity = 2\n");
+  std::string text = read(path("small.toml"));
+  text.replace(text.find("size = [60, 50]"), 15, "size = [150, 100]");
+  write("small.toml", text);
+  const Outcome apart = passo("cam job " + path("small.toml"));
+  EXPECT_THAT(apart.out, HasSubstr("7 mm apart")) << apart.err;
+  EXPECT_EQ(apart.err, "");
+  write("small.toml", text.replace(text.find("quantity = 2"), 12, "quantity = 2\ngap = 5"));
+  EXPECT_THAT(passo("cam job " + path("small.toml") + " --force").err, HasSubstr("[job.nest-tabs]"));
   small_job("", "[nest]\nquantity = 2\ngap = 2\n");
   EXPECT_THAT(passo("cam job " + path("small.toml")).err, HasSubstr("at least 3 mm"));
   small_job("", "[nest]\nquantity = 2\nsheet = [200, 100]\n");

@@ -406,7 +406,14 @@ TEST_F(CamPart, parts_are_nested_on_sheets_with_a_program_each) {
             "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='60mm' viewBox='0 0 60 60'>"
             "<path d='M0 0h40v15h-25v25h-15z'/><circle cx='8' cy='8' r='4'/><circle cx='50' cy='50' r='6'/></svg>");
   const std::string order = "cam profile " + drawing + " --tool 3 --depth -3 --tabs 2 --quantity 9";
-  const Outcome made = passo(order + " --nest 130,90 --json -p " + path("n.svg") + " -o " + path("n.ngc"));
+  const std::string pair = "cam profile " + drawing + " --tool 3 --depth -3 --tabs 2 --nest 100,60";
+  const Outcome wide = passo(pair + " --json -o " + path("w.ngc"));
+  ASSERT_EQ(wide.code, 0) << wide.err;
+  EXPECT_EQ(nlohmann::json::parse(wide.out)["nest"]["gap_mm"], 7.0) << "two cuts, and 1 mm that the tabs end in";
+  EXPECT_THAT(wide.err, Not(HasSubstr("nest.tabs")));
+  EXPECT_THAT(passo(pair + " --gap 6 -o " + path("w.ngc")).err, HasSubstr("[nest.tabs]"));
+  EXPECT_THAT(passo(pair + " --gap 6 --no-tabs -o " + path("w.ngc")).err, Not(HasSubstr("nest.tabs")));
+  const Outcome made = passo(order + " --nest 130,90 --gap 4 --json -p " + path("n.svg") + " -o " + path("n.ngc"));
   ASSERT_EQ(made.code, 0) << made.err;
   const nlohmann::json told = nlohmann::json::parse(made.out);
   EXPECT_EQ(told["nest"]["gap_mm"], 4.0);
@@ -416,7 +423,7 @@ TEST_F(CamPart, parts_are_nested_on_sheets_with_a_program_each) {
   for (const char* file : {"n-1.ngc", "n-2.ngc"}) expect_cuts_well(path(file), "X-2:132,Y-2:92,Z-3:0");
   EXPECT_THAT(read(path("n-2.svg")), HasSubstr("Offcut"));
 
-  EXPECT_THAT(passo(order + " --nest 130,90").err, HasSubstr("2 sheets have a program each"));
+  EXPECT_THAT(passo(order + " --nest 130,90 --gap 4").err, HasSubstr("2 sheets have a program each"));
   EXPECT_THAT(passo(order + " --nest 35,60 -o " + path("x.ngc")).err,
               HasSubstr("of 40 x 40 mm does not fit on a sheet of 35 x 60 mm with a margin of 4 mm"));
   EXPECT_THAT(passo(order + " --nest 130,90 --gap 2 -o " + path("x.ngc")).err,

@@ -11,6 +11,7 @@
 
 #include "passo/operations/cam_operation.hpp"
 #include "passo/operations/length_text.hpp"
+#include "passo/part_job/part_kinds.hpp"
 #include "passo/tooling/cutting_feeds.hpp"
 #include "passo/tooling/tool_library.hpp"
 
@@ -182,13 +183,15 @@ void PartJobReader::read_job(const TomlEntry& entry) {
     read_library(in_folder(*library), reader.place_of("tools"));
   }
   read_program_words(table, reader);
-  // The rest: options of operations.
+  // The rest: options that operations can have as keys.
+  std::set<std::string_view> of_operations;
+  for (const PartKindKeys& keys : keys_of_part_kinds()) of_operations.insert(keys.options.begin(), keys.options.end());
+  of_operations.erase("chamfer");  // decides the command, so each operation has its own
   std::set<std::string_view> known;
   for (const std::string_view command : {"profile", "pocket", "drill", "engrave", "relief", "thread"}) {
     const CamOperation* const operation = find_cam_operation(command);
     for (const CamOption& option : operation->options()) {
-      if (!option.traits.is_of_job && !is_of_program(option.name) && option.kind != CamKind::drawings)
-        known.insert(option.name);
+      if (!option.traits.is_of_job && of_operations.contains(option.name)) known.insert(option.name);
     }
   }
   for (const TomlEntry& option : table.entries) {

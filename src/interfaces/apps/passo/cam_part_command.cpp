@@ -316,6 +316,7 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
     const auto nested =
         nest_drawing(*part, listed(arguments.files), arguments.quantity, nesting, progress.part(0.02, 0.6));
     if (!nested) return exit_bad_program;
+    warn_of_cut_tabs(nested->nest, nesting, options.cut, listed(arguments.files));
     return cut_sheets(arguments, job, options, *nested, progress.part(0.6, 1));
   }
   const std::optional<CutProfile> cut = cut_profile(arguments, *part, options);

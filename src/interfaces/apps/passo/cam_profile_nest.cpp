@@ -40,6 +40,14 @@ DrawnBox box_of_loops(const std::vector<ClosedLoop>& loops) {
 
 }  // namespace
 
+Nanometres gap_with_tabs(Nanometres least) {
+  return {2 * least.count};
+}
+
+bool has_neighbours(const Nest& nest) {
+  return std::ranges::any_of(nest.sheets, [](const NestSheet& sheet) { return sheet.placements.size() > 1; });
+}
+
 Nanometres least_gap(const OutlineOptions& cut) {
   return cut.cutter + cut.lead + cut.allowance;
 }
@@ -58,13 +66,13 @@ NestOptions nest_options_of(const CamProfileArguments& arguments, const OutlineO
                                to_mm(largest_sheet).value(), arguments.nest));
   }
   const Nanometres least = least_gap(cut);
-  options.gap = least + usual_nest_room;
+  options.gap = (cut.tabs > 0 ? gap_with_tabs(least) : least) + usual_nest_room;
   if (!arguments.gap.empty()) options.gap = lengths.any("--gap", arguments.gap);
   if (options.gap < least || options.gap > largest_sheet) {
     lengths.refuse(fmt::format("--gap: expected at least {:g} mm, which the cutter and its lead-in need, found '{}'",
                                to_mm(least).value(), arguments.gap));
   }
-  options.margin = options.gap;
+  options.margin = arguments.gap.empty() ? least + usual_nest_room : options.gap;
   if (!arguments.nest_margin.empty()) options.margin = lengths.any("--nest-margin", arguments.nest_margin);
   if (options.margin.count < 0 || options.margin > largest_sheet) {
     lengths.refuse(fmt::format("--nest-margin: expected a length of 0 or more, found '{}'", arguments.nest_margin));
@@ -111,6 +119,22 @@ std::optional<NestedDrawing> nest_drawing(const PartDrawing& drawing, const std:
     nested.sheets.push_back(std::move(on_sheet));
   }
   return nested;
+}
+
+void warn_of_cut_tabs(const Nest& nest, const NestOptions& options, const OutlineOptions& cut,
+                      const std::string& file) {
+  const Nanometres wide = gap_with_tabs(least_gap(cut));
+  if (cut.tabs == 0 || options.gap > wide || !has_neighbours(nest)) return;
+  Diagnostic finding = of_file(
+      "nest.tabs", file,
+      fmt::format("with a gap of {:.4g} mm, the cuts of neighbouring parts overlap and go through their tabs, so parts "
+                  "may come loose",
+                  to_mm(options.gap).value()),
+      fmt::format("--gap above {:.4g} mm, or --no-tabs and another way to hold the parts", to_mm(wide).value()));
+  finding.severity = Severity::warning;
+  Diagnostics findings;
+  findings.add(std::move(finding));
+  show(findings);
 }
 
 std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t parts) {

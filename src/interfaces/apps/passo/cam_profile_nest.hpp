@@ -31,6 +31,13 @@ std::optional<NestedDrawing> nest_drawing(const PartDrawing& drawing, const std:
 // The least gap with which the cutter of one part does not touch another part.
 Nanometres least_gap(const OutlineOptions& cut);
 
+// A tab ends in the material between the cuts of two parts, so they must not overlap. `least`: as above.
+Nanometres gap_with_tabs(Nanometres least);
+// Whether there is a sheet with more than one part.
+bool has_neighbours(const Nest& nest);
+// Shows the warning "nest.tabs" if the gap is so small that parts lose their tabs.
+void warn_of_cut_tabs(const Nest& nest, const NestOptions& options, const OutlineOptions& cut, const std::string& file);
+
 // `parts`: number of different parts.
 std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t parts);
 nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options);

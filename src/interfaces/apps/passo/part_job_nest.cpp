@@ -98,12 +98,34 @@ double reach_of(const PartJob& job, const std::vector<MadeOperation>& made, cons
   return std::round(reach * 100) / 100;
 }
 
+bool has_tabs(const PartOperation& operation) {
+  const auto* const profile = std::get_if<CamProfileArguments>(&operation.arguments);
+  if (profile == nullptr || operation.kind != PartKind::profile || profile->side == "inside") return false;
+  return !profile->no_tabs && (profile->tabs > 0 || !profile->tab_places.empty());
+}
+
+void warn_of_cut_tabs(const PartJob& job, const NestedJob& nested, double reach, Diagnostics& findings) {
+  const Nanometres wide = gap_with_tabs(to_nanometres(Mm(reach)));
+  const bool any = std::ranges::any_of(job.operations, has_tabs);
+  if (!any || nested.options.gap > wide || !has_neighbours(nested.nest)) return;
+  Diagnostic finding = job.finding(
+      "job.nest-tabs", job.nesting->place,
+      fmt::format("with a gap of {:.4g} mm, the cuts of neighbouring copies overlap and go through their tabs, so "
+                  "parts may come loose",
+                  to_mm(nested.options.gap).value()),
+      fmt::format("a nest.gap above {:.4g} mm, or no-tabs and another way to hold the parts", to_mm(wide).value()));
+  finding.severity = Severity::warning;
+  findings.add(std::move(finding));
+}
+
 NestOptions options_of(const PartJob& job, double reach, Diagnostics& findings) {
   const PartNesting& wish = *job.nesting;
   const PartStock& stock = *job.stock;
   NestOptions options{.sheet = {to_nanometres(Mm(stock.width)), to_nanometres(Mm(stock.length))},
                       .rotations = wish.rotations};
-  const double gap = wish.gap.value_or(reach + to_mm(usual_nest_room).value());
+  const double room = to_mm(usual_nest_room).value();
+  const bool any_tabs = std::ranges::any_of(job.operations, has_tabs);
+  const double gap = wish.gap.value_or((any_tabs ? 2 * reach : reach) + room);
   constexpr double rounding = 1e-3;
   if (gap < reach - rounding) {
     findings.add(
@@ -112,7 +134,7 @@ NestOptions options_of(const PartJob& job, double reach, Diagnostics& findings) 
                     fmt::format("at least {:.4g} mm, the distance that the cuts reach beyond the part", reach)));
   }
   options.gap = to_nanometres(Mm(gap));
-  options.margin = to_nanometres(Mm(wish.margin.value_or(gap)));
+  options.margin = to_nanometres(Mm(wish.margin.value_or(wish.gap.value_or(reach + room))));
   for (const PartClamp& clamp : job.clamps) {
     options.obstacles.push_back({{to_nanometres(Mm(clamp.x[0] - stock.x)), to_nanometres(Mm(clamp.y[0] - stock.y))},
                                  {to_nanometres(Mm(clamp.x[1] - stock.x)), to_nanometres(Mm(clamp.y[1] - stock.y))}});
@@ -180,7 +202,8 @@ std::optional<NestedJob> nest_job(const PartJob& job, const std::vector<MadeOper
         job.finding("job.nest", wish.place, "the job has no part that could be copied", "an operation with contours"));
   }
   if (findings.any_error()) return std::nullopt;
-  nested.options = options_of(job, reach_of(job, made, nested.outline), findings);
+  const double reach = reach_of(job, made, nested.outline);
+  nested.options = options_of(job, reach, findings);
   if (findings.any_error()) return std::nullopt;
   NestShape shape{.name = job.name, .quantity = wish.quantity};
   for (const Region& part : parts_of(nested.outline)) shape.outlines.push_back(part.rings.front());
@@ -191,6 +214,7 @@ std::optional<NestedJob> nest_job(const PartJob& job, const std::vector<MadeOper
     return std::nullopt;
   }
   nested.nest = std::move(*nest);
+  warn_of_cut_tabs(job, nested, reach, findings);
   return nested;
 }
 
