@@ -149,7 +149,7 @@ TEST_F(CamThread, every_helix_has_the_pitch_and_stays_within_the_thread) {
                               "mm --depth -" + std::to_string(one.depth) + "mm ";
     const Outcome made = passo("cam thread " + drawing + sizes + one.options + " -o " + path("p.ngc"));
     ASSERT_EQ(made.code, 0) << made.err;
-    ASSERT_EQ(made.err, "");
+    EXPECT_EQ(made.err.find("the teeth reach ") != std::string::npos, one.is_external) << made.err;
     const double root = one.major - 1.2268693 * one.pitch;
     const double radius = one.is_external ? (root + one.cutter) / 2 : (one.major - one.cutter) / 2;
     const ThreadCut cut = follow(read(path("p.ngc")), {20, 25, 0}, one.unit, radius, one.pitch);

@@ -80,8 +80,14 @@ std::string sheet_words(const NestOptions& options) {
                      options.obstacles.empty() ? "" : " and clamps");
 }
 
-Result<ShapeToNest, NestFailure> prepared(const NestShape& shape, std::size_t index, const NestOptions& options,
-                                          const Polygons& obstacles) {
+// A no-fit polygon takes time and memory for each pair of corners, and there is one for each pair of turned shapes.
+std::size_t most_corners(std::size_t shapes, std::uint32_t rotations) {
+  constexpr std::size_t of_all = 16'000;
+  return std::clamp<std::size_t>(of_all / (shapes * rotations), 24, 300);
+}
+
+Result<ShapeToNest, NestFailure> prepared(const NestShape& shape, std::size_t index, std::size_t corners,
+                                          const NestOptions& options, const Polygons& obstacles) {
   ShapeToNest ready;
   const double by = static_cast<double>(options.gap.count) / 2 / nanometres_per_step;
   const Extent drawn = extent_of_outlines(shape.outlines, 0);
@@ -103,7 +109,7 @@ Result<ShapeToNest, NestFailure> prepared(const NestShape& shape, std::size_t in
   for (DrawnRing& ring : near) {
     for (DrawnPoint& point : ring) point = {point.x - corner.x, point.y - corner.y};
   }
-  const Polygons grown = grown_outside(near, by);
+  const Polygons grown = grown_outside(near, by, corners);
   for (std::uint32_t i = 0; i < options.rotations; ++i) {
     TurnedShape turned_shape{.degrees = 360.0 * i / options.rotations};
     turned_shape.grown = turned(grown, turned_shape.degrees);
@@ -319,7 +325,7 @@ Result<Nest, NestFailure> nest_on_sheets(const std::vector<NestShape>& shapes, c
     });
     const auto kind = static_cast<std::size_t>(same - of_kinds.begin());
     if (kind == of_kinds.size()) {
-      auto ready = prepared(shapes[i], i, options, obstacles);
+      auto ready = prepared(shapes[i], i, most_corners(shapes.size(), options.rotations), options, obstacles);
       if (!ready) return Failure{ready.error()};
       kinds.push_back(std::move(*ready));
       of_kinds.emplace_back();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "passo/nesting/nesting.hpp"
@@ -78,6 +79,39 @@ Path with_fewer_corners(const Path& path, double tolerance, double& most) {
   for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
     if (stays[i]) fewer.push_back(ring[i]);
   }
+  return fewer;
+}
+
+// Counterclockwise (A. M. Andrew, 1979).
+Path convex_hull(Path points) {
+  std::ranges::sort(points, [](const Spot& a, const Spot& b) { return a.X != b.X ? a.X < b.X : a.Y < b.Y; });
+  Path hull;
+  const auto add = [&hull](const Spot& point, std::size_t least) {
+    while (hull.size() > least &&
+           cross(difference(hull.back(), hull[hull.size() - 2]), difference(point, hull.back())) <= 0) {
+      hull.pop_back();
+    }
+    hull.push_back(point);
+  };
+  for (const Spot& point : points) add(point, 1);
+  const std::size_t lower = hull.size();
+  for (auto point = std::next(points.rbegin()); point != points.rend(); ++point) add(*point, lower);
+  hull.pop_back();
+  return hull;
+}
+
+Path box_of(const Path& ring) {
+  const auto [left, right] = std::ranges::minmax(ring, {}, &Spot::X);
+  const auto [low, high] = std::ranges::minmax(ring, {}, &Spot::Y);
+  return {{left.X, low.Y}, {right.X, low.Y}, {right.X, high.Y}, {left.X, high.Y}};
+}
+
+// As with_fewer_corners(); instead of less than four corners, the bounding box.
+Path simplified(const Path& ring, double tolerance, double& most) {
+  double left_out = most;
+  Path fewer = with_fewer_corners(ring, tolerance, left_out);
+  if (fewer.size() < 4 && ring.size() > 4) return box_of(ring);
+  most = left_out;
   return fewer;
 }
 
@@ -194,10 +228,10 @@ Polygons turned(const Polygons& polygons, double degrees) {
   return all;
 }
 
-Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by) {
+Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by, std::size_t most_corners) {
   constexpr double least_tolerance = 200;  // steps
-  constexpr double most_tolerance = 20'000;
-  constexpr std::size_t most_corners = 120;
+  constexpr double usual_tolerance = 20'000;
+  constexpr std::size_t usual_corners = 120;
   Polygons rings;
   for (const DrawnRing& ring : outlines) {
     Path path;
@@ -209,12 +243,18 @@ Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by) {
   rings = outer_rings(std::move(rings));
   Polygons fewer;
   double left_out = 0;
-  for (double tolerance = least_tolerance; tolerance <= most_tolerance; tolerance *= 2) {
+  for (double tolerance = least_tolerance;; tolerance *= 2) {
     fewer.clear();
     left_out = 0;
-    for (const Path& ring : rings) fewer.push_back(with_fewer_corners(ring, tolerance, left_out));
-    if (corner_count(fewer) <= most_corners) break;
+    for (const Path& ring : rings) fewer.push_back(simplified(ring, tolerance, left_out));
+    const std::size_t corners = corner_count(fewer);
+    // Four corners of each ring stay.
+    if (corners <= usual_corners || corners <= 4 * rings.size()) break;
+    if (tolerance >= usual_tolerance && corners <= most_corners) break;
   }
+  // Chords of a wide tolerance may cross each other.
+  ClipperLib::SimplifyPolygons(fewer, ClipperLib::pftNonZero);
+  fewer = outer_rings(std::move(fewer));
   // Sharper corners than right angles are cut off. One step less: copies that fit exactly leave a place.
   constexpr double miter_limit = 1.5;
   ClipperLib::ClipperOffset offset(miter_limit);
@@ -230,7 +270,12 @@ Polygons no_fit_polygon(const Polygons& resting, const Polygons& moving) {
     for (Path b : moving) {
       for (Spot& at : b) at = {-at.X, -at.Y};
       Polygons loops = Convolution(a, b).loops();
-      if (loops.empty()) {
+      // Clipper unites a quadrangle for each pair of edges. Where that would take minutes, the hulls keep their
+      // distance.
+      constexpr std::size_t most_quadrangles = 10'000;
+      if (loops.empty() && a.size() * b.size() > most_quadrangles) {
+        loops = Convolution(convex_hull(a), convex_hull(b)).loops();
+      } else if (loops.empty()) {
         ClipperLib::MinkowskiSum(a, b, loops, true);
         loops.push_back(moved({a}, b.front()).front());
         loops.push_back(moved({b}, a.front()).front());

@@ -25,8 +25,8 @@ Polygons moved(Polygons polygons, const Spot& by);
 Polygons turned(const Polygons& polygons, double degrees);
 
 // The outside of the outlines, with few corners, grown by `by`, and by as much as the omitted corners need.
-// Counterclockwise.
-Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by);
+// Counterclockwise. `most_corners`: the more corners are omitted, the more it is grown.
+Polygons grown_outside(const std::vector<DrawnRing>& outlines, double by, std::size_t most_corners);
 
 // The positions of a moving shape at which it overlaps the resting one. Both are outsides.
 Polygons no_fit_polygon(const Polygons& resting, const Polygons& moving);

@@ -200,6 +200,16 @@ TEST(Nesting, grain_permits_half_turns_only) {
   }
 }
 
+// Corners beyond a bound are omitted, and the shape is grown instead.
+TEST(Nesting, shapes_of_very_many_corners_keep_their_distance) {
+  std::mt19937_64 random(test::seed());
+  const std::vector<NestShape> shapes = {{.name = "burr", .outlines = {star_ring(random, 20, 1000)}, .quantity = 3}};
+  const NestOptions options{.sheet = at_mm(260, 200), .gap = to_nanometres(Mm(1)), .rotations = 2, .rounds = 4};
+  const auto nest = nest_on_sheets(shapes, options, {});
+  ASSERT_TRUE(nest.has_value()) << nest.error().message;
+  EXPECT_EQ(expect_apart(shapes, options, *nest), 3);
+}
+
 TEST(Nesting, random_shapes_keep_their_distance) {
   std::mt19937_64 random(test::seed());
   for (int trial = 0; trial < 6; ++trial) {

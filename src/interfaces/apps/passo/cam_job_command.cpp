@@ -170,6 +170,12 @@ bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& pro
   }
   if (findings.any_error() || !run.job.nesting) return !findings.any_error();
   run.nested = nest_job(run.job, run.made, *zero, findings, progress.part(0.8, 0.84));
+  constexpr std::size_t most_sheets = 100;  // each is simulated
+  if (run.nested && run.sheets() > most_sheets) {
+    findings.add(run.job.finding("job.nest-sheets", run.job.nesting->place,
+                                 fmt::format("the copies need {} sheets", run.sheets()),
+                                 fmt::format("fewer copies, or a larger sheet: at most {} sheets", most_sheets)));
+  }
   if (run.nested && run.sheets() > 1 && run.arguments.only_folder) {
     findings.add(
         run.job.finding("job.nest-sheets", run.job.nesting->place,

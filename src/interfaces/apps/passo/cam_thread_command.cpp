@@ -1,6 +1,7 @@
 // passo cam thread: a program that mills threads at the circles of a drawing.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cam_job.hpp"
 #include "cam_part.hpp"
@@ -74,6 +75,10 @@ void check_room(const CamThreadArguments& arguments, const ThreadJob& job, Lengt
   const auto hole = static_cast<double>(job.hole.count);
   const auto major = static_cast<double>((plan.size.major + plan.oversize).count);
   const auto root = static_cast<double>((plan.size.root() - plan.oversize).count);
+  if (!plan.is_external && job.hole >= plan.size.major) {
+    lengths.refuse(fmt::format("--hole: expected less than the major diameter, {}, found '{}'",
+                               thread_mm(plan.size.major), arguments.hole));
+  }
   if (neck >= plan.cutter) lengths.refuse("--neck: expected less than the diameter of --tool");
   if (!plan.is_external && cutter + 2 * least_room_nm > std::min(hole, static_cast<double>(plan.size.minor().count))) {
     lengths.refuse(fmt::format("--tool: expected a diameter below that of the bore, {}, found '{}'",
@@ -168,6 +173,22 @@ Region discs_at(const std::vector<DrawnPoint>& places, Nanometres diameter) {
   return filled(rings);
 }
 
+// How far the teeth reach from the axis of the next boss, including the lead-in.
+Mm reach_of_teeth(const MillPlan& plan, const std::vector<DrawnPoint>& places, Nanometres cutter) {
+  double farthest = 0;
+  for (const MillRun& run : plan.tools.front().runs) {
+    for (const MillPoint& point : run) {
+      double nearest = std::numeric_limits<double>::max();
+      for (const DrawnPoint& place : places) {
+        nearest = std::min(nearest, std::hypot(static_cast<double>((point.at.x - place.x).count),
+                                               static_cast<double>((point.at.y - place.y).count)));
+      }
+      farthest = std::max(farthest, nearest);
+    }
+  }
+  return Mm(farthest / nanometres_per_mm + to_mm(cutter).value() / 2);
+}
+
 }  // namespace
 
 int cam_thread(const CamThreadArguments& arguments, const WorkProgress& progress) {
@@ -204,17 +225,25 @@ int cam_thread(const CamThreadArguments& arguments, const WorkProgress& progress
                                   counted(places.size(), "thread"), pitch_mm, thread_mm(job.hole), thread_mm(cut),
                                   counted(plan.turns, "turn"), counted(job.plan.passes, "pass", "passes"),
                                   plan.goes_up ? "upwards" : "downwards", job.plan.climb ? "climb" : "conventional");
-  const nlohmann::ordered_json json = {{"thread", size.name},
-                                       {"threads", places.size()},
-                                       {"pitch_mm", pitch_mm},
-                                       {"major_mm", to_mm(size.major).value()},
-                                       {"hole_mm", to_mm(job.hole).value()},
-                                       {"cut_mm", to_mm(cut).value()},
-                                       {"turns", plan.turns},
-                                       {"passes", job.plan.passes},
-                                       {"upwards", plan.goes_up},
-                                       {"left_hand", job.plan.is_left_hand},
-                                       {"climb", job.plan.climb}};
+  nlohmann::ordered_json json = {{"thread", size.name},
+                                 {"threads", places.size()},
+                                 {"pitch_mm", pitch_mm},
+                                 {"major_mm", to_mm(size.major).value()},
+                                 {"hole_mm", to_mm(job.hole).value()},
+                                 {"cut_mm", to_mm(cut).value()},
+                                 {"turns", plan.turns},
+                                 {"passes", job.plan.passes},
+                                 {"upwards", plan.goes_up},
+                                 {"left_hand", job.plan.is_left_hand},
+                                 {"climb", job.plan.climb}};
+  if (job.plan.is_external) {
+    const Mm reach = reach_of_teeth(plan.mill, places, job.plan.cutter);
+    json["clear_radius_mm"] = reach.value();
+    note(fmt::format(
+        "the teeth reach {:.4g} mm from the axis of each boss: the stock around the boss must be cleared to "
+        "this radius, over the depth of the thread",
+        reach.value()));
+  }
   const Region face = discs_at(places, size.major);
   return deliver(arguments, mill, {plan.mill, face, {}, {}, words, json.dump(2)}, progress);
 }
