@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "body_faces.hpp"
 #include "contact_oracle.hpp"
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -28,22 +29,11 @@
 namespace passo {
 namespace {
 
-using Faces = std::vector<SurfaceTriangle>;
-using test::OracleCutter;
+using namespace test;
 
 constexpr double pi = std::numbers::pi;
 constexpr double wide = 40;  // mm
 constexpr double deep = 30;
-
-void add(Faces& to, const Faces& more) {
-  to.insert(to.end(), more.begin(), more.end());
-}
-
-SurfacePoint turned(const SurfacePoint& p, double degrees, double x, double y) {
-  const double c = std::cos(degrees * pi / 180);
-  const double s = std::sin(degrees * pi / 180);
-  return {x + (p.x - x) * c - (p.y - y) * s, y + (p.x - x) * s + (p.y - y) * c, p.z};
-}
 
 struct Span {
   double low;
@@ -51,17 +41,7 @@ struct Span {
 };
 // A block, turned about its middle.
 Faces block(Span x, Span y, Span z, double degrees = 0) {
-  const auto corner = [&](int i) {
-    const SurfacePoint p{(i & 1) != 0 ? x.high : x.low, (i & 2) != 0 ? y.high : y.low, (i & 4) != 0 ? z.high : z.low};
-    return turned(p, degrees, (x.low + x.high) / 2, (y.low + y.high) / 2);
-  };
-  constexpr int sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  Faces faces;
-  for (const auto& side : sides) {
-    faces.push_back({corner(side[0]), corner(side[1]), corner(side[2])});
-    faces.push_back({corner(side[0]), corner(side[2]), corner(side[3])});
-  }
-  return faces;
+  return turned(box(x.low, y.low, z.low, x.high, y.high, z.high), degrees, (x.low + x.high) / 2, (y.low + y.high) / 2);
 }
 
 Faces plate() {
@@ -104,31 +84,6 @@ Faces ball(double x, double y, double z, double radius, int parts) {
   }
   profile.front().radius = profile.back().radius = 0;
   return revolved(x, y, profile, parts);
-}
-
-// A surface with `columns` times `rows` squares, e.g. a scan.
-template <class Height>
-Faces terrain(int columns, int rows, const Height& height) {
-  std::vector<SurfacePoint> points;
-  for (int j = 0; j <= rows; ++j) {
-    for (int i = 0; i <= columns; ++i) {
-      const double x = wide * i / columns;
-      const double y = deep * j / rows;
-      points.push_back({x, y, height(x, y)});
-    }
-  }
-  Faces faces;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      const auto at = [&](int k, int l) {
-        return points[static_cast<std::size_t>(j + l) * static_cast<std::size_t>(columns + 1) +
-                      static_cast<std::size_t>(i + k)];
-      };
-      faces.push_back({at(0, 0), at(1, 0), at(1, 1)});
-      faces.push_back({at(0, 0), at(1, 1), at(0, 1)});
-    }
-  }
-  return faces;
 }
 
 struct Body {
@@ -198,11 +153,11 @@ void add_scans(std::vector<Body>& all) {
   const auto cliffs = [](double x, double y) {
     return 4 * std::round(0.5 + 0.5 * std::sin(x * 0.6 + std::sin(y * 0.4)));
   };
-  all.push_back({"hills", by_contours, {"ball:3"}, terrain(80, 60, hills)});
-  all.push_back({"scan of 24,000 triangles", by_rows, {"ball:3"}, terrain(128, 96, scan)});
-  all.push_back({"scan of 196,000 triangles", by_rows, {"ball:3"}, terrain(362, 271, scan)});
-  all.push_back({"rough scan", "--step 0.3", {"taper:1:10:3"}, terrain(160, 120, rough)});
-  all.push_back({"cliffs", by_contours, {"bull:3:0.5"}, terrain(80, 60, cliffs)});
+  all.push_back({"hills", by_contours, {"ball:3"}, terrain(wide, deep, 80, 60, hills)});
+  all.push_back({"scan of 24,000 triangles", by_rows, {"ball:3"}, terrain(wide, deep, 128, 96, scan)});
+  all.push_back({"scan of 196,000 triangles", by_rows, {"ball:3"}, terrain(wide, deep, 362, 271, scan)});
+  all.push_back({"rough scan", "--step 0.3", {"taper:1:10:3"}, terrain(wide, deep, 160, 120, rough)});
+  all.push_back({"cliffs", by_contours, {"bull:3:0.5"}, terrain(wide, deep, 80, 60, cliffs)});
 }
 
 std::vector<Body> bodies() {

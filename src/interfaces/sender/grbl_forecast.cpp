@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace passo {
 namespace {
@@ -13,13 +14,10 @@ namespace {
 constexpr double stretch_time = 1;         // s
 constexpr std::size_t most_lines = 20000;  // of a stretch
 
-struct SettingsBlock {
-  int first;
-  double fallback;
-};
-constexpr SettingsBlock steps_per_mm{100, 0};
-constexpr SettingsBlock velocity{110, 500};
-constexpr SettingsBlock acceleration{120, 10};
+// The first settings of each kind; that of the next axis follows.
+constexpr int steps_per_mm = 100;
+constexpr int velocity = 110;
+constexpr int acceleration = 120;
 
 // The axes of a plane, in the order that makes counterclockwise positive.
 std::pair<Axis, Axis> axes_of_plane(int plane) {
@@ -34,7 +32,6 @@ std::pair<Axis, Axis> axes_of_plane(int plane) {
 struct GrblForecast::Words {
   enum class Kind : std::uint8_t { modes, move, rest };
   Kind kind = Kind::modes;
-  bool rapid = false;
   std::optional<GrblPlanner::Arc> arc = {};
   Point end = {};
   MmPerSecond feed{0};
@@ -54,9 +51,9 @@ GrblLimits limits_of(const GrblMachine& machine) {
     const auto axis = axis_of(machine.axes[i]);
     if (!axis) continue;
     const int number = static_cast<int>(i);
-    limits.steps_per_mm[*axis] = setting(steps_per_mm.first + number, steps_per_mm.fallback);
-    limits.velocity[*axis] = MmPerSecond(setting(velocity.first + number, velocity.fallback) / 60);
-    limits.acceleration[*axis] = MmPerSecond2(setting(acceleration.first + number, acceleration.fallback));
+    limits.steps_per_mm[*axis] = setting(steps_per_mm + number, 0);
+    limits.velocity[*axis] = MmPerSecond(setting(velocity + number, 500) / 60);
+    limits.acceleration[*axis] = MmPerSecond2(setting(acceleration + number, 10));
   }
   return limits;
 }
@@ -110,8 +107,7 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
   const Point way = words.end - at_;
   double length2 = 0;
   for (const double part : way.values) length2 += part * part;
-  source_ = source;
-  weigh(text.size() + 1, std::sqrt(length2));
+  weigh(text.size() + 1, std::sqrt(length2), source);
   at_ = words.end;
 }
 
@@ -138,9 +134,9 @@ double GrblForecast::arrival(std::size_t bytes) {
 }
 
 // Finds the stretch of lines with the least motion per byte.
-void GrblForecast::weigh(std::size_t bytes, double length) {
+void GrblForecast::weigh(std::size_t bytes, double length, std::uint32_t source) {
   if (line_.bytes_per_second <= 0) return;
-  window_.push_back({.bytes = static_cast<double>(bytes), .length = length, .source = source_});
+  window_.push_back({.bytes = static_cast<double>(bytes), .length = length, .source = source});
   window_bytes_ += static_cast<double>(bytes);
   window_length_ += length;
   const double wanted = stretch_time * line_.bytes_per_second;

@@ -23,7 +23,7 @@ GrblMotion::GrblMotion(const ProgramReader& program, const MachineDescription& m
   forecast_.hear([this](const GrblPhase& phase) { add(phase); });
 }
 
-void GrblMotion::watch_operations(std::function<void(Operation&)> watcher) {
+void GrblMotion::watch_operations(std::function<void(const Operation&)> watcher) {
   checker_.watch_operations(std::move(watcher));
 }
 
@@ -41,10 +41,7 @@ bool GrblMotion::next(MotionItem& item) {
 }
 
 void GrblMotion::add(const PathItem& item) {
-  if (path_watcher_) {
-    PathItem copy = item;
-    path_watcher_(copy);
-  }
+  if (path_watcher_) path_watcher_(item);
   lines_.clear();
   if (!code_.write(item, lines_)) return;  // the check has reported it
   const std::uint32_t source = std::visit([](const auto& one) { return one.source.line; }, item);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "body_faces.hpp"
 #include "contact_oracle.hpp"
 #include <gmock/gmock.h>
 
@@ -13,7 +14,6 @@ namespace passo {
 namespace {
 
 using namespace test;
-using Faces = std::vector<SurfaceTriangle>;
 
 constexpr double wide = 16;
 constexpr double deep = 12;
@@ -134,6 +134,26 @@ OracleStock stock_of(const std::string& program) {
   return stock;
 }
 
+// The stock after both programs, neither of which cuts into the body.
+struct CutStock {
+  OracleStock top;
+  OracleStock bottom;
+  StockFlip flip;
+
+  // How thick the stock is at a place: the second side is seen from below.
+  double left(double x, double y) const {
+    const bool is_x = flip == StockFlip::left_to_right;
+    return high + top.at(x, y) + bottom.at(is_x ? wide - x : x, is_x ? y : deep - y);
+  }
+};
+CutStock cut_from_both_sides(const Faces& body, const SplitRelief& sides, StockFlip flip) {
+  const std::string top = written(sides.top, side_options(sides)).text;
+  const std::string bottom = written(sides.bottom, side_options(sides)).text;
+  EXPECT_LE(deepest(body, top), 1e-3);
+  EXPECT_LE(deepest(flipped(body, flip), bottom), 1e-3);
+  return {stock_of(top), stock_of(bottom), flip};
+}
+
 TEST(TwoSidedRelief, cuts_the_part_free_except_at_its_tabs) {
   constexpr double trench = 3.2;
   for (const StockFlip flip : {StockFlip::left_to_right, StockFlip::front_to_back}) {
@@ -142,17 +162,8 @@ TEST(TwoSidedRelief, cuts_the_part_free_except_at_its_tabs) {
         split(body, {.flip = flip, .trench = Mm(trench), .tab_height = Mm(1), .tab_width = Mm(3)});
     EXPECT_EQ(sides.tabs, 4U);
     EXPECT_LE(sides.hidden, 0.02);
-    const std::string top = written(sides.top, side_options(sides)).text;
-    const std::string bottom = written(sides.bottom, side_options(sides)).text;
-    EXPECT_LE(deepest(body, top), 1e-3);
-    EXPECT_LE(deepest(flipped(body, flip), bottom), 1e-3);
-    const OracleStock from_top = stock_of(top);
-    const OracleStock from_bottom = stock_of(bottom);
-    // How thick the stock is at a place: the second side is seen from below.
-    const auto left = [&](double x, double y) {
-      const bool is_x = flip == StockFlip::left_to_right;
-      return high + from_top.at(x, y) + from_bottom.at(is_x ? wide - x : x, is_x ? y : deep - y);
-    };
+    const CutStock stock = cut_from_both_sides(body, sides, flip);
+    const auto left = [&](double x, double y) { return stock.left(x, y); };
     // In the middle of the trench, all around.
     int tabs = 0;
     bool was_tab = left(wide + trench / 2, deep / 2 - 4) > 0;
@@ -182,16 +193,8 @@ TEST(TwoSidedRelief, holds_parts_whose_edge_is_thinner_than_the_tabs) {
     EXPECT_EQ(sides.tabs, 4U);
     EXPECT_GT(sides.on_part, Mm(0));
     EXPECT_LT(sides.on_part, Mm(2.5));
-    const std::string top = written(sides.top, side_options(sides)).text;
-    const std::string bottom = written(sides.bottom, side_options(sides)).text;
-    EXPECT_LE(deepest(body, top), 1e-3);
-    EXPECT_LE(deepest(flipped(body, flip), bottom), 1e-3);
-    const OracleStock from_top = stock_of(top);
-    const OracleStock from_bottom = stock_of(bottom);
-    const bool is_x = flip == StockFlip::left_to_right;
-    const auto left = [&](double x, double y) {
-      return high + from_top.at(x, y) + from_bottom.at(is_x ? wide - x : x, is_x ? y : deep - y);
-    };
+    const CutStock stock = cut_from_both_sides(body, sides, flip);
+    const auto left = [&](double x, double y) { return stock.left(x, y); };
     // The tab is as thick from the frame to where the part is.
     for (double x = wide + 1.6; x >= wide - 1; x -= 0.1) EXPECT_GE(left(x, deep / 2), 0.9) << x;
     EXPECT_LE(left(wide + 1.6, deep / 2 + 3), 0) << "beside the tab, the part is free";
@@ -199,8 +202,8 @@ TEST(TwoSidedRelief, holds_parts_whose_edge_is_thinner_than_the_tabs) {
     for (double share = 0; share < 0.96; share += 0.05) {
       const double x = wide / 2 * (1 + share * std::sqrt(0.5));
       const double y = deep / 2 * (1 + share * std::sqrt(0.5));
-      EXPECT_LE(left_above(body, from_top, x, y), 0.45) << share;
-      EXPECT_LE(left_above(flipped(body, flip), from_bottom, x, y), 0.45) << share;
+      EXPECT_LE(left_above(body, stock.top, x, y), 0.45) << share;
+      EXPECT_LE(left_above(flipped(body, flip), stock.bottom, x, y), 0.45) << share;
     }
   }
 }

@@ -336,9 +336,7 @@ int draw(const CamIsolateArguments& arguments, const MillJob& job, const RouteLi
                   .link = link};
   for (const CopperGap& gap : result.nets.gaps) scene.marks.push_back(gap.at);
   std::ranges::copy(result.plan.narrow_openings, std::back_inserter(scene.marks));
-  return write_picture(arguments.picture, job.program.name, [&](const PictureOptions& picture, OutputFile& file) {
-    return draw_mill_plan(scene, picture, file);
-  });
+  return write_picture(arguments.picture, job.program.name, scene);
 }
 
 }  // namespace

@@ -35,6 +35,12 @@ int write_picture(const std::string& path, const std::string& title,
   return done ? exit_done : fail(exit_failed, done.error().message);
 }
 
+int write_picture(const std::string& path, const std::string& title, const MillScene& scene) {
+  return write_picture(path, title, [&](const PictureOptions& options, OutputFile& file) {
+    return draw_mill_plan(scene, options, file);
+  });
+}
+
 ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths) {
   if (zero == "file") return {};
   if (zero == "lower-left") return {.is_lower_left = true};

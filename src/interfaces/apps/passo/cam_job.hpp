@@ -52,6 +52,7 @@ int write_text(const std::string& path, const std::string& text);
 // Draws into the file by calling `draw`. Returns an exit code.
 int write_picture(const std::string& path, const std::string& title,
                   const std::function<Status<OutputError>(const PictureOptions&, OutputFile&)>& draw);
+int write_picture(const std::string& path, const std::string& title, const MillScene& scene);
 
 struct MillJob {
   DrawingFileOptions reading;

@@ -269,9 +269,7 @@ int draw(const JobRun& run, const Trial& trial, std::size_t sheet) {
   }
   scene.rapids = trial.rapids;
   const std::string file_name = sheet_file(run.arguments.picture, sheet, run.sheets());
-  return write_picture(file_name, run.job.name, [&](const PictureOptions& options, OutputFile& file) {
-    return draw_mill_plan(scene, options, file);
-  });
+  return write_picture(file_name, run.job.name, scene);
 }
 
 int check_only(const JobRun& run) {

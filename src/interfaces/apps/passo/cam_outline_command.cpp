@@ -121,9 +121,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
                           .mark_name = "Tab",
                           .park = options.park,
                           .link = options.link};
-    const int code = write_picture(
-        arguments.picture, job.program.name,
-        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+    const int code = write_picture(arguments.picture, job.program.name, scene);
     if (code != exit_done) return code;
   }
   progress.update(1);

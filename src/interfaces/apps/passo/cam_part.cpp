@@ -105,9 +105,7 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
                           .warned_name = "Not reached",
                           .sheet = job.sheet,
                           .offcut = result.offcut};
-    const int code = write_picture(
-        arguments.picture, job.program.name,
-        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+    const int code = write_picture(arguments.picture, job.program.name, scene);
     if (code != exit_done) return code;
   }
   progress.update(1);

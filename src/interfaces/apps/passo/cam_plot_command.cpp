@@ -87,9 +87,7 @@ int draw_plot(const CamPlotArguments& arguments, const MillJob& job, const PlotP
                         .mark_name = "Dot",
                         .park = job.program.park,
                         .sheet = job.sheet};
-  return write_picture(arguments.picture, job.program.name, [&](const PictureOptions& picture, OutputFile& file) {
-    return draw_mill_plan(scene, picture, file);
-  });
+  return write_picture(arguments.picture, job.program.name, scene);
 }
 
 // The lines as thin areas. For a large plot this would take longer than everything else, and the path of the pen shows

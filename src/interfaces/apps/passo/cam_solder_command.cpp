@@ -48,9 +48,7 @@ int write_openings(const CamOpeningArguments& arguments, const MillJob& job, con
                    const std::string& words, CamMade* made) {
   if (const int code = write_program(arguments, scene.plan, job.program); code != exit_done) return code;
   if (!arguments.picture.empty()) {
-    const int code = write_picture(
-        arguments.picture, job.program.name,
-        [&](const PictureOptions& picture, OutputFile& file) { return draw_mill_plan(scene, picture, file); });
+    const int code = write_picture(arguments.picture, job.program.name, scene);
     if (code != exit_done) return code;
   }
   return tell(arguments.output, scene.plan, summary_of(scene.plan, job.program.park, arguments.units) + words, made);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/grbl/grbl_settings.hpp"
 #include "passo/judge/check_page.hpp"
 #include "passo/sender/grbl_motion.hpp"
 #include "passo/transport/board_address.hpp"
@@ -18,18 +19,17 @@ namespace {
 
 constexpr double bits_per_byte = 10;  // with start bit and stop bit
 
-GrblLimits limits_of(const MachineDescription& machine) {
-  GrblLimits limits;
-  for (const AxisDescription& axis : machine.axes) {
-    if (axis.axis > Axis::z) continue;
-    limits.steps_per_mm[axis.axis] = 1 / axis.step().value();
-    limits.velocity[axis.axis] = axis.velocity;
-    limits.acceleration[axis.axis] = axis.acceleration;
+// Of the machine file's settings only those of the axes: its $11 would be our path tolerance.
+GrblLimits limits_of_axes(const MachineDescription& machine) {
+  constexpr int first_of_axes = 100;
+  GrblMachine board{.axes = "XYZ"};
+  for (const GrblSetting& setting : grbl_settings(machine, {})) {
+    if (setting.number >= first_of_axes) board.hear(fmt::format("${}={}", setting.number, setting.value));
   }
-  return limits;
+  return limits_of(board);
 }
 
-// Which the connection limits: USB itself, and a network, are faster than every board.
+// The rate that limits the lines; 0: none does. USB itself and a network are faster than every board.
 double bytes_per_second(const BoardAddress& address, const GrblMachine& machine) {
   const bool is_native_usb = address.place.starts_with("/dev/ttyACM") && machine.firmware != "Grbl";
   return address.kind == BoardAddress::Kind::serial && !is_native_usb ? address.baud / bits_per_byte : 0;
@@ -39,7 +39,7 @@ double bytes_per_second(const BoardAddress& address, const GrblMachine& machine)
 
 std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescription& machine,
                                     InterpreterOptions& options, int& code) {
-  if (name == "grbl") return GrblBoard{.limits = limits_of(machine), .line = {}, .zero = {}};
+  if (name == "grbl") return GrblBoard{.limits = limits_of_axes(machine), .line = {}, .zero = {}};
   if (!names_grbl_machine(name)) {
     code = fail(exit_bad_program, name + ": --board of check takes grbl, grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT");
     return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
   set_offsets(options, board);
   options.start = sender.place().value_or(options.start);
   GrblBoard found{.firmware = board.firmware + " " + board.version,
-                  .limits = passo::limits_of(board),
+                  .limits = limits_of(board),
                   .line = {.bytes_per_second = bytes_per_second(*address, board), .buffer = sender.buffer_size()},
                   .zero = first_work_zero(board)};
   const auto& steps = found.limits.steps_per_mm.values;

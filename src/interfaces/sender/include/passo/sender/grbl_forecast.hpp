@@ -66,7 +66,7 @@ class GrblForecast {
 
   Seconds run(GrblPlanner& planner, const Words& words, Seconds when) const;
   double arrival(std::size_t bytes);
-  void weigh(std::size_t bytes, double length);
+  void weigh(std::size_t bytes, double length, std::uint32_t source);
 
   GrblLine line_;
   Point zero_;
@@ -74,7 +74,6 @@ class GrblForecast {
   int motion_ = 0;
   int plane_ = 17;
   double feed_ = 0;  // mm/s
-  std::uint32_t source_ = 0;
   GrblPlanner hindered_;
   GrblPlanner unhindered_;
   std::deque<Sent> unanswered_;

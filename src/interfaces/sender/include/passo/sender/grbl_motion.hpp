@@ -26,8 +26,8 @@ class GrblMotion final : public ProgramMotion {
              const GrblLimits& limits, const GrblLine& line, const Point& zero);
 
   [[nodiscard]] bool next(MotionItem& item) override;
-  void watch_operations(std::function<void(Operation&)> watcher) override;
-  void watch_path(std::function<void(PathItem&)> watcher) override { path_watcher_ = std::move(watcher); }
+  void watch_operations(std::function<void(const Operation&)> watcher) override;
+  void watch_path(std::function<void(const PathItem&)> watcher) override { path_watcher_ = std::move(watcher); }
   Seconds nominal_time() const override { return checker_.result().nominal_time; }
 
   // The times, after the last item.
@@ -43,7 +43,7 @@ class GrblMotion final : public ProgramMotion {
   ProgramChecker checker_;
   GrblCode code_;
   GrblForecast forecast_;
-  std::function<void(PathItem&)> path_watcher_;
+  std::function<void(const PathItem&)> path_watcher_;
   std::vector<std::string> lines_;
   std::optional<PlannedMove> move_;  // the one that gets phases
   std::deque<MotionItem> ready_;

@@ -35,8 +35,10 @@ class PlannedProgram final : public ProgramMotion {
   // For observers, which must be added before the first next().
   Tap<Operation>& operations() { return activity_.operations(); }
   Tap<PathItem>& path() { return activity_.path(); }
-  void watch_operations(std::function<void(Operation&)> watcher) override { operations().watch(std::move(watcher)); }
-  void watch_path(std::function<void(PathItem&)> watcher) override { path().watch(std::move(watcher)); }
+  void watch_operations(std::function<void(const Operation&)> watcher) override {
+    operations().watch(std::move(watcher));
+  }
+  void watch_path(std::function<void(const PathItem&)> watcher) override { path().watch(std::move(watcher)); }
   Seconds nominal_time() const override { return activity_.nominal_time(); }
 
  private:

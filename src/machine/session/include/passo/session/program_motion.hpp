@@ -14,8 +14,8 @@ namespace passo {
 class ProgramMotion : public Source<MotionItem> {
  public:
   // Observers must be added before the first next().
-  virtual void watch_operations(std::function<void(Operation&)> watcher) = 0;
-  virtual void watch_path(std::function<void(PathItem&)> watcher) = 0;
+  virtual void watch_operations(std::function<void(const Operation&)> watcher) = 0;
+  virtual void watch_path(std::function<void(const PathItem&)> watcher) = 0;
   // The nominal time of the motion planned so far.
   virtual Seconds nominal_time() const = 0;
 };
