@@ -9,6 +9,7 @@
 
 #include "passo/base/counted.hpp"
 #include "passo/cam/plot_plan.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 
 namespace passo {
 namespace {
