@@ -23,6 +23,11 @@ class FakeGrbl {
   // `each` is called in each iteration, in the machine's thread.
   explicit FakeGrbl(StrictGrbl machine, std::function<void(StrictGrbl&)> each = {})
       : machine_(std::move(machine)), each_(std::move(each)), listener_(socket(AF_INET, SOCK_STREAM, 0)) {
+    // As fast as a router, so that tests are short.
+    for (const int axis : {0, 1, 2}) {
+      machine_.put(110 + axis, 6000);
+      machine_.put(120 + axis, 500);
+    }
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
