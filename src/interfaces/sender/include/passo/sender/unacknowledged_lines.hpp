@@ -22,12 +22,20 @@ class UnacknowledgedLines {
     std::uint32_t line = 0;  // line of the program; 0: none
     Seconds silence{0};      // how long the machine may not respond because of it
     Seconds sent{0};
+    bool goes_on = false;  // a piece of a line, not its last one
+    bool marks = false;    // a question of the sender itself, which counts as no line
   };
 
   void add(Line line) { waiting_.push_back(std::move(line)); }
   // Returns the lines that fit into the machine's receive buffer, and marks them as sent. `size`: as reported by the
   // machine.
   std::string send(Seconds now, std::size_t size);
+  // Returns the next line if it fits; null otherwise.
+  const Line* next_fitting(std::size_t size) const;
+  // Marks the next line as sent, and returns it.
+  std::string send_next(Seconds now);
+  // Sends a mark before all waiting lines. Returns whether it fits.
+  bool send_mark(const std::string& text, Seconds now, std::size_t size);
   // Removes and returns the oldest line, which was acknowledged. Empty: the response belongs to none of our lines.
   std::optional<Line> take_answered();
   void drop_waiting() { waiting_.clear(); }
