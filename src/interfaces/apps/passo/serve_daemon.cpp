@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "machine_connection.hpp"
 #include "run_signals.hpp"
 #include <poll.h>
 
@@ -17,10 +18,10 @@ constexpr int most_turns = 5000;  // of one look
 
 }  // namespace
 
-ServeDaemon::ServeDaemon(MachineConnection& machine, GrblController& grbl, MachineControl& owner, Lines lines,
+ServeDaemon::ServeDaemon(ServedMachine machine, GrblController& grbl, MachineControl& owner, Lines lines,
                          ServedWeb* web, ServiceNotice& service)
-    : machine_(machine),
-      session_(machine.session()),
+    : machine_(std::move(machine)),
+      session_(machine_.session),
       grbl_(grbl),
       owner_(owner),
       lines_(std::move(lines)),
@@ -45,7 +46,7 @@ void ServeDaemon::stop() {
   if (web_ != nullptr) web_->leave();
   if (session_.busy()) try_request(session_, request::Stop{});
   while (session_.busy()) {
-    session_.poll(machine_.has_board() ? busy_look : Seconds(1));
+    session_.poll(machine_.has_board ? busy_look : Seconds(1));
     service_.alive();
   }
   hear_changes();
@@ -54,7 +55,7 @@ void ServeDaemon::stop() {
 // While the machine is busy, its board is waited for in poll(). A look that may not sleep would only cost: each socket
 // of each client is looked at again.
 void ServeDaemon::wait() {
-  if (session_.works() && machine_.has_board()) return;
+  if (session_.works() && machine_.has_board) return;
   Seconds most = session_.works() ? busy_look : idle_look;
   if (web_ != nullptr) most = web_->most_wait(most);
   if (most == Seconds(0)) return;
@@ -116,7 +117,7 @@ void ServeDaemon::hear_changes() {
 }
 
 void ServeDaemon::poll() {
-  if (machine_.has_board()) {
+  if (machine_.has_board) {
     session_.poll(session_.works() ? busy_look : Seconds(0));
     return hear_changes();
   }
