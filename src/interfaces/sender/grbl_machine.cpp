@@ -48,7 +48,7 @@ void GrblMachine::hear(std::string_view line) {
     if (letters != std::string_view::npos && letters + 1 < value.size()) axes = value.substr(letters + 1);
   } else if (name == "GC") {
     hear_modes(value);
-  } else if (is_system(name) || name == "G92" || name == "TLO") {
+  } else if (is_system(name) || name == "G28" || name == "G30" || name == "G92" || name == "TLO") {
     hear_offset(name, value);
   }
 }

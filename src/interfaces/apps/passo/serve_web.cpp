@@ -163,11 +163,18 @@ void ServedWeb::share_offsets(GrblController& grbl) {
   grbl.apply_offsets(api_.parameters());
   grbl.share_offsets([this](const SavedParameters& parameters) {
     api_.apply_offsets(parameters);
+    if (board_ != nullptr) board_->store_offsets(parameters);
     if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
   });
 }
 
+void ServedWeb::follow_offsets(GrblMachineSession& board) {
+  api_.apply_offsets(board.offsets(api_.parameters()));
+  board_ = &board;
+}
+
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
+  if (board_ != nullptr) board_->store_offsets(parameters);
   if (grbl_ != nullptr) grbl_->apply_offsets(parameters);
   return offsets_ ? offsets_->keep(parameters, tools) : std::string();
 }

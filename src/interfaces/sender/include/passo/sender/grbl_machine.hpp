@@ -18,7 +18,7 @@ struct GrblMachine {
   std::size_t blocks = 15;                    // size of its planner queue
   std::size_t bytes = 128;                    // size of its receive buffer
   std::map<int, double> settings = {};        // the settings $0 … and their values
-  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
+  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G59.1 …, G28, G30, G92, TLO
   std::string system = "G54";                 // the active work coordinate system
 
   // Processes a response line: [VER:…], [OPT:…], [AXS:…], [FIRMWARE:…], [GC:…], [G54:…], $n=…. Ignores other lines.
