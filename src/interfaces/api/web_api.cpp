@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "passo/api/api_routes.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -68,7 +69,9 @@ class WebApi::Parts {
                                                                                                              programs,
                                                                                                              offsets} {
     mdi.begin_anew();
-    session.board().sent_segments().keep(machine.board.clock);
+    if (BoardMachineSession* const own = session.as_board_session()) {
+      own->board().sent_segments().keep(machine.board.clock);
+    }
   }
 
   WebAnswer answer(const WebRequest& request, const FoundRoute& found, std::optional<Json> said = {}) {

@@ -51,18 +51,11 @@ void ServeDaemon::stop() {
   hear_changes();
 }
 
-// A board that is greeted anew is waited for: the time of an emulated one passes only meanwhile.
-bool ServeDaemon::works() const {
-  const BoardSession& board = session_.board();
-  const bool is_greeted = !board.ready() && !board.error();
-  return session_.busy() || session_.state() == MachineState::offline || is_greeted;
-}
-
 // While the machine is busy, its board is waited for in poll(). A look that may not sleep would only cost: each socket
 // of each client is looked at again.
 void ServeDaemon::wait() {
-  if (works() && machine_.has_board()) return;
-  Seconds most = works() ? busy_look : idle_look;
+  if (session_.works() && machine_.has_board()) return;
+  Seconds most = session_.works() ? busy_look : idle_look;
   if (web_ != nullptr) most = web_->most_wait(most);
   if (most == Seconds(0)) return;
   std::vector<pollfd> all;
@@ -124,7 +117,7 @@ void ServeDaemon::hear_changes() {
 
 void ServeDaemon::poll() {
   if (machine_.has_board()) {
-    session_.poll(works() ? busy_look : Seconds(0));
+    session_.poll(session_.works() ? busy_look : Seconds(0));
     return hear_changes();
   }
   for (int turns = 0; turns < most_turns; ++turns) {
@@ -139,7 +132,7 @@ void ServeDaemon::poll() {
 // Homing, or a person, may have said where the machine stands. Whoever kills the daemon then takes nothing of it away.
 void ServeDaemon::keep_place_if_changed() {
   const std::uint64_t version = session_.status().version;
-  if (works() || std::exchange(kept_version_, version) == version) return;
+  if (session_.works() || std::exchange(kept_version_, version) == version) return;
   machine_.keep_place();
 }
 

@@ -55,7 +55,6 @@ class ServeDaemon {
   void stop();
 
  private:
-  bool works() const;  // or is getting ready
   void wait();
   bool may_read(const SenderConnection& line) const;
   void attend(SenderConnection& line);
