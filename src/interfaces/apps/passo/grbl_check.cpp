@@ -22,7 +22,8 @@ constexpr double bits_per_byte = 10;  // with start bit and stop bit
 // Of the machine file's settings only those of the axes: its $11 would be our path tolerance.
 GrblLimits limits_of_axes(const MachineDescription& machine) {
   constexpr int first_of_axes = 100;
-  GrblMachine board{.axes = "XYZ"};
+  GrblMachine board;
+  board.axes = "XYZ";
   for (const GrblSetting& setting : grbl_settings(machine, {})) {
     if (setting.number >= first_of_axes) board.hear(fmt::format("${}={}", setting.number, setting.value));
   }
