@@ -85,16 +85,29 @@ class FirmwareFake {
   void run(double seconds) {
     read_lines();
     now_ += seconds;
-    while (!queue_.empty() && queue_.front().first <= now_) {
-      place_ = queue_.front().second;
+    while (!queue_.empty() && queue_.front().end <= now_) {
+      place_ = queue_.front().to;
       queue_.pop_front();
       read_lines();
+    }
+    if (!queue_.empty()) {
+      const Block& block = queue_.front();
+      const double share = std::max(0.0, (now_ - block.begun) / (block.end - block.begun));
+      for (auto& [letter, value] : place_) {
+        value = block.from.at(letter) + share * (block.to.at(letter) - block.from.at(letter));
+      }
     }
     read_lines();
   }
 
  private:
   using Setting = std::pair<std::string, std::string>;
+  struct Block {
+    double begun = 0;
+    double end = 0;
+    std::map<char, double> from;
+    std::map<char, double> to;
+  };
 
   std::vector<Setting>::const_iterator find(const std::string& name) const {
     return std::ranges::find(traits_.settings, name, &Setting::first);
@@ -189,10 +202,10 @@ class FirmwareFake {
     if (motion_ != 0 && feed_ <= 0) return "error:22";
     double duration = 0;
     if (motion_ != 0) duration = by_time_ ? 60 / feed_ : way(end, words) / (feed_ / 60);
-    target_ = end;
     moves_.push_back({.end = end, .duration = duration});
-    const double begun = queue_.empty() ? now_ : queue_.back().first;
-    queue_.emplace_back(begun + (duration > 0 ? duration : 0.01), end);
+    const double begun = queue_.empty() ? now_ : queue_.back().end;
+    queue_.push_back({.begun = begun, .end = begun + (duration > 0 ? duration : 0.01), .from = target_, .to = end});
+    target_ = end;
     return "ok";
   }
   // The way to which F applies.
@@ -221,7 +234,7 @@ class FirmwareFake {
   std::string output_;
   std::vector<std::string> lines_;
   std::vector<Move> moves_;
-  std::deque<std::pair<double, std::map<char, double>>> queue_;  // end of each move
+  std::deque<Block> queue_;
   std::map<char, double> place_;
   std::map<char, double> target_;
   double now_ = 0;

@@ -192,6 +192,7 @@ std::string settings_text(const GrblMachine& machine, std::span<const FirmwareSe
   std::string text =
       fmt::format("; settings of {} {}\n[VER:{}:]\n", machine.firmware, machine.version, machine.version);
   if (machine.firmware != "Grbl") text += fmt::format("[FIRMWARE:{}]\n", machine.firmware);
+  if (!machine.kinematics.empty()) text += fmt::format("[KINEMATICS:{}]\n", machine.kinematics);
   text += fmt::format("[AXS:{}:{}]\n", machine.axes.size(), machine.axes);
   for (const FirmwareSetting& setting : settings) text += fmt::format("{}={}\n", setting.name, setting.value);
   return text;

@@ -80,6 +80,8 @@ void GrblMachine::hear(std::string_view line) {
     hear_options(value);
   } else if (name == "NEWOPT") {
     new_options = value;
+  } else if (name == "KINEMATICS") {
+    kinematics = value;
   } else if (name == "AXS") {
     hear_axes(value);
   } else if (name == "ALARMCODE") {
@@ -172,6 +174,15 @@ std::optional<Point> GrblMachine::work_zero() const {
   for (const std::string_view name : {std::string_view(system), std::string_view("G92"), std::string_view("TLO")}) {
     const auto found = offsets.find(std::string(name));
     if (found != offsets.end()) zero = zero + found->second;
+  }
+  return zero;
+}
+
+Point first_work_zero(const GrblMachine& machine) {
+  Point zero;
+  for (const char* name : {"G54", "G92"}) {
+    const auto found = machine.offsets.find(name);
+    if (found != machine.offsets.end()) zero = zero + found->second;
   }
   return zero;
 }

@@ -322,6 +322,7 @@ void GrblSender::receive(std::string_view bytes, Seconds now) {
 void GrblSender::hear(std::string_view line) {
   constexpr std::string_view error = "error:";
   constexpr std::string_view alarm_head = "ALARM:";
+  const std::string_view with_blanks = line;
   line = without_blanks(line);
   if (const auto report = read_grbl_report(line, machine_.axes)) return hear_report(*report);
   told_ = now_;
@@ -340,7 +341,7 @@ void GrblSender::hear(std::string_view line) {
   if (line.starts_with(error)) return answer(without_blanks(line.substr(error.size())));
   if (line.starts_with(alarm_head)) return alarm(without_blanks(line.substr(alarm_head.size())));
   machine_.hear(line);
-  window_.note_said(line);
+  window_.note_said(with_blanks);
 }
 
 void GrblSender::hear_report(const GrblReport& report) {

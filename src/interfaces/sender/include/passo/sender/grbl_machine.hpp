@@ -21,6 +21,7 @@ struct GrblMachine {
   std::size_t bytes = 128;                    // size of its receive buffer
   std::string options = {};                   // the letters of [OPT:…]
   std::string new_options = {};               // grblHAL: "ENUMS,RT+,TC,SED"
+  std::string kinematics = {};                // if it tells any: "CoreXY"
   std::map<int, double> settings = {};        // the settings $0 … and their values
   std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
   std::string system = "G54";                 // the active work coordinate system
@@ -64,6 +65,9 @@ struct GrblMachine {
   bool was_asked_ = false;
   std::size_t told_bytes_ = 0;  // 0: not told yet
 };
+
+// Returns the zero of G54 including G92, machine coordinates, mm and degrees.
+Point first_work_zero(const GrblMachine& machine);
 
 // Returns whether a line is the greeting of a starting machine: "Grbl 1.1h ['$' for help]".
 bool is_grbl_greeting(std::string_view line);
