@@ -99,9 +99,9 @@ TEST_F(BoardSettings, become_a_machine_file) {
 
 TEST_F(BoardSettings, a_wire_cut_runs_on_a_board_with_its_four_axes) {
   const std::string foam = PASSO_SOURCE_DIR "/examples/machines/foam.toml";
-  auto outcome =
-      passo("cam wire " PASSO_SOURCE_DIR "/examples/foam/naca2412.dat --chord 20,15 --span 300 --width 200 -o " +
-            path("wing.ngc"));
+  auto outcome = passo("cam wire " PASSO_SOURCE_DIR
+                       "/examples/foam/naca2412.dat --axes XYUV --chord 20,15 --span 300 --width 200 -o " +
+                       path("wing.ngc"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Board board{FirmwareFake(test::grbl_mega_5x("XYUV"))};
   outcome = passo("check " + path("wing.ngc") + " -m " + foam + " --board " + board.address());
