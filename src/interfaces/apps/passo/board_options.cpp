@@ -21,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   passo board flash pico                                  flash a Pico that was plugged in with BOOTSEL held
   passo board info serial:/dev/ttyACM0                    show type, firmware and status
   passo board monitor serial:/dev/ttyACM0                 show inputs and step counters, live
+  passo board settings grbl:/dev/ttyUSB0                  show the settings of a Grbl board
   passo board info sim:uno                                the real firmware on an emulated chip
   passo board serve &                                     simulate a board on 127.0.0.1:7070
   passo board monitor tcp:127.0.0.1:7070 --count 1
@@ -64,6 +65,42 @@ void add_board_monitor_options(CLI::App& command, BoardMonitorArguments& argumen
   command.add_flag("--json", arguments.json, "one JSON object per line");
 }
 
+void add_board_settings_options(CLI::App& command, BoardSettingsArguments& arguments) {
+  command
+      .add_option("BOARD", arguments.board,
+                  "address: grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT; opening a serial port resets an Arduino")
+      ->required();
+  command.add_option("NAME", arguments.names, "show only these settings, with their meaning, e.g. 110 or '$110'");
+  CLI::Option* const set =
+      command
+          .add_option("--set", arguments.set,
+                      "write a setting, and read it back; may be given several times. A value out of its range, or one "
+                      "that the board rejects, leaves the old one")
+          ->type_name("NAME=VALUE")
+          ->allow_extra_args(false);
+  command.add_option("--save", arguments.save, "write all settings to this file, after changes; - is standard output")
+      ->type_name("FILE");
+  command
+      .add_option("--compare", arguments.compare,
+                  "show how the settings differ from this file; exit with code 1 if they do")
+      ->type_name("FILE")
+      ->excludes(set);
+  command.add_option("--restore", arguments.restore, "write the settings of this file that differ, one by one")
+      ->type_name("FILE")
+      ->excludes(set)
+      ->excludes("--compare");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
+  command.footer(
+      "Examples:\n"
+      "  passo board settings grbl:/dev/ttyUSB0                     all settings: name, value, unit, title\n"
+      "  passo board settings grbl:/dev/ttyUSB0 110 111             these two, with range and meaning\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --set 110=3000      write one\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --save router.txt   a copy before you change anything\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --compare router.txt\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --restore router.txt\n"
+      "Nothing is written without --set or --restore. Grbl, grblHAL, FluidNC and uCNC: docs/manual/grbl-machines.md");
+}
+
 void add_board_flash_options(CLI::App& command, BoardFlashArguments& arguments) {
   const std::vector<std::string> names(emulated_boards.begin(), emulated_boards.end());
   command.add_option("BOARD", arguments.board, "type of board")->required()->check(CLI::IsMember(names));
@@ -100,13 +137,15 @@ std::function<int()> add_board_help(CLI::App& board) {
 }
 
 std::span<const Command> board_commands() {
-  static constexpr std::array<Command, 5> commands{
+  static constexpr std::array<Command, 6> commands{
       {{"list", "list the boards on the serial ports",
         options_of<BoardListArguments, add_board_list_options, board_list>},
        {"info", "show a board's type, firmware and status",
         options_of<BoardInfoArguments, add_board_info_options, board_info>},
        {"monitor", "show a board's inputs, state and step counters, live",
         options_of<BoardMonitorArguments, add_board_monitor_options, board_monitor>},
+       {"settings", "show, write, save, compare and restore the settings of a Grbl board",
+        options_of<BoardSettingsArguments, add_board_settings_options, board_settings>},
        {"flash", "flash Passo's firmware onto a board",
         options_of<BoardFlashArguments, add_board_flash_options, board_flash>},
        {"serve", "simulate a board in real time on 127.0.0.1; SIGUSR1 acts as its reset button",

@@ -140,7 +140,7 @@ int explain(const ExplainArguments& arguments);
 
 struct MachineArguments {
   std::string machine;  // empty: with `from`
-  std::string from;     // the configuration file of another controller; empty: none
+  std::string from;     // the configuration file of another controller, or the address of a Grbl board; empty: none
   std::string format;   // of that file; empty: from its content
   std::string output;   // the new machine file; empty: standard output
   bool json = false;
@@ -170,6 +170,17 @@ struct BoardMonitorArguments {
   bool json = false;        // prints each line as a JSON object
 };
 int board_monitor(const BoardMonitorArguments& arguments);
+
+struct BoardSettingsArguments {
+  std::string board;               // an address "grbl:…"
+  std::vector<std::string> names;  // only these settings, with their meaning; empty: all
+  std::vector<std::string> set;    // NAME=VALUE
+  std::string save;                // a file for all settings
+  std::string compare;             // a file of settings
+  std::string restore;             // a file of settings, of which those that differ are written
+  bool json = false;
+};
+int board_settings(const BoardSettingsArguments& arguments);
 
 struct BoardFlashArguments {
   std::string board;   // uno, mega, or one of their variants with windings; pico

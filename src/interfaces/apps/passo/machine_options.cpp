@@ -112,7 +112,9 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
       command
           .add_option("--from", arguments.from,
                       "configuration file of another controller, from which to make a machine file: the answer of "
-                      "Grbl, grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML)")
+                      "Grbl, grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML). Or "
+                      "a Grbl board itself: grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT; opening a serial port resets an "
+                      "Arduino")
           ->excludes(machine);
   command
       .add_option("--format", arguments.format,
@@ -126,6 +128,7 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
       "Examples:\n  passo machine examples/machines/router.toml     show its axes, board and tool\n"
       "  passo machine mine.toml                         check your own file: show its errors, or what it describes\n"
       "  passo machine --from settings.txt -o mine.toml  make a machine file from the answer of Grbl to $$\n"
+      "  passo machine --from grbl:/dev/ttyUSB0 -o mine.toml  read the settings from the board\n"
       "  passo machine --from config.yaml > mine.toml    make one from FluidNC's configuration; the report of "
       "values used,\n"
       "                                                  assumed and not used goes to standard error\n"
