@@ -89,10 +89,16 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
       motion_ = static_cast<int>(value);
     } else if (letter == 'G' && value >= 17 && value <= 19) {
       plane_ = static_cast<int>(value);
+    } else if (letter == 'G' && (value == 93 || value == 94)) {
+      by_time_ = value == 93;
     }
   }
   if (has_axis) words.kind = Words::Kind::move;
-  words.feed = MmPerSecond(motion_ == 0 ? std::numeric_limits<double>::infinity() : feed_);
+  const Point way = words.end - at_;
+  double length2 = 0;
+  for (const double part : way.values) length2 += part * part;
+  const double feed = by_time_ ? feed_ * std::sqrt(length2) : feed_;
+  words.feed = MmPerSecond(motion_ == 0 ? std::numeric_limits<double>::infinity() : feed);
   if (has_axis && motion_ >= 2) {
     const auto [first, second] = axes_of_plane(plane_);
     words.arc = {.first = first,
@@ -104,9 +110,6 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
   const double answered = run(hindered_, words, Seconds(arrival(text.size() + 1))).value();
   unanswered_.back().answered = answered_ = answered;
   answered_unhindered_ = run(unhindered_, words, Seconds(answered_unhindered_)).value();
-  const Point way = words.end - at_;
-  double length2 = 0;
-  for (const double part : way.values) length2 += part * part;
   weigh(text.size() + 1, std::sqrt(length2), source);
   at_ = words.end;
 }

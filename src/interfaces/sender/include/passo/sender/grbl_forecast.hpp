@@ -73,7 +73,8 @@ class GrblForecast {
   Point at_;  // machine coordinates
   int motion_ = 0;
   int plane_ = 17;
-  double feed_ = 0;  // mm/s
+  double feed_ = 0;       // mm/s; of an inverse time: moves per second
+  bool by_time_ = false;  // G93
   GrblPlanner hindered_;
   GrblPlanner unhindered_;
   std::deque<Sent> unanswered_;
