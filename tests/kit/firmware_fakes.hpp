@@ -37,6 +37,7 @@ struct FirmwareTraits {
   // Returns the error of a new value, or changes it as the firmware does; 0: it is stored.
   std::function<int(const std::string& name, std::string& value)> store = {};
   bool shows_buffer = true;
+  bool is_core_xy = false;  // F applies to the motors x + y and x - y
 };
 
 class FirmwareFake {
@@ -214,7 +215,7 @@ class FirmwareFake {
     double linear = 0;
     for (const auto& [letter, value] : end) {
       const double part = value - target_.at(letter);
-      all += part * part;
+      all += part * part * (traits_.is_core_xy && (letter == 'X' || letter == 'Y') ? 2 : 1);
       if (traits_.linear.find(letter) != std::string::npos) linear += part * part;
     }
     if (motion_ >= 2) {
@@ -224,7 +225,8 @@ class FirmwareFake {
       const double to = std::atan2(end.at('Y') - target_.at('Y') - j, end.at('X') - target_.at('X') - i);
       double turn = motion_ == 3 ? to - from : from - to;
       if (turn <= 1e-9) turn += 2 * std::numbers::pi;
-      return std::hypot(turn * std::hypot(i, j), end.at('Z') - target_.at('Z'));
+      const double factor = traits_.is_core_xy ? std::numbers::sqrt2 : 1;
+      return std::hypot(factor * turn * std::hypot(i, j), end.at('Z') - target_.at('Z'));
     }
     return std::sqrt(linear > 0 ? linear : all);
   }

@@ -88,7 +88,9 @@ Status<std::string> GrblCode::write_segment(const Segment& segment, std::vector<
   const bool is_round = curve.shape() == Curve::Shape::arc;
   const Curve::ArcData& arc = curve.arc_data();
   const bool is_grbl_arc = is_round && std::abs(arc.end_radius - arc.start_radius) <= same_radius;
-  if (is_grbl_arc && !moves_beyond_xyz(curve)) {
+  // The motors of a CoreXY move by other ways in an arc that is not in the XY plane.
+  const bool is_even = !target_.measures_motors || plane_of(arc).code == 17;
+  if (is_grbl_arc && is_even && !moves_beyond_xyz(curve)) {
     write_arc(curve, feed, lines);
   } else if (curve.shape() != Curve::Shape::line) {
     write_chords(curve, feed, lines);
@@ -119,21 +121,20 @@ void GrblCode::write_line(const Point& start, const Point& end, double feed, dou
     lines.push_back(code_words(0, 0) + words);
     return;
   }
-  double squares = 0;  // over all axes, as Grbl measures
-  double beyond_xyz = 0;
+  const Point step = end - start;
+  bool beyond_xyz = false;
   bool turns = false;
   bool shifts = false;
   for (const Axis axis : all_axes) {
-    const double part = end[axis] - start[axis];
-    squares += part * part;
-    if (!is_xyz(axis)) beyond_xyz += part * part;
-    if (part != 0) (is_rotary(axis) ? turns : shifts) = true;
+    if (step[axis] == 0) continue;
+    beyond_xyz = beyond_xyz || !is_xyz(axis);
+    (is_rotary(axis) ? turns : shifts) = true;
   }
   const bool by_time = turns && shifts && target_.feed_way == GrblFirmware::FeedWay::depends_on_build;
   if (by_time) {
     feed /= length;
-  } else if (beyond_xyz > 0 && length > 0) {
-    feed *= std::sqrt(squares) / length;
+  } else if ((beyond_xyz || target_.measures_motors) && length > 0) {
+    feed *= target_.way(step) / length;
   }
   lines.push_back(code_words(1, feed, by_time) + words);
 }
@@ -147,6 +148,10 @@ void GrblCode::write_arc(const Curve& curve, double feed, std::vector<std::strin
   const double turn = std::abs(arc.sweep) / pieces;
   if (2 * arc.start_radius * std::sin(turn / 2) < shortest_arc) return write_chords(curve, feed, lines);
   const ArcPlane plane = plane_of(arc);
+  if (target_.measures_motors) {
+    const double rise = curve.end()[Axis::z] - curve.start()[Axis::z];
+    feed *= std::sqrt(2 - rise * rise / (length * length));
+  }
   for (int i = 0; i < pieces; ++i) {
     // From where the machine truly stands: there the rounding of the last end is.
     const Place from = rounded(curve.at(Mm(length * i / pieces)));

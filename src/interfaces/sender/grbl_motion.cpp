@@ -20,7 +20,7 @@ GrblMotion::GrblMotion(const ProgramReader& program, const MachineDescription& m
                        const GrblTarget& target)
     : checker_(program.again(), machine, options, unheard_),
       code_(target),
-      forecast_(limits, line, options.start, target.zero) {
+      forecast_(limits, line, options.start, target) {
   checker_.watch([this](const PathItem& item) { add(item); });
   forecast_.hear([this](const GrblPhase& phase) { add(phase); });
 }

@@ -135,6 +135,31 @@ TEST_F(GrblAxes, a_turned_part_takes_the_programs_time_on_each_firmware) {
   }
 }
 
+// Grbl built for a CoreXY divides the way of the two motors by F.
+TEST_F(GrblAxes, a_core_xy_moves_as_fast_as_the_program_says) {
+  const std::string text =
+      "G21 G90\n"
+      "G1 X10 F600\n"
+      "X20 Y10 Z10\n"
+      "Z0\n"
+      "G3 X20 Y30 I0 J10 Z5\n"
+      "G18 G2 X10 Z5 I-5 K0\n"
+      "M2\n";
+  for (const bool is_core_xy : {false, true}) {
+    test::FirmwareTraits traits = test::grbl_mega();
+    traits.is_core_xy = is_core_xy;
+    if (is_core_xy) traits.about.back() = "[OPT:VC,35,255]";
+    FakePair pair(traits);
+    const auto lines = played(pair, test::example_machine("router"), text);
+    EXPECT_NEAR(lines.at(2).duration, 1, 1e-3);
+    EXPECT_NEAR(lines.at(3).duration, std::sqrt(300) / 10, 1e-3);
+    EXPECT_NEAR(lines.at(4).duration, 1, 1e-3);
+    EXPECT_NEAR(lines.at(5).duration, std::hypot(10 * std::numbers::pi, 5) / 10, 2e-3);
+    EXPECT_EQ(lines.at(5).moves, 1U);
+    if (is_core_xy) EXPECT_NEAR(lines.at(6).duration, 5 * std::numbers::pi / 10, 2e-3) << "chords";
+  }
+}
+
 TEST_F(GrblAxes, an_axis_that_the_board_does_not_have_is_an_error_at_its_line) {
   const Diagnostics findings = check(test::grbl_mega(), rotary(), "G21\nG0 X1\nG0 A90\nM2\n");
   ASSERT_TRUE(findings.any_error());
