@@ -123,15 +123,14 @@ class GapFinder {
     const Nanometres reach = finest + margin;
     const MilledPlaces places(plan);
     const auto is_milled = [&](DrawnPoint place) { return places.has(place); };
-    add(find_gaps(islands_, group_, reach, is_milled));
     // Between two long edges the cutter may have milled the mouths of a gap, where the corners are.
-    if (const std::vector<std::size_t> loose = loose_groups(); !loose.empty()) {
-      std::vector<Region> fine(islands_.size());
-      for (std::size_t i = 0; i < fine.size(); ++i) {
-        if (std::ranges::count(loose, loose[i]) > 1) fine[i] = with_corners(islands_[i], {finest.count / 4});
-      }
-      add(find_gaps(fine, loose, reach, is_milled));
+    std::vector<Region> fine(islands_.size());
+    std::map<std::size_t, std::size_t> sizes;
+    for (const std::size_t number : group_) ++sizes[number];
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      if (sizes[group_[i]] > 1) fine[i] = with_corners(islands_[i], {finest.count / 4});
     }
+    add(find_gaps(fine, group_, reach, is_milled));
     // What is left between them may be thinner than the steps. The narrowest place is near it.
     if (const std::vector<std::size_t> loose = loose_groups(); !loose.empty()) add(find_gaps(islands_, loose, reach));
     std::ranges::sort(gaps_, {}, [](const CopperGap& gap) { return std::pair(gap.width, gap.at); });
