@@ -139,7 +139,7 @@ TEST(GrblDialects, numbers_belong_to_the_axes_that_the_machine_has) {
   five.machine.more_of_itself = "[AXS:5:XYZAB]\r\n";
   five.machine.own_report = [] { return std::string("<Idle|MPos:1.000,2.000,3.000,90.000,45.000>"); };
   ASSERT_TRUE(five.greet());
-  EXPECT_EQ(*five.sender.place(), (Point{{1, 2, 3}})) << "Passo moves X, Y and Z alone";
+  EXPECT_EQ(*five.sender.place(), (Point{{1, 2, 3, 90, 45}}));
 
   GrblPair lathe;
   lathe.machine.more_of_itself = "[AXS:2:XZ]\r\n";

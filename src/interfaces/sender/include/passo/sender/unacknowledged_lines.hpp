@@ -10,10 +10,19 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "passo/units/units.hpp"
 
 namespace passo {
+
+// What the machine says to a line, other than reports and ok.
+struct GrblAnswer {
+  std::string line;
+  std::vector<std::string> said = {};
+  std::string error = {};  // "error:3, the '$' command is unknown"; empty: ok
+};
 
 class UnacknowledgedLines {
  public:
@@ -24,6 +33,8 @@ class UnacknowledgedLines {
     Seconds sent{0};
     bool goes_on = false;  // a piece of a line, not its last one
     bool marks = false;    // a question of the sender itself, which counts as no line
+    bool asks = false;  // its answer is wanted; a rejection is no fault
+    std::vector<std::string> said = {};
   };
 
   void add(Line line) { waiting_.push_back(std::move(line)); }
@@ -38,9 +49,14 @@ class UnacknowledgedLines {
   bool send_mark(const std::string& text, Seconds now, std::size_t size);
   // Removes and returns the oldest line, which was acknowledged. Empty: the response belongs to none of our lines.
   std::optional<Line> take_answered();
+  // Notes what the machine says, if the oldest line asks.
+  void note_said(std::string_view text);
+  void keep_reply(Line line, std::string error);
+  std::optional<GrblAnswer> take_reply();
   void drop_waiting() { waiting_.clear(); }
   void drop_sent() {
     sent_.clear();
+    lines_answered_ = lines_sent_;
     sent_bytes_ = 0;
   }
 
@@ -55,6 +71,7 @@ class UnacknowledgedLines {
   const Line* oldest() const { return sent_.empty() ? nullptr : &sent_.front(); }
   std::size_t sent_bytes() const { return sent_bytes_; }
   std::uint64_t lines_sent() const { return lines_sent_; }
+  std::uint64_t lines_answered() const { return lines_answered_; }
 
   // Program lines. Returns the last one sent; 0 if there was none.
   std::uint32_t last_line() const { return last_line_; }
@@ -69,9 +86,11 @@ class UnacknowledgedLines {
   std::deque<Line> sent_;
   std::size_t sent_bytes_ = 0;
   std::uint64_t lines_sent_ = 0;
+  std::uint64_t lines_answered_ = 0;
   std::size_t empty_buffer_ = std::numeric_limits<std::size_t>::max();
   std::uint32_t last_line_ = 0;
   std::deque<std::uint32_t> held_;
+  std::deque<GrblAnswer> replies_;
 };
 
 }  // namespace passo
