@@ -7,12 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "passo/geometry/euclid.hpp"
 #include "passo/sender/grbl_reply.hpp"
 
 namespace passo {
 namespace {
 
-constexpr double reported_within = 0.01;     // mm: reports have three decimals
+constexpr double report_resolution = 0.01;     // mm: reports have three decimals
 constexpr double steps_beside_the_path = 2;  // of each motor
 constexpr int most_strikes = 2;
 constexpr double kept_behind = 0.5;      // mm of the path behind the known position
@@ -20,16 +21,6 @@ constexpr double shortest_chord = 0.06;  // mm, from end to end of an arc
 constexpr double smallest_speed = 0.05;  // mm/s
 constexpr double response = 0.1;         // s: the connection and the host
 constexpr double most_pieces = 2000;     // of one line
-
-double dot(const Point& a, const Point& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < axis_count; ++i) sum += a.values[i] * b.values[i];
-  return sum;
-}
-
-double length_of_way(const Point& way) {
-  return std::sqrt(dot(way, way));
-}
 
 // As GrblCode writes numbers.
 std::string number_text(double value) {
@@ -73,12 +64,12 @@ GrblFollower::GrblFollower(const GrblLimits& limits, const Point& start, const P
       sent_from_(start) {
   double squares = 0;
   for (const double per_mm : limits.steps_per_mm.values) squares += per_mm > 0 ? 1 / (per_mm * per_mm) : 0;
-  tolerance_ = reported_within + limits.arc_tolerance.value() + steps_beside_the_path * std::sqrt(squares);
+  tolerance_ = report_resolution + limits.arc_tolerance.value() + steps_beside_the_path * std::sqrt(squares);
 }
 
 double GrblFollower::speed_of(const Point& from, const Point& to, MmPerSecond feed) const {
   const Point way = to - from;
-  const double length = length_of_way(way);
+  const double length = length_of(way);
   double speed = feed.value();
   for (const Axis axis : all_axes) {
     const double part = std::abs(way[axis]);
@@ -91,7 +82,7 @@ double GrblFollower::speed_of(const Point& from, const Point& to, MmPerSecond fe
 
 double GrblFollower::duration_of(const GrblLineMotion& line) const {
   if (line.kind != GrblLineMotion::Kind::move) return 0;
-  double length = length_of_way(line.end - line.start);
+  double length = length_of(line.end - line.start);
   if (line.arc) length = std::abs(turn_of(line)) * std::hypot(line.arc->first_center, line.arc->second_center);
   return length / speed_of(line.start, line.end, line.feed);
 }
@@ -241,7 +232,7 @@ void GrblFollower::sent(std::string_view text, std::uint32_t line, Seconds now) 
 
 void GrblFollower::add_leg(const Point& end, MmPerSecond feed, std::uint32_t line) {
   const Point from = sent_from_;
-  Leg leg{.from = from, .to = end, .begin = path_length_, .length = length_of_way(end - from), .line = line};
+  Leg leg{.from = from, .to = end, .begin = path_length_, .length = length_of(end - from), .line = line};
   leg.speed = speed_of(from, end, feed);
   path_length_ += leg.length;
   waiting_.push_back({.end = end,
@@ -308,7 +299,7 @@ std::optional<double> GrblFollower::nearest_on_path(const Point& place, double e
     double along = leg.length > 0 ? dot(place - leg.from, way) / leg.length : 0;
     along = std::clamp(along, 0.0, leg.length);
     const Point foot = leg.length > 0 ? leg.from + way * (along / leg.length) : leg.from;
-    if (length_of_way(place - foot) > tolerance_) continue;
+    if (length_of(place - foot) > tolerance_) continue;
     // All places of the leg within the tolerance are possible.
     const double found = leg.begin + std::clamp(expected - leg.begin, std::max(0.0, along - tolerance_),
                                                 std::min(leg.length, along + tolerance_));
@@ -343,7 +334,7 @@ std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool
   if (lost_ || legs_.empty()) return {};
   ends = ends && ends_in_rest_;
   const Leg& last = legs_.back();
-  const double beside_end = length_of_way(place - last.to);
+  const double beside_end = length_of(place - last.to);
   if (const auto along = nearest_on_path(place, model_place()); along && (!ends || beside_end <= tolerance_)) {
     strikes_ = 0;
     correct(*along, rests);
@@ -357,7 +348,7 @@ std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool
       const Point way = leg.to - leg.from;
       const double along = leg.length > 0 ? std::clamp(dot(place - leg.from, way) / leg.length, 0.0, leg.length) : 0;
       const Point foot = leg.length > 0 ? leg.from + way * (along / leg.length) : leg.from;
-      nearest = std::min(nearest, length_of_way(place - foot));
+      nearest = std::min(nearest, length_of(place - foot));
     }
   }
   return Trouble{

@@ -1,25 +1,19 @@
 #include "passo/sender/grbl_line_reader.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
 
 // The axes of a plane, in the order that makes counterclockwise positive.
-std::pair<Axis, Axis> plane_axes(int plane) {
+std::pair<Axis, Axis> axes_in_plane(int plane) {
   if (plane == 18) return {Axis::z, Axis::x};
   if (plane == 19) return {Axis::y, Axis::z};
   return {Axis::x, Axis::y};
-}
-
-double distance_between(const Point& from, const Point& to) {
-  const Point way = to - from;
-  double squares = 0;
-  for (const double part : way.values) squares += part * part;
-  return std::sqrt(squares);
 }
 
 }  // namespace
@@ -77,10 +71,10 @@ GrblLineMotion GrblLineReader::read(std::string_view text) {
   if (!has_axis_) return line;
   line.kind = GrblLineMotion::Kind::move;
   const double per_second = modes_.feed / 60;
-  line.feed = MmPerSecond(modes_.by_time ? per_second * distance_between(line.start, line.end) : per_second);
+  line.feed = MmPerSecond(modes_.by_time ? per_second * distance(line.start, line.end) : per_second);
   if (modes_.motion == 0) line.feed = MmPerSecond(std::numeric_limits<double>::infinity());
   if (modes_.motion >= 2) {
-    const auto [first, second] = plane_axes(modes_.plane);
+    const auto [first, second] = axes_in_plane(modes_.plane);
     line.arc = {.first = first,
                 .second = second,
                 .first_center = center_[first],

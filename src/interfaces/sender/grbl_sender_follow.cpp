@@ -48,7 +48,7 @@ std::string GrblSender::send_lines(Seconds now) {
 }
 
 bool GrblSender::wants_mark() const {
-  if (unmarked_ == 0 || !has_work()) return false;
+  if (unmarked_ == 0 || !has_work() || !follower_->knows_path()) return false;
   return unmarked_ >= lines_between_marks || now_ - marked_ >= between_marks || window_.waiting() == 0;
 }
 

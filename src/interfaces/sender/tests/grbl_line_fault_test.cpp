@@ -1,19 +1,23 @@
 // Faults on the line to a machine that is followed: each one that matters is noticed, and nothing is sent twice.
 #include <array>
-#include <cmath>
+#include <functional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "followed_pair.hpp"
+#include "kit/grbl_contour.hpp"
 #include "kit/in_full.hpp"
 #include "kit/man_in_the_middle.hpp"
 #include "kit/seed.hpp"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace passo {
 namespace {
 
 // What came of a fault.
-enum class Outcome : std::uint8_t {
+enum class FaultOutcome : std::uint8_t {
   noticed,
   harmless,  // the machine has made the same motion
   small,     // a deviation within the tolerance, or one that began and ended between two reports
@@ -21,56 +25,13 @@ enum class Outcome : std::uint8_t {
 };
 constexpr std::array outcome_names = {"noticed", "harmless", "too small or too short", "MISSED"};
 
-struct Contour {
-  std::vector<std::string> lines;
-  std::vector<Point> points = {Point()};
-};
-
-// Random moves of 4 to 12 mm, at changing feeds and spindle speeds.
-Contour random_contour(std::mt19937_64& random) {
-  Contour contour{.lines = {"M3S1000"}};
-  const auto number = [&](int from, int to) { return std::uniform_int_distribution<int>(from, to)(random); };
-  Point place;
-  for (int i = 0; i < 40; ++i) {
-    const double angle = 0.001 * number(0, 6283);
-    const double length = number(4, 12);
-    place[Axis::x] += std::round(length * std::cos(angle) * 1e4) / 1e4;
-    std::string line = i == 0 ? "G1F1500" : number(0, 9) == 0 ? fmt::format("F{}", number(6, 18) * 100) : "";
-    line += fmt::format("X{:.4f}", place[Axis::x]);
-    if (i == 0 || number(0, 4) != 0) {
-      place[Axis::y] += std::round(length * std::sin(angle) * 1e4) / 1e4;
-      line += fmt::format("Y{:.4f}", place[Axis::y]);
-    }
-    contour.lines.push_back(line);
-    contour.points.push_back(place);
-    if (number(0, 19) == 0) contour.lines.push_back(fmt::format("M3S{}", number(5, 20) * 100));
-  }
-  contour.lines.emplace_back("G4P0");
-  return contour;
-}
-
-double beside(const Contour& contour, const Point& place) {
-  double nearest = 1e9;
-  for (std::size_t i = 1; i < contour.points.size(); ++i) {
-    const Point& from = contour.points[i - 1];
-    const Point way = contour.points[i] - from;
-    const Point to = place - from;
-    const double length2 = way[Axis::x] * way[Axis::x] + way[Axis::y] * way[Axis::y];
-    const double along = to[Axis::x] * way[Axis::x] + to[Axis::y] * way[Axis::y];
-    const Point foot = from + way * std::clamp(length2 > 0 ? along / length2 : 0, 0.0, 1.0);
-    nearest = std::min(
-        nearest, std::hypot(place[Axis::x] - foot[Axis::x], place[Axis::y] - foot[Axis::y]) + std::abs(place[Axis::z]));
-  }
-  return nearest;
-}
-
 std::string spoilt(test::ManInTheMiddle& man, bool to_board, const std::string& bytes) {
   const test::Bytes passed = man(to_board, test::Bytes(bytes.begin(), bytes.end()));
   return {passed.begin(), passed.end()};
 }
 
 struct Trial {
-  Outcome outcome = Outcome::missed;
+  FaultOutcome outcome = FaultOutcome::missed;
   std::string told;
   double most_beside = 0;    // mm
   double noticed_after = 0;  // s from the fault
@@ -80,7 +41,7 @@ struct Trial {
 // One frame is spoilt, of the motion.
 Trial try_fault(test::Mischief mischief, bool to_board, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const Contour contour = random_contour(random);
+  const test::GrblContour contour = test::random_grbl_contour(random);
   const int at = std::uniform_int_distribution<int>(100, 1800)(random);
   FollowedPair pair;
   EXPECT_TRUE(pair.begin());
@@ -109,7 +70,7 @@ Trial try_fault(test::Mischief mischief, bool to_board, std::uint64_t seed) {
         if (pair.sender.waits_for().empty()) asked_since = pair.now;
         if (pair.now - asked_since > Seconds(1)) pair.sender.resume();
         if (++looks % 4 != 0) return;
-        const double off = beside(contour, pair.machine.place());
+        const double off = test::beside(contour, pair.machine.place());
         trial.most_beside = std::max(trial.most_beside, off);
         if (off < 0.05) beside_since = -1;
         if (off >= 0.05 && beside_since < 0) beside_since = pair.now.value();
@@ -120,12 +81,12 @@ Trial try_fault(test::Mischief mischief, bool to_board, std::uint64_t seed) {
   EXPECT_TRUE(ends) << "it does not end: seed " << seed;
   trial.sent_twice = pair.sender.lines_sent() > contour.lines.size() + 4;  // $I $$ $# $G
   if (pair.sender.fault()) {
-    trial.outcome = Outcome::noticed;
+    trial.outcome = FaultOutcome::noticed;
     trial.told = pair.sender.fault()->code;
   } else if (trial.most_beside < 0.005 && pair.machine.parser_modes().speed > 0) {
-    trial.outcome = Outcome::harmless;
+    trial.outcome = FaultOutcome::harmless;
   } else if (longest_beside < 2 * GrblSender::between_questions.value() + 0.05) {
-    trial.outcome = Outcome::small;
+    trial.outcome = FaultOutcome::small;
   }
   return trial;
 }
@@ -141,10 +102,10 @@ TEST(GrblLineFaults, are_noticed_or_do_nothing) {
     const bool to_board = i / static_cast<int>(test::every_mischief.size()) % 4 != 0;
     const Trial trial = try_fault(test::every_mischief[kind], to_board, seed);
     ++table[kind][static_cast<std::size_t>(trial.outcome)];
-    EXPECT_NE(trial.outcome, Outcome::missed)
+    EXPECT_NE(trial.outcome, FaultOutcome::missed)
         << name_of(test::every_mischief[kind]) << ", seed " << seed << ": " << trial.most_beside << " mm beside";
     EXPECT_FALSE(trial.sent_twice) << "seed " << seed;
-    if (trial.outcome == Outcome::noticed) latest = std::max(latest, trial.noticed_after);
+    if (trial.outcome == FaultOutcome::noticed) latest = std::max(latest, trial.noticed_after);
   }
   for (std::size_t kind = 0; kind < table.size(); ++kind) {
     fmt::print("{:8}", name_of(test::every_mischief[kind]));
@@ -152,6 +113,66 @@ TEST(GrblLineFaults, are_noticed_or_do_nothing) {
     fmt::print("\n");
   }
   fmt::print("noticed within {:.2f} s\n", latest);
+}
+
+// What happens at the board during motion, and when and how it is told.
+struct Accident {
+  const char* name;
+  std::function<void(FollowedPair&)> happens;
+  std::vector<std::string> codes;
+};
+
+TEST(GrblLineFaults, an_accident_in_motion_ends_in_a_stated_state_within_two_seconds) {
+  const auto unplug = [](FollowedPair& pair) { pair.between = [](bool, const std::string&) { return std::string(); }; };
+  const std::vector<Accident> accidents = {
+      {"a reset by DTR", [](FollowedPair& pair) { pair.machine.restart(); }, {"grbl.restarted"}},
+      {"a reset with a slow start",
+       [](FollowedPair& pair) {
+         pair.machine.boot_time = 1.6;
+         pair.machine.restart();
+       },
+       {"grbl.restarted"}},
+      {"a banner", [](FollowedPair& pair) { pair.machine.say("\r\nGrbl 1.1h ['$' for help]"); }, {"grbl.restarted"}},
+      {"a device that vanishes", [](FollowedPair& pair) { pair.sender.lose(); }, {"grbl.line-lost"}},
+      {"a line that is cut", unplug, {"grbl.no-answer"}},
+      {"a line that is cut for a second",
+       [](FollowedPair& pair) {
+         const Seconds end = pair.now + Seconds(1);
+         pair.between = [&pair, end](bool, const std::string& bytes) { return pair.now < end ? std::string() : bytes; };
+       },
+       {"grbl.lost-lines", "grbl.off-path", "grbl.lost-bytes", "grbl.error", "grbl.no-answer"}},
+      {"another program resets it",
+       [](FollowedPair& pair) { pair.machine.receive("\x18"); },
+       {"grbl.alarm", "grbl.restarted"}},
+      {"another program moves it", [](FollowedPair& pair) { pair.machine.receive("G91G0X5Y5\nG90\n"); },
+       {"grbl.lost-lines", "grbl.off-path", "grbl.changed-line", "grbl.error"}},
+  };
+  for (const Accident& accident : accidents) {
+    for (unsigned at = 1; at <= 5; ++at) {
+      std::mt19937_64 random(at);
+      const test::GrblContour contour = test::random_grbl_contour(random);
+      FollowedPair pair;
+      ASSERT_TRUE(pair.begin());
+      static_cast<void>(pair.run(contour.lines, {}, Seconds(1.37 * at)));
+      ASSERT_FALSE(pair.sender.fault()) << accident.name;
+      const std::uint64_t sent = pair.sender.lines_sent();
+      accident.happens(pair);
+      const Seconds happened = pair.now;
+      static_cast<void>(pair.play_for(Seconds(5), [&] { return pair.sender.fault().has_value(); }));
+      ASSERT_TRUE(pair.sender.fault()) << accident.name << " at " << happened.value();
+      EXPECT_LE((pair.now - happened).value(), 2) << accident.name;
+      EXPECT_THAT(accident.codes, testing::Contains(pair.sender.fault()->code)) << accident.name;
+      const bool told_lines = pair.sender.fault()->last_line > 0;
+      EXPECT_TRUE(told_lines) << accident.name;
+      EXPECT_LE(pair.sender.lines_sent(), sent + 20) << "a few lines at most after it";
+      ASSERT_TRUE(pair.play_for(Seconds(20), [&] { return pair.sender.stopped(); })) << accident.name;
+      pair.machine.run(3);
+      EXPECT_EQ(pair.machine.speed(), 0) << accident.name;
+      const std::size_t done = pair.machine.done().size();
+      static_cast<void>(pair.play_for(Seconds(3), [] { return false; }));
+      EXPECT_EQ(pair.machine.done().size(), done) << "nothing is sent after it: " << accident.name;
+    }
+  }
 }
 
 }  // namespace

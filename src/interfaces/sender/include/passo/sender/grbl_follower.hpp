@@ -54,6 +54,8 @@ class GrblFollower {
   // How long the board moves from now on if it gets nothing more.
   Seconds time_in_board(Seconds now);
 
+  // False after a line that led to an unknown place.
+  bool knows_path() const { return !lost_; }
   // The feed override, as a factor.
   void set_override(double factor) { factor_ = factor; }
   // `rests`: nothing moves. `ends`: all lines were answered before the report, and the board is idle.
