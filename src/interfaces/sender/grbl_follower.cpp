@@ -13,7 +13,7 @@
 namespace passo {
 namespace {
 
-constexpr double report_resolution = 0.01;     // mm: reports have three decimals
+constexpr double report_resolution = 0.01;   // mm: reports have three decimals
 constexpr double steps_beside_the_path = 2;  // of each motor
 constexpr int most_strikes = 2;
 constexpr double kept_behind = 0.5;      // mm of the path behind the known position

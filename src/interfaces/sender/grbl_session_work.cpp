@@ -45,10 +45,12 @@ void GrblMachineSession::make_feed() {
   Work& work = *work_;
   board_ = sender_.machine();
   const Point zero = first_work_zero(board_);
-  StoredResults& results = work.program ? work.program->answers()
-                           : work.lines != nullptr ? work.lines->answers() : work.probe_results;
-  Source<PathItem>& path = work.program ? static_cast<Source<PathItem>&>(*work.program)
-                           : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines) : *work.probe;
+  StoredResults& results = work.program            ? work.program->answers()
+                           : work.lines != nullptr ? work.lines->answers()
+                                                   : work.probe_results;
+  Source<PathItem>& path = work.program            ? static_cast<Source<PathItem>&>(*work.program)
+                           : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines)
+                                                   : *work.probe;
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, zero, waits, stops_.optional_stop);
   sender_.follow(zero);
@@ -313,9 +315,10 @@ std::string GrblMachineSession::words_of_restart() const {
   if (!busy() || !work_->feed || work_->program == nullptr) return {};
   const std::uint32_t line = work_->executed.source().line;
   if (line == 0) return {};
-  return fmt::format("; line {} of the program is the last one that was executed for sure: home the machine or set its "
-                     "zero, and start at that line",
-                     line);
+  return fmt::format(
+      "; line {} of the program is the last one that was executed for sure: home the machine or set its "
+      "zero, and start at that line",
+      line);
 }
 
 Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
