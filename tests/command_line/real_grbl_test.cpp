@@ -113,6 +113,30 @@ grep steps counts
   EXPECT_EQ(after[2] - before[2], 0);
 }
 
+// One value out of the range that Passo knows, one that Grbl itself rejects.
+TEST_F(RealGrbl, on_an_emulated_uno_has_its_settings_written_compared_and_restored) {
+  const auto outcome = bash(R"(
+$P/build.sh "$PWD/uno" || exit 77
+mkfifo commands
+./uno $P/grbl-1.1h-uno.elf "$PWD/tty" --speed 0 <commands >/dev/null &
+trap "kill $!" EXIT
+exec 3>commands
+until [ -e tty ]; do sleep 0.05; done
+L="grbl:$PWD/tty"
+passo board settings $L --save kept.txt || exit
+passo board settings $L --set 110=600 --set 0=2 --set 20=1 --json >set.json && exit 1
+passo board settings $L --compare kept.txt
+passo board settings $L --restore kept.txt
+passo machine --from $L -o mine.toml 2>/dev/null && passo machine mine.toml >/dev/null && echo read
+)");
+  if (outcome.code == 77) GTEST_SKIP() << "grbl_on_uno does not build here: libsimavr is missing";
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "$110: 500.000 in the file, 600.000 on the board\n$110: 600.000 -> 500.000\nread\n");
+  const auto changes = nlohmann::json::parse(passo::test::read(path("set.json")))["changes"];
+  EXPECT_EQ(changes[1]["trouble"], "$0=2: $0 (Step pulse) is 3 to 255 us");
+  EXPECT_EQ(changes[2]["trouble"], "the board rejects $20=1: error:10, soft limits need homing");
+}
+
 // It has no switches: homing ends in an alarm, which the next command tells, and `$X` would end.
 TEST_F(RealGrbl, grblhal_runs_programs_and_tells_that_it_has_no_switches) {
   write("p.ngc", "G21 G90 G94\nM3 S500\nG1 X2 Y1 F400\nG2 X3 Y2 I1 J0\nM5\nM2\n");
@@ -127,6 +151,7 @@ passo run p.ngc -m $MACHINE --board $L --json >run.json || exit
 # Reports with as little in them as can be: without MPos and WCO.
 tell() { exec 4<>/dev/tcp/127.0.0.1/$port; for line in "$@"; do echo "$line" >&4; until read -t 5 -u 4 answer && [[ $answer = ok* || $answer = error* ]]; do :; done; done; exec 4>&-; }
 tell '$10=0' 'G10L2P1X1'
+passo board settings $L 398 --set 398=5 --set 65=1 --json >settings.json && exit 1
 passo run p.ngc -m $MACHINE --board $L --json >again.json || exit
 grep -c ' 750, 500, 0,' steps$port
 tell '$22=1' '$25=3000' '$110=6000' '$111=6000' '$112=6000' '$120=500' '$121=500' '$122=500' '$130=5' '$131=5' '$132=5'
@@ -143,6 +168,11 @@ exit 0
   EXPECT_EQ(again["grbl"]["receive_buffer"], 1023);
   EXPECT_GT(std::stoi(outcome.out), 0) << "250 steps/mm";
   EXPECT_EQ(again["position_mm"], (nlohmann::json{{"X", 4.0}, {"Y", 2.0}, {"Z", 0.0}}));
+  const auto settings = nlohmann::json::parse(passo::test::read(path("settings.json")));
+  EXPECT_EQ(settings["settings"][0]["most"], 1000.0) << "as the board describes it";
+  EXPECT_EQ(settings["settings"][0]["group"], "General");
+  EXPECT_THAT(settings["changes"][0]["trouble"], HasSubstr("is 30 to 1000"));
+  EXPECT_EQ(settings["changes"][1]["value"], "1");
   EXPECT_THAT(passo::test::read(path("home.err")), HasSubstr("ALARM:9, homing found no switch"));
   EXPECT_THAT(passo::test::read(path("run.err")), HasSubstr("[grbl.locked]"));
 }

@@ -1,88 +1,26 @@
-// FakeGrbl: runs a StrictGrbl in real time on a TCP port of this computer, for commands under test.
+// FakeGrbl: a StrictGrbl on a TCP port of this computer.
 #pragma once
 
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <functional>
-#include <string>
-#include <thread>
-#include <utility>
-
+#include "kit/board_on_port.hpp"
 #include "kit/strict_grbl.hpp"
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 namespace passo::test {
 
-class FakeGrbl {
+class FakeGrbl : public BoardOnPort<StrictGrbl> {
  public:
   // `each` is called in each iteration, in the machine's thread.
   explicit FakeGrbl(StrictGrbl machine, std::function<void(StrictGrbl&)> each = {})
-      : machine_(std::move(machine)), each_(std::move(each)), listener_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* const any = reinterpret_cast<sockaddr*>(&address);
-    bound_ = bind(listener_, any, size) == 0 && listen(listener_, 1) == 0 && getsockname(listener_, any, &size) == 0;
-    port_ = ntohs(address.sin_port);
-    thread_ = std::thread([this] { serve(); });
-  }
-  ~FakeGrbl() {
-    ends_ = true;
-    thread_.join();
-    close(listener_);
-  }
-  FakeGrbl(const FakeGrbl&) = delete;
-  FakeGrbl& operator=(const FakeGrbl&) = delete;
-
-  bool listens() const { return bound_; }
-  std::string address() const { return "grbl:tcp:127.0.0.1:" + std::to_string(port_); }
+      : BoardOnPort(as_fast_as_a_router(std::move(machine)), std::move(each)) {}
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  static bool wait_for_input(int socket) {
-    pollfd wanted{.fd = socket, .events = POLLIN, .revents = 0};
-    return poll(&wanted, 1, 2) > 0;
-  }
-  void serve() {
-    while (!ends_) {
-      if (!wait_for_input(listener_)) continue;
-      const int line = accept(listener_, nullptr, nullptr);
-      machine_.restart();  // like an Arduino when its serial port is opened
-      talk(line);
-      close(line);
+  // So that tests are short.
+  static StrictGrbl as_fast_as_a_router(StrictGrbl machine) {
+    for (const int axis : {0, 1, 2}) {
+      machine.put(110 + axis, 6000);
+      machine.put(120 + axis, 500);
     }
+    return machine;
   }
-  void talk(int line) {
-    std::array<char, 4096> bytes{};
-    Clock::time_point last = Clock::now();
-    while (!ends_) {
-      if (wait_for_input(line)) {
-        const ssize_t count = recv(line, bytes.data(), bytes.size(), 0);
-        if (count <= 0) return;
-        machine_.receive({bytes.data(), static_cast<std::size_t>(count)});
-      }
-      const Clock::time_point now = Clock::now();
-      machine_.run(std::chrono::duration<double>(now - std::exchange(last, now)).count());
-      if (each_) each_(machine_);
-      const std::string said = machine_.take_output();
-      if (!said.empty() && send(line, said.data(), said.size(), MSG_NOSIGNAL) < 0) return;
-    }
-  }
-
-  StrictGrbl machine_;
-  std::function<void(StrictGrbl&)> each_;
-  int listener_;
-  bool bound_ = false;
-  unsigned port_ = 0;
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
 };
 
 }  // namespace passo::test

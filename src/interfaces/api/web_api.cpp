@@ -9,6 +9,7 @@
 #include "machine_api.hpp"
 #include "machine_file_api.hpp"
 #include "owner_api.hpp"
+#include "ports_api.hpp"
 #include "programs_api.hpp"
 #include "studies_api.hpp"
 #include <fmt/format.h>
@@ -32,6 +33,7 @@ WebAnswer not_the_owner() {
 std::optional<WebAnswer> what_lacks(Needs needs, const ApiOptions& options) {
   if (needs == Needs::history && options.history == nullptr) return no_history();
   if (needs == Needs::maker && options.maker == nullptr) return no_maker();
+  if (needs == Needs::ports && options.contact == nullptr) return no_ports();
   if (needs == Needs::studies && options.studies == nullptr) return no_studies();
   return {};
 }
@@ -104,6 +106,7 @@ class WebApi::Parts {
   MachineApi machine_api{shared, jobs, times, mdi};
   MachineFileApi machine_file_api{shared, jobs};
   OwnerApi owner_api{shared, jobs};
+  PortsApi ports_api{shared, jobs};
   ProgramsApi programs_api{shared, jobs};
   StudiesApi studies_api{shared};
 
@@ -128,6 +131,7 @@ class WebApi::Parts {
   WebAnswer ask(AnswerOf<MachineApi> handler, const ApiCall& call) { return (machine_api.*handler)(call); }
   WebAnswer ask(AnswerOf<MachineFileApi> handler, const ApiCall& call) { return (machine_file_api.*handler)(call); }
   WebAnswer ask(AnswerOf<OwnerApi> handler, const ApiCall& call) { return (owner_api.*handler)(call); }
+  WebAnswer ask(AnswerOf<PortsApi> handler, const ApiCall& call) { return (ports_api.*handler)(call); }
   WebAnswer ask(AnswerOf<ProgramsApi> handler, const ApiCall& call) { return (programs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<StudiesApi> handler, const ApiCall& call) { return (studies_api.*handler)(call); }
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -58,8 +59,8 @@ GrblLimits limits_of(const GrblMachine& machine) {
   return limits;
 }
 
-GrblForecast::GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const Point& zero)
-    : line_(line), zero_(zero), at_(start), hindered_(limits, start), unhindered_(limits, start) {}
+GrblForecast::GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const GrblTarget& target)
+    : line_(line), target_(target), at_(start), hindered_(limits, start), unhindered_(limits, start) {}
 
 void GrblForecast::add(std::string_view text, std::uint32_t source) {
   Words words{.end = at_, .source = source};
@@ -75,7 +76,7 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
     next = after;
     const auto axis = axis_of(letter);
     if (axis) {
-      words.end[*axis] = zero_[*axis] + value;
+      words.end[*axis] = target_.zero[*axis] + value;
       has_axis = true;
     } else if (letter >= 'I' && letter <= 'K') {
       center.values[static_cast<std::size_t>(letter - 'I')] = value;
@@ -89,10 +90,20 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
       motion_ = static_cast<int>(value);
     } else if (letter == 'G' && value >= 17 && value <= 19) {
       plane_ = static_cast<int>(value);
+    } else if (letter == 'G' && (value == 93 || value == 94)) {
+      by_time_ = value == 93;
     }
   }
   if (has_axis) words.kind = Words::Kind::move;
-  words.feed = MmPerSecond(motion_ == 0 ? std::numeric_limits<double>::infinity() : feed_);
+  const Point way = words.end - at_;
+  double length2 = 0;
+  for (const double part : way.values) length2 += part * part;
+  double feed = by_time_ ? feed_ * std::sqrt(length2) : feed_;
+  // An arc on such a board is in the XY plane, and steep at most in short helices.
+  if (target_.measures_motors && !by_time_ && length2 > 0) {
+    feed *= motion_ >= 2 ? std::numbers::sqrt2 / 2 : std::sqrt(length2) / target_.way(way);
+  }
+  words.feed = MmPerSecond(motion_ == 0 ? std::numeric_limits<double>::infinity() : feed);
   if (has_axis && motion_ >= 2) {
     const auto [first, second] = axes_of_plane(plane_);
     words.arc = {.first = first,
@@ -104,9 +115,6 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
   const double answered = run(hindered_, words, Seconds(arrival(text.size() + 1))).value();
   unanswered_.back().answered = answered_ = answered;
   answered_unhindered_ = run(unhindered_, words, Seconds(answered_unhindered_)).value();
-  const Point way = words.end - at_;
-  double length2 = 0;
-  for (const double part : way.values) length2 += part * part;
   weigh(text.size() + 1, std::sqrt(length2), source);
   at_ = words.end;
 }

@@ -1,5 +1,6 @@
 #include "passo/sender/grbl_machine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,7 +9,8 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view name_of_fluidnc = "FluidNC";
+constexpr std::size_t most_alarms = 256;
+constexpr std::size_t blocks_of_a_mega = 30;  // at least; an Uno has 15
 
 bool is_system(std::string_view name) {
   return name.size() >= 3 && name.starts_with("G5") && name[2] >= '4' && name[2] <= '9';
@@ -20,9 +22,42 @@ bool is_grbl_greeting(std::string_view line) {
   return line.starts_with("Grbl ") || line.starts_with("GrblHAL ") || line.ends_with("for help]");
 }
 
+void GrblMachine::become(std::string_view name) {
+  firmware = name;
+  if (!has_told_axes_) axes = row().axes.substr(0, axes.size());
+  note_sizes();
+}
+
+void GrblMachine::note_sizes() {
+  if (told_bytes_ != 0) bytes = told_bytes_ - std::min(told_bytes_, row().unusable_bytes);
+}
+
 void GrblMachine::hear_greeting(std::string_view line) {
-  if (line.starts_with("GrblHAL")) firmware = "grblHAL";
-  if (line.find(name_of_fluidnc) != std::string_view::npos) firmware = name_of_fluidnc;
+  was_asked_ = false;
+  if (const GrblFirmware* const marked = marked_grbl_firmware(line)) become(marked->name);
+}
+
+void GrblMachine::hear_value_count(std::size_t count) {
+  if (!has_told_axes_ && count > 0) axes = row().axes.substr(0, count);
+}
+
+std::vector<std::string> GrblMachine::take_questions() {
+  std::vector<std::string> questions;
+  if (!std::exchange(was_asked_, true)) questions.assign(row().questions.begin(), row().questions.end());
+  return questions;
+}
+
+bool GrblMachine::has_mist() const {
+  return !row().tells_mist || options.empty() || options.find('M') != std::string::npos;
+}
+
+bool GrblMachine::has_option(std::string_view name) const {
+  std::string_view rest = new_options;
+  while (!rest.empty()) {
+    std::string_view option = next_grbl_field(rest, ',');
+    if (next_grbl_field(option, '=') == name) return true;
+  }
+  return false;
 }
 
 void GrblMachine::hear(std::string_view line) {
@@ -33,19 +68,24 @@ void GrblMachine::hear(std::string_view line) {
   if (colon == std::string_view::npos) return;
   const std::string_view name = line.substr(0, colon);
   const std::string_view value = line.substr(colon + 1);
-  if (name == "VER") {
+  if (name == "VER" || name == "VER+") {
     version = value.substr(0, value.find(':'));
     version.erase(version.find_last_not_of(' ') + 1);
-    hear_greeting(version);
+    version.erase(0, version.find_first_not_of(' '));
+    if (const GrblFirmware* const marked = marked_grbl_firmware(version)) become(marked->name);
   } else if (name == "FIRMWARE") {
-    firmware = value;
-    // Its ring holds a byte less than it has told.
-    if (firmware == "grblHAL") --bytes;
-  } else if (name == "OPT") {
+    const GrblFirmware* const marked = marked_grbl_firmware(value);
+    become(marked != nullptr ? marked->name : value);
+  } else if (name == "OPT" || name == "OPT+") {
     hear_options(value);
+  } else if (name == "NEWOPT") {
+    new_options = value;
+  } else if (name == "KINEMATICS") {
+    kinematics = value;
   } else if (name == "AXS") {
-    const std::size_t letters = value.find(':');
-    if (letters != std::string_view::npos && letters + 1 < value.size()) axes = value.substr(letters + 1);
+    hear_axes(value);
+  } else if (name == "ALARMCODE") {
+    hear_alarm(value);
   } else if (name == "GC") {
     hear_modes(value);
   } else if (is_system(name) || name == "G28" || name == "G30" || name == "G92" || name == "TLO") {
@@ -53,13 +93,40 @@ void GrblMachine::hear(std::string_view line) {
   }
 }
 
-// "V,15,128": what it was built with, the planner's blocks, the bytes of the receive buffer.
-void GrblMachine::hear_options(std::string_view options) {
-  static_cast<void>(next_grbl_field(options, ','));
-  const auto told_blocks = read_grbl_number(next_grbl_field(options, ','));
-  const auto told_bytes = read_grbl_number(next_grbl_field(options, ','));
+// "V,15,128": what it was built with, the planner's blocks, the bytes of the receive buffer. µCNC: "C3,16B,T1,15,128",
+// first the kinematics and the number of axes.
+void GrblMachine::hear_options(std::string_view told) {
+  options = next_grbl_field(told, ',');
+  if (row().sizes_are_last) {
+    while (std::ranges::count(told, ',') > 1) static_cast<void>(next_grbl_field(told, ','));
+    const std::size_t digit = options.find_last_not_of("0123456789") + 1;
+    if (const auto count = read_grbl_number(std::string_view(options).substr(digit)); count && *count >= 1) {
+      hear_value_count(static_cast<std::size_t>(std::min(*count, 9.0)));
+    }
+  }
+  const auto told_blocks = read_grbl_number(next_grbl_field(told, ','));
+  const auto told_bytes = read_grbl_number(next_grbl_field(told, ','));
   if (told_blocks && *told_blocks >= 1 && *told_blocks <= 10000) blocks = static_cast<std::size_t>(*told_blocks);
-  if (told_bytes && *told_bytes >= 64 && *told_bytes <= 65536) bytes = static_cast<std::size_t>(*told_bytes);
+  if (told_bytes && *told_bytes >= 64 && *told_bytes <= 65536) told_bytes_ = static_cast<std::size_t>(*told_bytes);
+  note_sizes();
+  if (firmware == "Grbl" && blocks >= blocks_of_a_mega) become("grbl-Mega");
+}
+
+// "5:XYZAB". Only grbl-Mega-5X and grblHAL tell this, and grblHAL names itself.
+void GrblMachine::hear_axes(std::string_view value) {
+  const std::size_t colon = value.find(':');
+  if (colon == std::string_view::npos || colon + 1 >= value.size()) return;
+  axes = value.substr(colon + 1, axis_count);
+  has_told_axes_ = true;
+  if (firmware == "Grbl" || firmware == "grbl-Mega") become("grbl-Mega-5X");
+}
+
+// "10||EStop asserted. Clear and reset"
+void GrblMachine::hear_alarm(std::string_view value) {
+  const auto number = read_grbl_number(next_grbl_field(value, '|'));
+  static_cast<void>(next_grbl_field(value, '|'));
+  const bool is_number = number && *number >= 0 && *number < most_alarms;
+  if (is_number && !value.empty()) alarms[static_cast<int>(*number)] = value;
 }
 
 // "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0"
@@ -77,7 +144,7 @@ void GrblMachine::hear_offset(std::string_view name, std::string_view value) {
   if (name == "TLO" && value.find(',') == std::string_view::npos) {
     (*place)[Axis::z] = std::exchange((*place)[Axis::x], 0.0);
   }
-  offsets[std::string(name)] = *place * unit();
+  offsets[std::string(name)] = millimetres(*place);
 }
 
 void GrblMachine::hear_setting(std::string_view line) {
@@ -92,12 +159,30 @@ bool GrblMachine::in_inches() const {
   return found != settings.end() && found->second != 0;
 }
 
+Point GrblMachine::millimetres(Point reported) const {
+  constexpr double inch = 25.4;
+  if (!in_inches()) return reported;
+  for (const Axis axis : all_axes) {
+    if (!is_rotary(axis) || row().converts_angles) reported[axis] *= inch;
+  }
+  return reported;
+}
+
 std::optional<Point> GrblMachine::work_zero() const {
   if (!offsets.contains(system)) return {};
   Point zero;
   for (const std::string_view name : {std::string_view(system), std::string_view("G92"), std::string_view("TLO")}) {
     const auto found = offsets.find(std::string(name));
     if (found != offsets.end()) zero = zero + found->second;
+  }
+  return zero;
+}
+
+Point first_work_zero(const GrblMachine& machine) {
+  Point zero;
+  for (const char* name : {"G54", "G92"}) {
+    const auto found = machine.offsets.find(name);
+    if (found != machine.offsets.end()) zero = zero + found->second;
   }
   return zero;
 }

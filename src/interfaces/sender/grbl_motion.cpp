@@ -17,8 +17,10 @@ bool covers(const PlannedMove& move, const GrblBlock& block) {
 
 GrblMotion::GrblMotion(const ProgramReader& program, const MachineDescription& machine,
                        const InterpreterOptions& options, const GrblLimits& limits, const GrblLine& line,
-                       const Point& zero)
-    : checker_(program.again(), machine, options, unheard_), code_(zero), forecast_(limits, line, options.start, zero) {
+                       const GrblTarget& target)
+    : checker_(program.again(), machine, options, unheard_),
+      code_(target),
+      forecast_(limits, line, options.start, target) {
   checker_.watch([this](const PathItem& item) { add(item); });
   forecast_.hear([this](const GrblPhase& phase) { add(phase); });
 }

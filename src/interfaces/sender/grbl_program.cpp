@@ -54,8 +54,8 @@ std::uint32_t line_of(const PathItem& item) {
 void set_offsets(InterpreterOptions& options, const GrblMachine& machine) {
   const double unit = options.machine_units == LengthUnits::inch ? mm_per_inch : 1;
   const auto set = [&](int first, const Point& offset) {
-    for (int axis = 0; axis < 3; ++axis) {
-      options.parameters[first + axis] = offset.values[static_cast<std::size_t>(axis)] / unit;
+    for (const Axis axis : all_axes) {
+      options.parameters[first + static_cast<int>(index_of(axis))] = offset[axis] / (is_rotary(axis) ? 1 : unit);
     }
   };
   begin_with_g54(options.parameters);
@@ -66,25 +66,18 @@ void set_offsets(InterpreterOptions& options, const GrblMachine& machine) {
       set(g92_parameter, offset);
     } else if (name.size() == 3 && name[2] >= '4' && name[2] <= '9') {
       set(work_offset_parameter(1 + name[2] - '4'), offset);
+    } else if (name.size() == 5 && name.starts_with("G59.") && name[4] >= '1' && name[4] <= '3') {
+      set(work_offset_parameter(7 + name[4] - '1'), offset);
     }
   }
 }
 
-Point first_work_zero(const GrblMachine& machine) {
-  Point zero;
-  for (const char* name : {"G54", "G92"}) {
-    const auto found = machine.offsets.find(name);
-    if (found != machine.offsets.end()) zero = zero + found->second;
-  }
-  return zero;
-}
-
 ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
-                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings,
+                            const InterpreterOptions& options, const GrblTarget& target, Diagnostics& findings,
                             const std::function<void(const PathItem&)>& watch_path,
                             const std::function<void(const Operation&)>& watch_operations) {
   Objections objections(program.name(), findings);
-  GrblCode code(zero);
+  GrblCode code(target);
   std::vector<std::string> lines;
   ProgramCheck check = check_program(
       program.again(), machine, options, findings,
@@ -103,8 +96,8 @@ ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescripti
 }
 
 GrblProgram::GrblProgram(const ProgramReader& program, const MachineDescription& machine,
-                         const InterpreterOptions& options, const Point& zero, bool waits)
-    : code_(zero), checker_(program.again(), machine, options, unheard_), waits_(waits) {
+                         const InterpreterOptions& options, const GrblTarget& target, bool waits)
+    : code_(target), checker_(program.again(), machine, options, unheard_), waits_(waits) {
   checker_.watch([this](const PathItem& item) { add(item); });
   checker_.watch_operations([this, tools = options.tools](const Operation& operation) {
     words_.watch(operation, tools);

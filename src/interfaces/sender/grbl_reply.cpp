@@ -1,5 +1,6 @@
 #include "passo/sender/grbl_reply.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -15,6 +16,7 @@ std::optional<std::size_t> read_count(std::string_view text) {
 void read_field(std::string_view name, std::string_view value, std::string_view axes, GrblReport& report) {
   if (name == "MPos") report.machine_place = read_grbl_place(value, axes);
   if (name == "WPos") report.work_place = read_grbl_place(value, axes);
+  if (name == "MPos" || name == "WPos") report.values = 1 + static_cast<std::size_t>(std::ranges::count(value, ','));
   if (name == "WCO") report.work_offset = read_grbl_place(value, axes);
   if (name == "Pn") report.pins = value;
   if (name == "A") report.outputs = value;
@@ -49,13 +51,16 @@ std::string_view next_grbl_field(std::string_view& text, char mark) {
 
 std::optional<Point> read_grbl_place(std::string_view text, std::string_view axes) {
   Point place;
+  AxisSet read;
   if (text.empty()) return {};
   for (const char letter : axes) {
     if (text.empty()) break;
     const auto value = read_grbl_number(next_grbl_field(text, ','));
     if (!value) return {};
     const auto axis = axis_of(letter);
-    if (axis == Axis::x || axis == Axis::y || axis == Axis::z) place[*axis] = *value;
+    if (!axis || read.has(*axis)) continue;
+    read.add(*axis);
+    place[*axis] = *value;
   }
   return place;
 }

@@ -84,6 +84,11 @@ void GrblSender::add(std::string text, std::uint32_t line, Seconds silence) {
   window_.add({.text = std::move(text), .line = line, .silence = silence});
 }
 
+void GrblSender::ask(std::string text, Seconds silence) {
+  text += '\n';
+  window_.add({.text = std::move(text), .silence = silence, .asks = true});
+}
+
 void GrblSender::hold() {
   is_held_ = true;
   act('!');
@@ -285,7 +290,12 @@ void GrblSender::greet() {
       add("$I");
       return ask_for_offsets();
     default:
-      if (all_answered()) return enter(Stage::ready);
+      if (all_answered()) {
+        while (window_.take_reply()) continue;
+        std::vector<std::string> questions = machine_.take_questions();
+        if (questions.empty()) return enter(Stage::ready);
+        for (std::string& question : questions) ask(std::move(question));
+      }
       ask_for_status();
       check_lost_bytes();
       return check_silence();
@@ -335,6 +345,7 @@ void GrblSender::receive(std::string_view bytes, Seconds now) {
 void GrblSender::hear(std::string_view line) {
   constexpr std::string_view error = "error:";
   constexpr std::string_view alarm_head = "ALARM:";
+  const std::string_view with_blanks = line;
   line = without_blanks(line);
   if (const auto report = read_grbl_report(line, machine_.axes)) return hear_report(*report);
   told_ = now_;
@@ -353,11 +364,13 @@ void GrblSender::hear(std::string_view line) {
   if (line.starts_with(error)) return answer(without_blanks(line.substr(error.size())));
   if (line.starts_with(alarm_head)) return alarm(without_blanks(line.substr(alarm_head.size())));
   machine_.hear(line);
+  window_.note_said(with_blanks);
   if (listener_) listener_(line);
 }
 
 void GrblSender::hear_report(const GrblReport& report) {
   ++reports_heard_;
+  if (greets()) machine_.hear_value_count(report.values);
   if (reports_.hear(report, now_)) progress_ = now_;
   if (report.bytes_free) window_.hear_free_bytes(*report.bytes_free);
 }
@@ -390,26 +403,36 @@ void GrblSender::answer(std::optional<std::string_view> error) {
   if (window_.oldest() == nullptr) return;  // of what another sender has left
   // The same, if it comes late: the answer to $I tells the version.
   if (stage_ == Stage::asking && machine_.version.empty()) return;
-  const UnacknowledgedLines::Line line = *window_.take_answered();
+  UnacknowledgedLines::Line line = *window_.take_answered();
   answered_ = progress_ = now_;
+  if (line.asks) return window_.keep_reply(std::move(line), error ? words_of_error(*error) : "");
   if (!error) {
     window_.note_held(line.line, machine_.blocks + 8);
     return;
   }
   // In some alarms it answers few questions. They are asked again.
   if (stage_ == Stage::asking && report()->state == "Alarm") return;
-  const auto number = read_code(*error);
   fail({.code = "grbl.error",
-        .message = fmt::format("the machine rejects \"{}\": error:{}{}{}", without_end(line.text), *error,
-                               number ? ", " : "", number ? words_of_grbl_error(machine_.firmware, *number) : ""),
+        .message = fmt::format("the machine rejects \"{}\": {}", without_end(line.text), words_of_error(*error)),
         .first_line = line.line,
         .last_line = line.line});
   // What follows is in the machine already. It must not go on without the refused line.
   if (has_work() && stage_ == Stage::ready) stop();
 }
 
+std::string GrblSender::words_of_error(std::string_view error) const {
+  const auto number = read_code(error);
+  if (!number) return fmt::format("error:{}", error);
+  return fmt::format("error:{}, {}", error, words_of_grbl_error(machine_.firmware, *number));
+}
+
 std::string GrblSender::words_of_alarm(int number) const {
-  return fmt::format("ALARM:{}, {}", number, words_of_grbl_alarm(machine_.firmware, number));
+  const auto own = machine_.alarms.find(number);
+  const bool is_known = !meaning_of_grbl_alarm(machine_.firmware, number).empty();
+  const std::string_view words = is_known || own == machine_.alarms.end()
+                                     ? words_of_grbl_alarm(machine_.firmware, number)
+                                     : std::string_view(own->second);
+  return fmt::format("ALARM:{}, {}", number, words);
 }
 
 void GrblSender::alarm(std::string_view text) {

@@ -13,13 +13,13 @@ bool LastGrblReport::hear(const GrblReport& report, Seconds now) {
 
 std::optional<Point> LastGrblReport::place(const GrblMachine& machine) const {
   if (!last_) return {};
-  if (last_->machine_place) return *last_->machine_place * machine.unit();
+  if (last_->machine_place) return machine.millimetres(*last_->machine_place);
   if (!last_->work_place) return {};
-  if (offset_) return (*last_->work_place + *offset_) * machine.unit();
+  if (offset_) return machine.millimetres(*last_->work_place + *offset_);
   // A machine whose reports ($10) tell no offset: from its own offsets.
   const auto zero = machine.work_zero();
   if (!zero) return {};
-  return *last_->work_place * machine.unit() + *zero;
+  return machine.millimetres(*last_->work_place) + *zero;
 }
 
 }  // namespace passo

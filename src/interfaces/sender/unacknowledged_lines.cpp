@@ -5,6 +5,7 @@
 namespace passo {
 namespace {
 
+constexpr std::size_t most_said = 5000;   // lines of one answer
 constexpr std::size_t least_buffer = 64;  // fewer free bytes are hardly a whole buffer
 
 }  // namespace
@@ -30,6 +31,23 @@ std::optional<UnacknowledgedLines::Line> UnacknowledgedLines::take_answered() {
   sent_.pop_front();
   sent_bytes_ -= line.text.size();
   return line;
+}
+
+void UnacknowledgedLines::note_said(std::string_view text) {
+  if (sent_.empty() || !sent_.front().asks || sent_.front().said.size() >= most_said) return;
+  sent_.front().said.emplace_back(text);
+}
+
+void UnacknowledgedLines::keep_reply(Line line, std::string error) {
+  if (line.text.ends_with('\n')) line.text.pop_back();
+  replies_.push_back({.line = std::move(line.text), .said = std::move(line.said), .error = std::move(error)});
+}
+
+std::optional<GrblAnswer> UnacknowledgedLines::take_reply() {
+  if (replies_.empty()) return {};
+  GrblAnswer reply = std::move(replies_.front());
+  replies_.pop_front();
+  return reply;
 }
 
 void UnacknowledgedLines::hear_free_bytes(std::size_t bytes) {

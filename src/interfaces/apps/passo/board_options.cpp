@@ -3,6 +3,7 @@
 #include <array>
 
 #include "commands.hpp"
+#include "machine_options.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -14,11 +15,13 @@ namespace {
 constexpr const char* address = "address: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico";
 
 constexpr const char* examples = R"(Examples:
-  passo board list                                        list the boards on this computer's serial ports
+  passo board list                                        list this computer's serial ports, and who uses them
+  passo board list --ask                                  open the free ones, and ask which board is there
   passo board flash uno --device /dev/ttyACM0             flash Passo's firmware; back up the old one
   passo board flash pico                                  flash a Pico that was plugged in with BOOTSEL held
   passo board info serial:/dev/ttyACM0                    show type, firmware and status
   passo board monitor serial:/dev/ttyACM0                 show inputs and step counters, live
+  passo board settings grbl:/dev/ttyUSB0                  show the settings of a Grbl board
   passo board info sim:uno                                the real firmware on an emulated chip
   passo board serve &                                     simulate a board on 127.0.0.1:7070
   passo board monitor tcp:127.0.0.1:7070 --count 1
@@ -26,11 +29,23 @@ constexpr const char* examples = R"(Examples:
 Wiring and the first start, without motors: docs/boards.md.)";
 
 void add_board_list_options(CLI::App& command, BoardListArguments& arguments) {
-  command.add_option("DEVICE", arguments.devices, "only these serial ports, e.g. /dev/ttyUSB0");
-  command.add_option("--wait", arguments.wait, "time to wait for each port, s; opening the port resets an Arduino")
+  command.add_option("DEVICE", arguments.devices,
+                     "serial ports to open and ask, e.g. /dev/ttyUSB0 (default: list all, and open none)");
+  command.add_flag("--ask", arguments.ask,
+                   "open all ports that are not in use, and ask which board is there; opening a port restarts an "
+                   "Arduino, also under a job of a program that is not seen");
+  command.add_option("--wait", arguments.wait, "time to wait for the answer of each port, s")
       ->check(number_range(0.05, 60.0))
       ->capture_default_str();
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_system(command, arguments.system);
+  command.footer(
+      "Without DEVICE and --ask, no port is opened: names and users come from the files of the system.\n"
+      "A port that is in use is never opened.\n"
+      "Examples:\n"
+      "  passo board list\n"
+      "  passo board list --ask\n"
+      "  passo board list /dev/ttyACM0 --json | jq '.[0].says'");
 }
 
 void add_board_info_options(CLI::App& command, BoardInfoArguments& arguments) {
@@ -48,6 +63,42 @@ void add_board_monitor_options(CLI::App& command, BoardMonitorArguments& argumen
       ->capture_default_str();
   command.add_option("--count", arguments.count, "number of queries; 0: until Ctrl-C")->capture_default_str();
   command.add_flag("--json", arguments.json, "one JSON object per line");
+}
+
+void add_board_settings_options(CLI::App& command, BoardSettingsArguments& arguments) {
+  command
+      .add_option("BOARD", arguments.board,
+                  "address: grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT; opening a serial port resets an Arduino")
+      ->required();
+  command.add_option("NAME", arguments.names, "show only these settings, with their meaning, e.g. 110 or '$110'");
+  CLI::Option* const set =
+      command
+          .add_option("--set", arguments.set,
+                      "write a setting, and read it back; may be given several times. A value out of its range, or one "
+                      "that the board rejects, leaves the old one")
+          ->type_name("NAME=VALUE")
+          ->allow_extra_args(false);
+  command.add_option("--save", arguments.save, "write all settings to this file, after changes; - is standard output")
+      ->type_name("FILE");
+  command
+      .add_option("--compare", arguments.compare,
+                  "show how the settings differ from this file; exit with code 1 if they do")
+      ->type_name("FILE")
+      ->excludes(set);
+  command.add_option("--restore", arguments.restore, "write the settings of this file that differ, one by one")
+      ->type_name("FILE")
+      ->excludes(set)
+      ->excludes("--compare");
+  command.add_flag("--json", arguments.json, "print the result as JSON");
+  command.footer(
+      "Examples:\n"
+      "  passo board settings grbl:/dev/ttyUSB0                     all settings: name, value, unit, title\n"
+      "  passo board settings grbl:/dev/ttyUSB0 110 111             these two, with range and meaning\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --set 110=3000      write one\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --save router.txt   a copy before you change anything\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --compare router.txt\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --restore router.txt\n"
+      "Nothing is written without --set or --restore. Grbl, grblHAL, FluidNC and uCNC: docs/manual/grbl-machines.md");
 }
 
 void add_board_flash_options(CLI::App& command, BoardFlashArguments& arguments) {
@@ -86,13 +137,15 @@ std::function<int()> add_board_help(CLI::App& board) {
 }
 
 std::span<const Command> board_commands() {
-  static constexpr std::array<Command, 5> commands{
+  static constexpr std::array<Command, 6> commands{
       {{"list", "list the boards on the serial ports",
         options_of<BoardListArguments, add_board_list_options, board_list>},
        {"info", "show a board's type, firmware and status",
         options_of<BoardInfoArguments, add_board_info_options, board_info>},
        {"monitor", "show a board's inputs, state and step counters, live",
         options_of<BoardMonitorArguments, add_board_monitor_options, board_monitor>},
+       {"settings", "show, write, save, compare and restore the settings of a Grbl board",
+        options_of<BoardSettingsArguments, add_board_settings_options, board_settings>},
        {"flash", "flash Passo's firmware onto a board",
         options_of<BoardFlashArguments, add_board_flash_options, board_flash>},
        {"serve", "simulate a board in real time on 127.0.0.1; SIGUSR1 acts as its reset button",

@@ -176,7 +176,7 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
     messages.show(operation, [&] { progress.clear(); });
   };
   first.result =
-      board ? check_for_grbl(program, machine, options, board->zero, first.findings, watch_path, watch_operations)
+      board ? check_for_grbl(program, machine, options, board->target, first.findings, watch_path, watch_operations)
             : check_program(program.again(), machine, options, first.findings, watch_path, watch_operations);
   progress.clear();
   if (!arguments.json || (first.result.good && measures_motion(arguments))) display.finish();

@@ -140,7 +140,7 @@ int explain(const ExplainArguments& arguments);
 
 struct MachineArguments {
   std::string machine;  // empty: with `from`
-  std::string from;     // the configuration file of another controller; empty: none
+  std::string from;     // the configuration file of another controller, or the address of a Grbl board; empty: none
   std::string format;   // of that file; empty: from its content
   std::string output;   // the new machine file; empty: standard output
   bool json = false;
@@ -148,9 +148,11 @@ struct MachineArguments {
 int machine(const MachineArguments& arguments);
 
 struct BoardListArguments {
-  std::vector<std::string> devices;  // empty: all serial ports of this computer
+  std::vector<std::string> devices;  // these are opened and asked; empty: all serial ports of this computer
+  bool ask = false;                  // opens all ports that are not in use, too
   double wait = 2.5;                 // seconds to wait for an answer on each port
   bool json = false;
+  std::string system;  // a folder with system files in place of this computer's; empty: this computer's
 };
 int board_list(const BoardListArguments& arguments);
 
@@ -168,6 +170,17 @@ struct BoardMonitorArguments {
   bool json = false;        // prints each line as a JSON object
 };
 int board_monitor(const BoardMonitorArguments& arguments);
+
+struct BoardSettingsArguments {
+  std::string board;               // an address "grbl:…"
+  std::vector<std::string> names;  // only these settings, with their meaning; empty: all
+  std::vector<std::string> set;    // NAME=VALUE
+  std::string save;                // a file for all settings
+  std::string compare;             // a file of settings
+  std::string restore;             // a file of settings, of which those that differ are written
+  bool json = false;
+};
+int board_settings(const BoardSettingsArguments& arguments);
 
 struct BoardFlashArguments {
   std::string board;   // uno, mega, or one of their variants with windings; pico
@@ -206,6 +219,7 @@ struct ServeArguments {
   bool check = false;                   // only checks whether these options can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
+  std::string system;                   // a folder with system files, as for `board list`
 };
 int serve(const ServeArguments& arguments);
 

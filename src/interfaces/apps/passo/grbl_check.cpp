@@ -22,7 +22,8 @@ constexpr double bits_per_byte = 10;  // with start bit and stop bit
 // Of the machine file's settings only those of the axes: its $11 would be our path tolerance.
 GrblLimits limits_of_axes(const MachineDescription& machine) {
   constexpr int first_of_axes = 100;
-  GrblMachine board{.axes = "XYZ"};
+  GrblMachine board;
+  board.axes = "XYZ" + more_grbl_axes(machine);
   for (const GrblSetting& setting : grbl_settings(machine, {})) {
     if (setting.number >= first_of_axes) board.hear(fmt::format("${}={}", setting.number, setting.value));
   }
@@ -39,7 +40,11 @@ double bytes_per_second(const BoardAddress& address, const GrblMachine& machine)
 
 std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescription& machine,
                                     InterpreterOptions& options, int& code) {
-  if (name == "grbl") return GrblBoard{.limits = limits_of_axes(machine), .line = {}, .zero = {}};
+  if (name == "grbl") {
+    GrblBoard board{.limits = limits_of_axes(machine), .line = {}, .target = {}};
+    for (const Axis axis : grbl_axes_of(machine)) board.target.axes.add(axis);
+    return board;
+  }
   if (!names_grbl_machine(name)) {
     code = fail(exit_bad_program, name + ": --board of check takes grbl, grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT");
     return std::nullopt;
@@ -58,7 +63,7 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
   GrblBoard found{.firmware = board.firmware + " " + board.version,
                   .limits = limits_of(board),
                   .line = {.bytes_per_second = bytes_per_second(*address, board), .buffer = sender.buffer_size()},
-                  .zero = first_work_zero(board)};
+                  .target = GrblTarget::of(board)};
   const auto& steps = found.limits.steps_per_mm.values;
   if (std::ranges::all_of(steps, [](double per_unit) { return per_unit <= 0; })) {
     code = fail(exit_failed, name +
@@ -81,7 +86,7 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
 Judgement judge_on_grbl(const ProgramReader& program, const MachineDescription& machine,
                         const InterpreterOptions& options, const ProgramCheck& check, const JudgeWatchers& watchers,
                         const std::function<void(double)>& progress, GrblBoard& board) {
-  GrblMotion motion(program, machine, options, board.limits, board.line, board.zero);
+  GrblMotion motion(program, machine, options, board.limits, board.line, board.target);
   Judgement judged = judge(motion, machine, check.nominal_time, watchers, progress);
   board.forecast = motion.result();
   return judged;

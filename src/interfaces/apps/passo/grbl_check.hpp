@@ -19,7 +19,7 @@ struct GrblBoard {
   std::string firmware = "Grbl 1.1";
   GrblLimits limits;
   GrblLine line;
-  Point zero;                          // work zero, machine coordinates
+  GrblTarget target;
   GrblForecast::Result forecast = {};  // after judge_on_grbl()
 };
 

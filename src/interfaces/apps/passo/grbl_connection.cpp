@@ -38,7 +38,13 @@ std::unique_ptr<GrblConnection> GrblConnection::open(const std::string& board, i
   std::unique_ptr<GrblConnection> opened(new GrblConnection(board, std::move(*claim), std::move(*port)));
   GrblSender& sender = opened->sender_;
   while (!sender.ready() && !sender.fault() && interrupted_by() == 0) opened->poll(between_looks);
-  if (sender.ready()) return opened;
+  if (sender.ready()) {
+    const GrblMachine& machine = sender.machine();
+    if (!machine.is_known())
+      note(fmt::format("{}: Passo does not know the firmware {} {}, and treats it as Grbl 1.1", board, machine.firmware,
+                       machine.version));
+    return opened;
+  }
   code = opened->give_up();
   return nullptr;
 }
@@ -88,7 +94,15 @@ bool GrblConnection::home(int& code) {
 std::string GrblConnection::place_words() const {
   const auto place = sender_.place();
   if (!place) return "an unknown position";
-  return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", (*place)[Axis::x], (*place)[Axis::y], (*place)[Axis::z]);
+  std::string words;
+  AxisSet told;
+  for (const char letter : sender_.machine().axes) {
+    const auto axis = axis_of(letter);
+    if (!axis || told.has(*axis)) continue;
+    told.add(*axis);
+    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter, (*place)[*axis]);
+  }
+  return words;
 }
 
 std::string describe(const GrblFault& fault, const std::string& program) {

@@ -39,7 +39,7 @@ class GrblConnection {
   [[nodiscard]] int give_up() const;
   // Unlocks the machine by homing it. Returns false, with a message, on failure.
   [[nodiscard]] bool home(int& code);
-  // Returns "X1.000 Y2.000 Z0.000", machine coordinates; or that the position is unknown.
+  // Returns "X1.000 Y2.000 Z0.000", all axes of the machine, machine coordinates; or that the position is unknown.
   std::string place_words() const;
 
  private:

@@ -87,9 +87,9 @@ bool make_ready(GrblConnection& opened, const std::string& board, bool homes, in
 
 // The program is checked before anything moves.
 ProgramCheck told_check(const ProgramReader& program, const MachineDescription& machine,
-                        const InterpreterOptions& options, const Point& zero) {
+                        const InterpreterOptions& options, const GrblTarget& target) {
   Diagnostics findings;
-  const ProgramCheck check = check_for_grbl(program, machine, options, zero, findings);
+  const ProgramCheck check = check_for_grbl(program, machine, options, target, findings);
   show(findings);
   return check;
 }
@@ -108,21 +108,29 @@ struct GrblRunResult {
   std::uint64_t lines = 0;
 };
 
+// Of each axis that the machine has.
+nlohmann::ordered_json place_json(const GrblMachine& machine, const Point& place) {
+  nlohmann::ordered_json json;
+  for (const char letter : machine.axes) {
+    if (const auto axis = axis_of(letter)) json[std::string(1, letter)] = place[*axis];
+  }
+  return json;
+}
+
 void print(const GrblRunResult& result, const RunArguments& arguments, const GrblConnection& opened,
            const ProgramCheck& check) {
   const Point place = opened.sender().place().value_or(Point());
   const GrblMachine& machine = opened.sender().machine();
   if (arguments.json) {
-    const nlohmann::ordered_json all = {
-        {"program", arguments.program.program},
-        {"grbl",
-         {{"firmware", machine.firmware},
-          {"version", machine.version},
-          {"receive_buffer", opened.sender().buffer_size()}}},
-        {"moves", check.moves},
-        {"lines", result.lines},
-        {"time_s", result.time.value()},
-        {"position_mm", {{"X", place[Axis::x]}, {"Y", place[Axis::y]}, {"Z", place[Axis::z]}}}};
+    const nlohmann::ordered_json all = {{"program", arguments.program.program},
+                                        {"grbl",
+                                         {{"firmware", machine.firmware},
+                                          {"version", machine.version},
+                                          {"receive_buffer", opened.sender().buffer_size()}}},
+                                        {"moves", check.moves},
+                                        {"lines", result.lines},
+                                        {"time_s", result.time.value()},
+                                        {"position_mm", place_json(machine, place)}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
     fmt::print(
@@ -222,12 +230,12 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   const GrblSender& sender = opened->sender();
   options.start = *sender.place();
   set_offsets(options, sender.machine());
-  const Point zero = first_work_zero(sender.machine());
-  const ProgramCheck check = told_check(program, machine, options, zero);
+  const GrblTarget target = GrblTarget::of(sender.machine());
+  const ProgramCheck check = told_check(program, machine, options, target);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
     note("the program starts at " + opened->place_words() + " (machine coordinates), with the offsets of the machine");
-  GrblProgram lines(program, machine, options, zero, !arguments.yes);
+  GrblProgram lines(program, machine, options, target, !arguments.yes);
   if (arguments.from_line > 0) {
     const auto way = way_to_line(arguments, program, machine, options, code);
     if (!way) return code;
@@ -251,9 +259,7 @@ int home_grbl(const HomeArguments& arguments) {
   const double time = (opened->now() - begun).value();
   if (arguments.json) {
     const nlohmann::ordered_json all = {
-        {"homed", true},
-        {"time_s", time},
-        {"position_mm", {{"X", place[Axis::x]}, {"Y", place[Axis::y]}, {"Z", place[Axis::z]}}}};
+        {"homed", true}, {"time_s", time}, {"position_mm", place_json(opened->sender().machine(), place)}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
     fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, opened->place_words());

@@ -1,6 +1,9 @@
 #include <cstdio>
+#include <optional>
 
+#include "board_settings.hpp"
 #include "commands.hpp"
+#include "grbl_connection.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include <nlohmann/json.hpp>
@@ -42,12 +45,22 @@ int write_new_machine(const std::string& text, const std::string& path) {
 }
 
 int import_machine_file(const MachineArguments& arguments) {
+  const bool is_board = names_grbl_machine(arguments.from);
   NamedFiles files;
-  files.reads("--from", arguments.from);
+  if (!is_board) files.reads("--from", arguments.from);
   files.writes("--output", arguments.output);
   if (!files.are_apart()) return exit_bad_program;
   Diagnostics diagnostics;
-  const auto machine = import_controller_file(arguments.from, import_format_of(arguments.format), diagnostics);
+  std::optional<ImportedMachine> machine;
+  if (is_board) {
+    int code = exit_done;
+    const auto told = controller_text_of(arguments.from, code);
+    if (!told) return code;
+    machine = import_controller_text({.file = arguments.from, .text = *told}, import_format_of(arguments.format),
+                                     diagnostics);
+  } else {
+    machine = import_controller_file(arguments.from, import_format_of(arguments.format), diagnostics);
+  }
   show(diagnostics);
   if (!machine) return exit_bad_program;
   if (!arguments.output.empty()) {

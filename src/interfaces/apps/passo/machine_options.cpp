@@ -15,6 +15,13 @@ void add_board(CLI::App& command, std::string& board) {
                      "and a PIC (default: the simulated machine)");
 }
 
+void add_system(CLI::App& command, std::string& system) {
+  command
+      .add_option("--system", system,
+                  "folder with sys, proc, dev and var/lock, to be read in place of this computer's; for tests")
+      ->check(CLI::ExistingDirectory);
+}
+
 void add_jog_options(CLI::App& command, JogArguments& arguments) {
   command.add_option(
       "MOVES", arguments.moves,
@@ -86,6 +93,7 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");
   command.add_option("--page", arguments.page, "folder with the web interface (default: next to the program passo)");
+  add_system(command, arguments.system);
   command.footer(
       "Examples:\n  passo serve                                    a simulated machine, to try the web interface or a "
       "sender\n"
@@ -104,7 +112,9 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
       command
           .add_option("--from", arguments.from,
                       "configuration file of another controller, from which to make a machine file: the answer of "
-                      "Grbl, grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML)")
+                      "Grbl, grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML). Or "
+                      "a Grbl board itself: grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT; opening a serial port resets an "
+                      "Arduino")
           ->excludes(machine);
   command
       .add_option("--format", arguments.format,
@@ -118,6 +128,7 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
       "Examples:\n  passo machine examples/machines/router.toml     show its axes, board and tool\n"
       "  passo machine mine.toml                         check your own file: show its errors, or what it describes\n"
       "  passo machine --from settings.txt -o mine.toml  make a machine file from the answer of Grbl to $$\n"
+      "  passo machine --from grbl:/dev/ttyUSB0 -o mine.toml  read the settings from the board\n"
       "  passo machine --from config.yaml > mine.toml    make one from FluidNC's configuration; the report of "
       "values used,\n"
       "                                                  assumed and not used goes to standard error\n"

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "page_folder.hpp"
 #include "serve_addresses.hpp"
+#include "served_contact.hpp"
 #include "served_journal.hpp"
 #include "served_maker.hpp"
 #include "served_offsets.hpp"
@@ -73,6 +74,7 @@ class ServedWeb {
   GrblController* grbl_ = nullptr;          // the controller for senders
   GrblMachineSession* board_ = nullptr;     // a board that keeps the offsets
   std::string host_;
+  ServedContact contact_;
   ServedMaker maker_;
   ServedStudies studies_;
   ServedTimer timer_;

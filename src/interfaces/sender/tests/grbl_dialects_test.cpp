@@ -29,7 +29,7 @@ TEST(GrblDialects, what_grblhal_tells_of_itself_is_no_restart) {
   EXPECT_FALSE(pair.sender.fault());
   // It tells 1024, and holds 1023.
   EXPECT_FALSE(pair.machine.overflowed());
-  EXPECT_GT(pair.machine.most_waiting(), 1023U - 16);
+  EXPECT_GT(pair.machine.most_waiting(), 1023U - 32) << "the line that waits for a block has left the buffer";
   EXPECT_EQ(pair.machine.done().size(), 300U);
 }
 
@@ -139,7 +139,7 @@ TEST(GrblDialects, numbers_belong_to_the_axes_that_the_machine_has) {
   five.machine.more_of_itself = "[AXS:5:XYZAB]\r\n";
   five.machine.own_report = [] { return std::string("<Idle|MPos:1.000,2.000,3.000,90.000,45.000>"); };
   ASSERT_TRUE(five.greet());
-  EXPECT_EQ(*five.sender.place(), (Point{{1, 2, 3}})) << "Passo moves X, Y and Z alone";
+  EXPECT_EQ(*five.sender.place(), (Point{{1, 2, 3, 90, 45}}));
 
   GrblPair lathe;
   lathe.machine.more_of_itself = "[AXS:2:XZ]\r\n";

@@ -10,9 +10,14 @@
 // rounded ends of a small arc for a full circle. A spline, and an arc with a changing radius, become chords within two
 // thousandths of a millimetre.
 //
-// Features that Grbl lacks are refused: axes other than X, Y and Z, probe moves, threads, taps. Differences from our
-// boards: corners follow Grbl's junction deviation ($11), and M48 to M53 have no effect. An exact stop (G61.1) is a
-// dwell of zero length, which waits until the machine has stopped.
+// Axes are those of the board. Grbl divides the root of the sum of squares over all axes, mm and degrees alike, by F.
+// So F is written such that a move takes as long as the program says. Where it depends on the build what F applies to,
+// moves of rotary together with linear axes are written in inverse time (G93). An arc during which another axis than X,
+// Y and Z moves becomes chords.
+//
+// Features that the board lacks are refused: axes, M7, probe moves, threads, taps. Differences from our boards: corners
+// follow Grbl's junction deviation ($11), and M48 to M53 have no effect. An exact stop (G61.1) is a dwell of zero
+// length, which waits until the machine has stopped.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +26,13 @@
 
 #include "passo/base/result.hpp"
 #include "passo/path/segment.hpp"
+#include "passo/sender/grbl_target.hpp"
 
 namespace passo {
 
 class GrblCode {
  public:
-  // `zero`: the work zero in machine coordinates, X, Y and Z; the lines are relative to it.
-  explicit GrblCode(const Point& zero = {}) : zero_(zero) {}
+  explicit GrblCode(const GrblTarget& target = {}) : target_(target) {}
 
   // Appends the lines of an item; none if nothing changes. Stops and tool changes produce only the lines of their
   // outputs; the caller must wait. The error is a clause that names what a Grbl machine does not support.
@@ -45,19 +50,22 @@ class GrblCode {
 
   Status<std::string> write_segment(const Segment& segment, std::vector<std::string>& lines);
   Status<std::string> write_action(const Action& action, std::vector<std::string>& lines);
-  void write_line(const Point& end, double feed, std::vector<std::string>& lines);
+  // `feed`: along the curve, mm/min or degrees/min; 0: a rapid.
+  void write_line(const Point& start, const Point& end, double feed, double length, std::vector<std::string>& lines);
   void write_arc(const Curve& curve, double feed, std::vector<std::string>& lines);
   void write_chords(const Curve& curve, double feed, std::vector<std::string>& lines);
   void set_outputs(const OutputState& wanted, std::vector<std::string>& lines);
-  std::string words_to(const Place& place, bool all_of_them);
-  std::string code_words(int code, double feed);
+  std::string words_to(const Place& place, bool all_of_xyz);
+  std::string code_words(int code, double feed, bool by_time = false);
   Place rounded(const Point& machine) const;
 
-  Point zero_;
+  GrblTarget target_;
   Place at_;
-  AxisSet sure_;  // axes that were written, so their machine position is known
+  AxisSet sure_;      // axes that were written, so their machine position is known
+  AxisSet moved_{7};  // X, Y, Z, and other axes that have moved
   int code_ = -1;
   int plane_ = 17;
+  bool by_time_ = false;  // G93
   std::int64_t feed_ = -1;
   OutputState outputs_;
   std::int64_t spindle_speed_ = -1;

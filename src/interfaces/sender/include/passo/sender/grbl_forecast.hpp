@@ -17,6 +17,7 @@
 #include "passo/geometry/axes.hpp"
 #include "passo/grbl_planner/grbl_planner.hpp"
 #include "passo/sender/grbl_machine.hpp"
+#include "passo/sender/grbl_target.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -41,8 +42,8 @@ class GrblForecast {
     std::uint32_t densest_line = 0;  // where: the source of the first of these lines
   };
 
-  // The board rests at `start`, in machine coordinates; `zero`: the work zero, as for GrblCode.
-  GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const Point& zero);
+  // The board rests at `start`, in machine coordinates; `target`: as for GrblCode.
+  GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const GrblTarget& target);
 
   // Sets a listener for the phases of the motion, in order.
   void hear(std::function<void(const GrblPhase&)> listener) { hindered_.hear(std::move(listener)); }
@@ -69,11 +70,12 @@ class GrblForecast {
   void weigh(std::size_t bytes, double length, std::uint32_t source);
 
   GrblLine line_;
-  Point zero_;
+  GrblTarget target_;
   Point at_;  // machine coordinates
   int motion_ = 0;
   int plane_ = 17;
-  double feed_ = 0;  // mm/s
+  double feed_ = 0;       // mm/s; of an inverse time: moves per second
+  bool by_time_ = false;  // G93
   GrblPlanner hindered_;
   GrblPlanner unhindered_;
   std::deque<Sent> unanswered_;

@@ -21,9 +21,9 @@ namespace passo {
 
 class GrblMotion final : public ProgramMotion {
  public:
-  // The program must have passed check_for_grbl(). `zero`: as for GrblCode. `machine` must outlive this object.
+  // The program must have passed check_for_grbl(). `machine` must outlive this object.
   GrblMotion(const ProgramReader& program, const MachineDescription& machine, const InterpreterOptions& options,
-             const GrblLimits& limits, const GrblLine& line, const Point& zero);
+             const GrblLimits& limits, const GrblLine& line, const GrblTarget& target);
 
   [[nodiscard]] bool next(MotionItem& item) override;
   void watch_operations(std::function<void(const Operation&)> watcher) override;

@@ -19,16 +19,14 @@
 
 namespace passo {
 
-// Sets the initial offsets of a program to those of the machine: G54 to G59 and G92. The program begins in G54.
+// Sets the initial offsets of a program to those of the machine, on all axes: G54 to G59.3 and G92. The program begins
+// in G54.
 void set_offsets(InterpreterOptions& options, const GrblMachine& machine);
-// Returns the zero of G54 including G92, machine coordinates, mm.
-Point first_work_zero(const GrblMachine& machine);
 
 // Checks a program as for our boards, and whether a Grbl machine supports it: what it does not support is an error
-// "grbl.cannot" at its line, once for each reason. `zero`: as for GrblCode. Observers, if set, receive each path item
-// and each operation.
+// "grbl.cannot" at its line, once for each reason. Observers, if set, receive each path item and each operation.
 ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
-                            const InterpreterOptions& options, const Point& zero, Diagnostics& findings,
+                            const InterpreterOptions& options, const GrblTarget& target, Diagnostics& findings,
                             const std::function<void(const PathItem&)>& watch_path = {},
                             const std::function<void(const Operation&)>& watch_operations = {});
 
@@ -43,7 +41,7 @@ class GrblProgram {
   // The program must have passed check_for_grbl(). `waits`: it waits at its stops and tool changes. `machine` must
   // outlive this object.
   GrblProgram(const ProgramReader& program, const MachineDescription& machine, const InterpreterOptions& options,
-              const Point& zero, bool waits);
+              const GrblTarget& target, bool waits);
 
   // Begins at a line, after the reentry move.
   void begin_at(const Reentry& way);

@@ -18,6 +18,7 @@ struct GrblReport {
   std::optional<Point> machine_place = {};  // as reported: mm, or inches with $13=1
   std::optional<Point> work_place = {};     // work position, as reported
   std::optional<Point> work_offset = {};    // work offset, as reported
+  std::size_t values = 0;                   // numbers in its position: one for each axis
   std::optional<std::size_t> blocks_free = {};
   std::optional<std::size_t> bytes_free = {};
   std::string pins = {};  // letters of the triggered inputs
@@ -37,8 +38,8 @@ std::optional<GrblReport> read_grbl_report(std::string_view line, std::string_vi
 // Returns whether a line is a report of Grbl before version 1.1: <Idle,MPos:0.000,0.000,0.000,WPos:…>
 bool is_report_of_old_grbl(std::string_view line);
 
-// Parses comma-separated numbers, one for each letter in `axes`. Uses only X, Y and Z: a sender moves no other axis of
-// such a machine. Empty if there are no numbers.
+// Parses comma-separated numbers, one for each letter in `axes`; ignores those without a letter of an axis. Of an axis
+// with two motors, which some firmwares report twice, the first counts. Empty if there are no numbers.
 std::optional<Point> read_grbl_place(std::string_view text, std::string_view axes = grbl_axes);
 
 // Empty if the text is not a number.

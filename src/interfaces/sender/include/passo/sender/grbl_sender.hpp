@@ -73,6 +73,9 @@ class GrblSender {
   // Adds a line of a program, without its line end. `line`: in the program file. `silence`: how long the machine may
   // not respond because of it (homing, a dwell). Spindle delays are always allowed.
   void add(std::string text, std::uint32_t line = 0, Seconds silence = Seconds(0));
+  // Adds a line whose answer take_reply() returns, in the order of the questions. A rejection is no fault.
+  void ask(std::string text, Seconds silence = Seconds(0));
+  std::optional<GrblAnswer> take_reply() { return window_.take_reply(); }
   // Returns whether only few lines are waiting here.
   bool wants_lines() const { return window_.waiting() < 32; }
   // Returns whether each line was sent and acknowledged.
@@ -135,6 +138,7 @@ class GrblSender {
   void hear_greeting();
   // `error`: the text after "error:". Empty: ok.
   void answer(std::optional<std::string_view> error);
+  std::string words_of_error(std::string_view error) const;
   void alarm(std::string_view text);
   std::string words_of_alarm(int number) const;
   void fail(GrblFault fault);

@@ -10,10 +10,19 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "passo/units/units.hpp"
 
 namespace passo {
+
+// What the machine says to a line, other than reports and ok.
+struct GrblAnswer {
+  std::string line;
+  std::vector<std::string> said = {};
+  std::string error = {};  // "error:3, the '$' command is unknown"; empty: ok
+};
 
 class UnacknowledgedLines {
  public:
@@ -22,6 +31,8 @@ class UnacknowledgedLines {
     std::uint32_t line = 0;  // line of the program; 0: none
     Seconds silence{0};      // how long the machine may not respond because of it
     Seconds sent{0};
+    bool asks = false;  // its answer is wanted; a rejection is no fault
+    std::vector<std::string> said = {};
   };
 
   void add(Line line) { waiting_.push_back(std::move(line)); }
@@ -30,6 +41,10 @@ class UnacknowledgedLines {
   std::string send(Seconds now, std::size_t size);
   // Removes and returns the oldest line, which was acknowledged. Empty: the response belongs to none of our lines.
   std::optional<Line> take_answered();
+  // Notes what the machine says, if the oldest line asks.
+  void note_said(std::string_view text);
+  void keep_reply(Line line, std::string error);
+  std::optional<GrblAnswer> take_reply();
   void drop_waiting() { waiting_.clear(); }
   void drop_sent() {
     sent_.clear();
@@ -65,6 +80,7 @@ class UnacknowledgedLines {
   std::size_t empty_buffer_ = std::numeric_limits<std::size_t>::max();
   std::uint32_t last_line_ = 0;
   std::deque<std::uint32_t> held_;
+  std::deque<GrblAnswer> replies_;
 };
 
 }  // namespace passo

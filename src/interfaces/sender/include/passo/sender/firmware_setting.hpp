@@ -1,0 +1,101 @@
+// FirmwareSetting: one setting of the firmware of a Grbl board ("$110=500.000"), with its name, unit, range and
+// meaning.
+//
+// grblHAL describes its settings itself ($ES, $EG, $ESH). Those of the other firmwares are described by a table here,
+// from Grbl's documentation. A setting without a description has a name and a value only.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/base/result.hpp"
+#include "passo/sender/grbl_machine.hpp"
+
+namespace passo {
+
+struct FirmwareSetting {
+  enum class Kind : std::uint8_t {
+    unknown,
+    number,
+    integer,
+    flag,    // 0 or 1
+    bits,    // the sum of 1, 2, 4 …, one for each of `choices`
+    axes,    // the same, one for each axis of the board
+    choice,  // the position in `choices`, from 0
+    text,
+    password,  // read as asterisks
+  };
+  std::string name;          // "$110"
+  std::string value;         // as the board writes it
+  std::string title = {};    // "Maximum rate of X"; empty: not described
+  std::string unit = {};     // "mm/min"
+  std::string group = {};    // "Axis X"
+  std::string meaning = {};  // sentences
+  Kind kind = Kind::unknown;
+  std::vector<std::string> choices = {};  // empty text: not in use
+  std::optional<double> least = {};
+  std::optional<double> most = {};
+  bool zero_too = false;       // 0 is allowed below `least`
+  bool needs_restart = false;  // takes effect when the board has restarted
+  bool read_only = false;      // cannot be written by its number
+};
+
+// "number", "integer", "flag" …
+std::string_view name_of(FirmwareSetting::Kind kind);
+
+// Returns 110 of "$110"; nothing if it is no number.
+std::optional<int> read_setting_number(std::string_view name);
+
+// Fills in what the table says about a setting of Grbl 1.1. `axes`: the letters of the board's axes.
+void describe_by_table(FirmwareSetting& setting, std::string_view axes);
+
+// What grblHAL says about its settings: the answers to $ES, $EG and $ESH.
+class SettingDescriptions {
+ public:
+  // Processes a line of an answer. Ignores all others.
+  void hear(std::string_view line);
+  bool empty() const { return settings_.empty(); }
+  // Fills in what is known about the setting. Returns false if nothing is.
+  bool describe(FirmwareSetting& setting, std::string_view axes) const;
+
+ private:
+  void hear_setting(std::string_view fields);
+  void hear_table(std::string_view line);
+
+  std::map<std::string, FirmwareSetting, std::less<>> settings_;
+  std::map<std::string, std::string, std::less<>> groups_;
+};
+
+// Returns why the board should not get this value, as a clause; nothing if it may.
+Status<std::string> check_setting(const FirmwareSetting& setting, std::string_view value);
+// Returns whether two values are the same within the digits that boards write.
+bool is_same_value(std::string_view a, std::string_view b);
+
+// "$110=500" of a file.
+struct NamedSetting {
+  std::string name;
+  std::string value;
+};
+
+// A file of settings: $n=value, one a line, below what the board says of itself. `passo machine --from` reads it too.
+std::string settings_text(const GrblMachine& machine, std::span<const FirmwareSetting> settings);
+// Reads such a file, or a board's answer to $$ saved by another program. The error names the line and what was
+// expected. At most 2,000 settings.
+Result<std::vector<NamedSetting>, std::string> parse_settings_text(std::string_view text);
+
+struct SettingDifference {
+  std::string name;
+  std::string in_file;   // empty: the file does not have it
+  std::string on_board;  // empty: the board does not have it
+};
+// Returns the settings that differ, those of the file first, in its order. Passwords, which are read as asterisks, are
+// not compared.
+std::vector<SettingDifference> differences(std::span<const NamedSetting> file, std::span<const FirmwareSetting> board);
+
+}  // namespace passo
