@@ -43,7 +43,7 @@ std::optional<Point> contact_of(std::string_view value, const GrblMachine& board
   if (colon == std::string_view::npos) return {};
   touched = value.substr(colon + 1) == "1";
   const auto place = read_grbl_place(value.substr(0, colon), board.axes);
-  return place ? std::optional(*place * board.unit()) : std::nullopt;
+  return place ? std::optional(board.millimetres(*place)) : std::nullopt;
 }
 
 }  // namespace
