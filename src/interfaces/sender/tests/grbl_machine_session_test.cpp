@@ -273,8 +273,8 @@ TEST_F(GrblSessions, a_refused_line_ends_the_program_at_that_line) {
 
 TEST_F(GrblSessions, a_limit_switch_is_an_alarm) {
   ASSERT_TRUE(run.go_online());
-  run.grbl.trips = "G1F1200X10Y0Z0";
-  const auto ticket = run.ask(grbl_start(square));
+  run.grbl.trips = "G1F6000X10Y0Z0";
+  const auto ticket = run.ask(grbl_start("G21 G90\nG1 X10 F6000\nG1 Y10\nM2\n"));
   ASSERT_TRUE(run.play_until(MachineState::alarm));
   EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::failed);
   EXPECT_EQ(run.answer_to(*ticket)->fault->fault, MachineFault::board_stopped);
