@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""isolation_oracle.py LAYER PROGRAM CUTTER_MM LOSS_MM: judges an isolation program in pixels.
+"""isolation_oracle.py LAYER PROGRAM CUTTER_MM LOSS_MM [DPI]: judges an isolation program in pixels.
 
 gerbv draws the layer, and the cuts of the program are drawn over it as wide as the cutter. Prints the number of islands
 of copper, of those that are still joined to another one, of those that fell apart, and the copper that is lost: its
-area in mm2, and "deep" if any is farther from the rim than LOSS_MM and two pixels. Shares no code with Passo. Needs
-gerbv, and numpy, scipy and Pillow for Python.
+area in mm2 without the outermost pixel of each island, which the rim crosses, and "deep" if any is farther from the
+rim than LOSS_MM and two pixels. With DPI, says where islands are joined. Shares no code with Passo. Needs gerbv, and
+numpy, scipy and Pillow for Python.
 """
 import math
 import re
@@ -60,6 +61,8 @@ def main():
     high = numpy.maximum(lines[:, :2].max(0), lines[:, 2:].max(0)) + 1
     size = high - low
     dpi = 5080 if size[0] * size[1] < 3000 else 2540
+    if len(sys.argv) > 5:
+        dpi = int(sys.argv[5])
     pixel = 25.4 / dpi
     with tempfile.NamedTemporaryFile(suffix=".png") as picture:
         subprocess.run(["gerbv", "-x", "png", "-o", picture.name, f"--dpi={dpi}", "-B", "0",
@@ -111,7 +114,13 @@ def main():
         owners[piece] = owners.get(piece, 0) + 1
     joined = sum(number for number in owners.values() if number > 1)
     broken = sum(1 for parts in apart.values() if sum(parts) - max(parts) > 0.002 / pixel**2)
+    if len(sys.argv) > 5:
+        for island, (_, piece) in largest.items():
+            if owners[piece] > 1:
+                row, column = numpy.argwhere((islands == island) & left)[0]
+                print(f"island {island} is joined in piece {piece}, e.g. at X{low[0] + column * pixel:.3f} Y{low[1] + row * pixel:.3f}")
     inner = copper.copy()
+    lost = 0.0
     for i in range(int(loss / pixel) + 2):
         shrunk = inner.copy()
         shrunk[1:] &= inner[:-1]
@@ -122,8 +131,9 @@ def main():
             shrunk[1:, 1:] &= inner[:-1, :-1]
             shrunk[:-1, :-1] &= inner[1:, 1:]
         inner = shrunk
+        if i == 0:
+            lost = float((inner & ~left).sum()) * pixel**2
     deep = bool((inner & ~left).any())
-    lost = float((copper & ~left).sum()) * pixel**2
     print(f"{count} islands, {joined} joined, {broken} broken, {lost:.2f} mm2 lost{', deep' if deep else ''}")
 
 

@@ -6,7 +6,7 @@
 # once, in a copy below build/mutations. A mutation whose text is not found exactly once is an error. The build in
 # build/release must be up to date. NUMBER: only these. The exit code is 1 if a mutation survives.
 #
-# PASSO_RUNS: the random programs of each test, 60 unless it is set. The table is in docs/motion-proof.md.
+# PASSO_RUNS: the random programs of each test, 150 unless it is set. The table is in docs/motion-proof.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -129,7 +129,7 @@ link=$(ninja -C "$release" -t commands "$program" | tail -1)
 failure_of() {  # NUMBER
   local output tests test
   for tests in 'RandomMotion.*:MixtureLaw.*' 'RandomHalt.*'; do
-    if ! output=$(PASSO_MUTANT=$1 PASSO_RUNS=${PASSO_RUNS-60} timeout 900 "$copy/random_motion_tests" \
+    if ! output=$(PASSO_MUTANT=$1 PASSO_RUNS=${PASSO_RUNS-150} timeout 900 "$copy/random_motion_tests" \
       --gtest_fail_fast --gtest_filter="$tests" 2>&1); then
       test=$(grep -m 1 -oP '^\[  FAILED  \] \K\S+' <<<"$output" || echo 'a test that was killed')
       printf '%s: %s' "$test" "$(grep -m 1 -A 3 'Failure$' <<<"$output" | grep -v -e Failure -e '^Failed$' -e '^--' | head -1)"

@@ -6,7 +6,7 @@ import { beginStage, browser, daemon } from './stage';
 
 beginStage();
 
-const paths = ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'lab', 'lab?part=board', 'lab?part=driver'];
+const paths = ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'machine?part=board', 'lab', 'lab?part=board', 'lab?part=driver'];
 const pictures = process.env.PASSO_FIT_PICTURES; // a folder, for whoever wants to look
 const sizes = [{ width: 1366, height: 768 }, { width: 390, height: 844 }] as const;
 

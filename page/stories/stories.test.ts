@@ -430,7 +430,7 @@ describe('every page', () => {
       const size = language === 'fr' || language === 'zh' ? { width: 360, height: 740 } : { width: 1440, height: 900 };
       const { page, context, errors } = await visit(browser, daemon, 'run', { language, theme, size });
       await expect.poll(() => page.getByTestId('state').innerText()).toBe(words);
-      for (const path of ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'lab']) {
+      for (const path of ['run', 'jog', 'files', 'cam', 'console', 'pins', 'machine', 'machine?part=board', 'lab']) {
         await page.goto(`${daemon.address}#/${path}`);
         await page.locator(`main.page-${path} :is(section, form, .panel)`).first().waitFor();
         expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${path} is too wide`).toBe(true);

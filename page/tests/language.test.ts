@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { fill, language, languageOf, sayCount, typeset } from '../src/core/language';
+import { board } from '../src/lang/en/board';
 import { cam } from '../src/lang/en/cam';
 import { console as consoleWords } from '../src/lang/en/console';
 import { files } from '../src/lang/en/files';
@@ -27,7 +28,7 @@ describe('languages', () => {
   });
 
   it('says each thing once: no file hides a word of another', () => {
-    const all = [cam, consoleWords, files, frame, job, machine, operations, pins, run, set_up].flatMap((one) => Object.keys(one));
+    const all = [board, cam, consoleWords, files, frame, job, machine, operations, pins, run, set_up].flatMap((one) => Object.keys(one));
     expect(all.length).toBe(Object.keys(en).length);
     expect(new Set(all).size).toBe(all.length);
   });

@@ -1,5 +1,6 @@
 // passo board: what it says of boards, against the virtual one in the network, and what it would have avrdude do.
 #include "kit/served_board.hpp"
+#include "kit/system_files.hpp"
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -204,6 +205,42 @@ TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
   const Outcome list = passo("board list /dev/null --json");
   EXPECT_EQ(list.code, 0);
   EXPECT_NE(list.out.find("not a serial port"), std::string::npos) << list.out;
+}
+
+// Opening the port would restart an Arduino, also under another program's job.
+TEST_F(Boards, are_listed_without_opening_their_ports) {
+  const passo::test::SystemFiles files(path("system"));
+  files.plug_in("ttyACM0", {.bus = "1-2", .vendor = "2341", .product = "0043", .product_name = "Arduino Uno"});
+  files.name_lastingly("ttyACM0", "usb-Arduino_Uno-if00");
+  files.plug_in("ttyUSB0", {.bus = "1-3", .vendor = "1a86", .product = "7523", .product_name = "USB Serial"});
+  files.begin(4711, "cncjs", "ttyUSB0");
+  const std::string list = "board list --system " + path("system");
+  const Outcome listed = passo(list);
+  EXPECT_EQ(listed.code, 0) << listed.err;
+  EXPECT_NE(listed.out.find("dev/serial/by-id/usb-Arduino_Uno-if00\n"), std::string::npos) << listed.out;
+  EXPECT_NE(listed.out.find("2341:0043 Arduino Uno\n  state   no program is known"), std::string::npos) << listed.out;
+  EXPECT_NE(listed.out.find("in use by cncjs (process 4711)"), std::string::npos) << listed.out;
+  EXPECT_EQ(listed.out.find("not a serial port"), std::string::npos) << "a port was opened: " << listed.out;
+  EXPECT_NE(listed.err.find("no port was opened"), std::string::npos) << listed.err;
+
+  const auto json = nlohmann::json::parse(passo(list + " --ask --json").out);
+  ASSERT_EQ(json.size(), 2U);
+  EXPECT_EQ(json[0]["usb"]["vendor"], "2341");
+  EXPECT_NE(json[0]["says"].get<std::string>().find("not a serial port"), std::string::npos) << json;
+  EXPECT_EQ(json[1]["users"][0]["program"], "cncjs");
+  EXPECT_FALSE(json[1].contains("says")) << "a port that is in use was opened: " << json;
+  const Outcome busy = passo(list + " " + files.path("dev/ttyUSB0"));
+  EXPECT_NE(busy.out.find("in use by cncjs"), std::string::npos) << busy.out;
+  EXPECT_EQ(busy.out.find("not a serial port"), std::string::npos) << busy.out;
+}
+
+TEST_F(Boards, of_a_computer_without_ports_are_none) {
+  const passo::test::SystemFiles files(path("system"));
+  const Outcome listed = passo("board list --system " + path("system"));
+  EXPECT_EQ(listed.code, 0) << listed.err;
+  EXPECT_EQ(listed.out, "No USB serial port found.\n");
+  EXPECT_EQ(passo("board list --json --system " + path("system")).out, "[]\n");
+  EXPECT_EQ(passo("board list --system " + path("nowhere")).code, 2);
 }
 
 // Six motors of a Mega, faster than 90 kHz.

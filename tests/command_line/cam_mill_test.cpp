@@ -95,6 +95,37 @@ TEST_F(CamMill, nets_that_stay_joined_are_told_and_fail) {
   EXPECT_THAT(parted.out, HasSubstr("3 nets, all apart"));
 }
 
+// What a person reads on standard error is what a script reads in the JSON.
+TEST_F(CamMill, every_command_adds_its_notes_and_warnings_to_its_json) {
+  const std::string copper_file = copper();
+  const std::string edge_file = edge();
+  // It gives neither its unit nor its number format.
+  const std::string old = write("old.gbr", "%ADD10C,0.02*%\nD10*\nX0Y0D02*\nX5000D01*\nM02*\n");
+  const std::string drawn =
+      write("drawn.svg",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20mm\" height=\"20mm\" "
+            "viewBox=\"0 0 20 20\"><text x=\"3\" y=\"3\">A</text><path d=\"M2 2H8V8H2Z\"/></svg>");
+  const std::string drill_file = write("old.drl", "M48\nT1C0.0315\n%\nT1\nX1000Y1000\nM30\n");
+  const std::string to = " --json -o " + path("n.ngc");
+  for (const std::string& command :
+       {"isolate " + old + " --tool 0.2" + to,
+        "isolate " + copper_file + " --v 30,0.15 --depth -0.1 --allow-loss 0" + to,
+        "outline " + edge_file + " --tool 2 --tab-height 0.2" + to, "drill " + drill_file + to, "plot " + drawn + to,
+        "wire " + drawn + to, "profile " + drawn + " --tool 1" + to, "show " + old + " --json",
+        "board " + std::string(PASSO_SOURCE_DIR) + "/examples/boards --json -o " + path("job")}) {
+    const Outcome made = cam(command);
+    const auto json = nlohmann::json::parse(made.out, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << command << "\n" << made.out << made.err;
+    std::size_t shown = 0;
+    for (std::size_t at = made.err.find(": note: "); at != std::string::npos; at = made.err.find(": note: ", at + 1))
+      ++shown;
+    EXPECT_GT(shown, 0U) << command << "\n" << made.err;
+    ASSERT_TRUE(json.contains("notes")) << command << "\n" << made.err;
+    EXPECT_EQ(json["notes"].size(), shown) << command << "\n" << made.err;
+    for (const auto& words : json["notes"]) EXPECT_THAT(made.err, HasSubstr(": note: " + words.get<std::string>()));
+  }
+}
+
 TEST_F(CamMill, copper_outside_the_board_does_not_count) {
   const std::string beside =
       write("beside.gbr", std::string(begin) +

@@ -101,6 +101,7 @@ TEST_F(FakeGrblMachine, may_tell_the_work_place_alone) {
   grbl.settings = "$10=0\r\n$13=1\r\n";
   grbl.own_report = [] { return std::string("<Idle|WPos:1.0000,0.0000,0.0000>"); };
   grbl.offsets = "[G54:0.0000,1.0000,0.0000]\r\n[G92:0.0000,0.0000,0.0000]\r\n[TLO:0.0000]\r\n";
+  grbl.put(22, 1);
   const FakeGrbl machine(grbl);
   const auto outcome = beside(machine, "home --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -131,6 +132,7 @@ TEST_F(FakeGrblMachine, that_takes_no_program_is_refused_in_words) {
               HasSubstr("locked by an alarm (ALARM:11, it must be homed first). Home it with --home"));
   StrictGrbl bare;
   bare.has_switches = false;
+  bare.put(22, 1);
   const std::string words = outcome_in(bare, "home");
   EXPECT_THAT(words, HasSubstr("ALARM:9, homing found no switch"));
   EXPECT_THAT(words, HasSubstr("[grbl.alarm]"));

@@ -10,7 +10,7 @@
 
 #include "passo/emulator/emulated_board.hpp"
 #include "passo/plant/ideal_plant.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -36,11 +36,11 @@ Ran run(double pressed) {
     log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
   };
   const MachineDescription machine = test::example_machine("uno");
-  MachineSession session(machine, **board,
-                         {.over_a_line = true,
-                          .care = {.answer_within = Seconds(0.1), .patience = Seconds(60)},
-                          .greeting = {.session = 1},
-                          .start = {.place = Point(), .trust = Trust::commanded}});
+  BoardMachineSession session(machine, **board,
+                              {.over_a_line = true,
+                               .care = {.answer_within = Seconds(0.1), .patience = Seconds(60)},
+                               .greeting = {.session = 1},
+                               .start = {.place = Point(), .trust = Trust::commanded}});
   for (int i = 0; i < 1000 && session.state() == MachineState::offline; ++i) session.poll(Seconds(0.02));
   EXPECT_EQ(session.state(), MachineState::idle) << session.trouble_words();
   const auto ticket = session.request(

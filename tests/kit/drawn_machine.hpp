@@ -21,7 +21,7 @@
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/plant/rotor_plant.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 #include "passo/verdict/margin_survey.hpp"
 
 namespace passo::test {
@@ -127,7 +127,7 @@ inline JudgedRun play_and_judge(const MachineDescription& machine, const std::st
   VirtualMachine board(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
                        machine.board.highest_event_rate);
   board.connect(plant);
-  MachineSession session(machine, board, {.start = {.place = {}, .trust = Trust::commanded}});
+  BoardMachineSession session(machine, board, {.start = {.place = {}, .trust = Trust::commanded}});
   while (session.state() == MachineState::offline) session.poll(endless);
   Diagnostics findings;
   request::Start start{.program = ProgramReader::from_text("drawn.ngc", text),

@@ -8,7 +8,7 @@
 #include "passo/activity/machine_plant.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo::test {
 
@@ -88,7 +88,7 @@ class FuzzedSession {
   IdealPlant plant_;
 
  public:
-  MachineSession session;
+  BoardMachineSession session;
 };
 
 }  // namespace passo::test

@@ -1,180 +1,465 @@
-// StrictGrbl: a Grbl 1.1 machine modelled on grbl's sources, in virtual time, with a receive buffer that loses bytes on
-// overflow. It accepts the lines that GrblCode writes, and refuses all others.
+// StrictGrbl: a machine with Grbl 1.1 in virtual time, as its sources and the real one behave:
+// - the receive buffer loses bytes on overflow, and while the EEPROM is written;
+// - real-time bytes act in the middle of lines, `$` commands mostly in Idle, G-code neither in an alarm nor in a jog;
+// - motion takes its time: GrblBoardMotion plans it; holds brake; a reset while moving is ALARM:3;
+// - alarms, check mode, sleep, door, jogs and their cancellation, probing, homing, overrides, power cuts;
+// - reports carry WCO and Ov in Grbl's turns.
+// tests/kit/grbl_conversations.hpp holds it against the real ones. Its public variables script what Grbl alone does
+// not do: other firmware, a line that is refused, a machine that is silent.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
-#include <cstdlib>
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "kit/grbl_board_motion.hpp"
+#include "kit/grbl_board_parser.hpp"
+#include "kit/grbl_board_settings.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 
 class StrictGrbl {
  public:
-  explicit StrictGrbl(std::size_t bytes = 128) : bytes_(bytes) {}
+  explicit StrictGrbl(std::size_t bytes = 128) : bytes_(bytes) { use_settings(); }
 
+  // What it says of itself; an empty text is Grbl's own.
   std::string greeting = "Grbl 1.1h ['$' for help]";
+  std::string version = "1.1h.20190830:";
   std::string options = "V,15,128";
-  std::string more_of_itself = {};  // whole lines sent after the options
-  std::string settings = "$10=1\r\n$13=0\r\n$22=0\r\n";
-  std::string offsets = "[G54:0.000,0.000,0.000]\r\n[G92:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
-  std::string modes = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0";
+  std::string more_of_itself = {};               // whole lines sent after the options
+  std::string settings = {};                     // the answer to $$
+  std::string offsets = {};                      // the answer to $#
+  std::string modes = {};                        // the modes in the answer to $G
   std::function<std::string()> own_report = {};  // generates reports in another format
-  double spindle_time = 0;                       // duration of M3, s
+  // What it is made of.
+  std::string axes = "XYZ";  // takes effect with restart()
+  bool line_numbers = false;
   bool has_switches = true;                      // whether there are limit switches for $H
+  double homing_time = 0;                        // s
+  std::function<bool(const Point&)> probe = {};  // whether the probe touches at a machine position
+  double bytes_per_second = 0;                   // of the line, in both directions; 0: without limit
+  double block_time = 0;                         // duration of each motion, s; 0: as it plans it
+  double spindle_time = 0;                       // duration of M3, s
+  double boot_time = 0;                          // after a reset of the chip, s; bytes are lost meanwhile
+  // Accidents.
   bool homes_for_ever = false;
-  double block_time = 0.05;  // duration of each motion, s
   std::string refused = {};  // a line that gets error:20
   std::string trips = {};    // a line at which a limit switch closes
   bool loses_next_line_end = false;
+  bool silent = false;  // does not report
+
+  std::string state = "Idle";  // as reported, with its number
+  double x = 0;                // place()[Axis::x]
 
   std::size_t most_waiting() const { return most_waiting_; }
   bool overflowed() const { return overflowed_; }
+  std::size_t lost_bytes() const { return lost_bytes_; }
+  // Lines whose motion has ended.
   const std::deque<std::string>& done() const { return done_; }
   std::string take_output() { return std::exchange(output_, {}); }
-  std::string state = "Idle";
-  double x = 0;
-  bool silent = false;
+  Point place() const { return motion_.place(); }
+  double speed() const { return motion_.speed(); }  // mm/s
+  double now() const { return now_; }
+  std::size_t blocks_held() const { return blocks() - motion_.free_blocks(); }
+  std::size_t bytes_held() const { return ring_.size(); }
+  const GrblBoardModes& parser_modes() const { return modes_; }
+  const GrblBoardSettings& values() const { return values_; }
 
-  void restart() {
-    waiting_.clear();
-    planner_.clear();
-    output_ += "\r\n" + greeting + "\r\n";
+  // Puts a setting into the EEPROM, as if it had been there always.
+  void put(int number, double value) {
+    values_.put(number, value);
+    use_settings();
   }
-  void say(const std::string& line) { output_ += line + "\r\n"; }
-  void resume() { begin_motion(); }
+  // Resets the chip, as by its button, by DTR, or by the power: the position is lost.
+  void restart() {
+    drop_work();
+    motion_.set_place({});
+    values_.use_axes(axes.size());
+    use_settings();
+    wire_.clear();
+    replies_.clear();
+    output_.clear();
+    state = values_[22] != 0 ? "Alarm" : "Idle";
+    boots_until_ = now_ + boot_time;
+    boots_ = true;
+    if (boot_time <= 0) end_boot();
+  }
+  void open_door(bool open) {
+    door_is_open_ = open;
+    asks_door_ = asks_door_ || open;
+    if (!open && state == "Door:1") state = "Door:0";
+  }
+  void say(const std::string& line) { add_reply(line + "\r\n"); }
+  // Goes on after a state that a test has set.
+  void resume() {
+    state = motion_.empty() ? "Idle" : "Run";
+    motion_.start();
+  }
 
   void receive(std::string_view bytes) {
-    for (const char byte : bytes) {
-      if (take_real_time(byte)) continue;
-      if (byte == '\n' && std::exchange(loses_next_line_end, false)) continue;
-      if (waiting_.size() >= bytes_) {
-        overflowed_ = true;
-        continue;
-      }
-      waiting_ += byte;
-      most_waiting_ = std::max(most_waiting_, waiting_.size());
+    if (bytes_per_second <= 0) {
+      for (const char byte : bytes) arrive(byte);
+      return flush();
     }
+    if (wire_.empty()) next_byte_ = std::max(next_byte_, now_ + 1 / bytes_per_second);
+    wire_.insert(wire_.end(), bytes.begin(), bytes.end());
   }
-
   // Advances the time.
   void run(double seconds) {
-    read_lines();
-    now_ += seconds;
-    while (state == "Run" && !planner_.empty() && now_ >= end_) {
-      finish_block();
-      read_lines();
+    const double end = now_ + seconds;
+    if (block_time != limits_.block_time || options != used_options_) use_settings();
+    for (int round = 0; round < most_rounds; ++round) {
+      work();
+      const double next = std::min(end, next_event());
+      advance(std::max(next, now_));
+      if (next >= end) break;
     }
-    if (state == "Run" && planner_.empty()) state = "Idle";
-    if (dwell_until_ > 0 && now_ >= dwell_until_) {
-      dwell_until_ = 0;
-      output_ += "ok\r\n";
-    }
-    read_lines();
+    work();
+    now_ = end;
+    flush();
   }
 
  private:
-  bool take_real_time(char byte) {
-    switch (static_cast<unsigned char>(byte)) {
-      case '?':
-        if (!silent) report();
-        return true;
-      case '!':
-        if (state != "Alarm") state = "Hold:0";
-        return true;
-      case '~':
-        if (state == "Hold:0") begin_motion();
-        return true;
-      case 0x18:
-        if (state == "Run") output_ += "ALARM:3\r\n";
-        state = state == "Run" || state == "Alarm" ? "Alarm" : "Idle";
-        dwell_until_ = 0;
-        restart();
-        return true;
-      default: return (static_cast<unsigned char>(byte) & 0x80U) != 0;
+  static constexpr int most_rounds = 100000;
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  static constexpr double byte_of_eeprom = 0.0034;  // s
+  static constexpr double look_at_probe = 0.0001;   // s
+  static constexpr double door_spindle_time = 4;    // s
+  static constexpr std::size_t longest_line = 79;
+
+  // A part of a line that may have to wait.
+  struct Task {
+    enum class Kind : std::uint8_t {
+      move,
+      jog,
+      rest,
+      outputs,
+      dwell,
+      store,
+      apply,
+      soft_limit,
+      probe,
+      home,
+      pause,
+      end,
+      reset,
+      sleep,
+      answer
+    };
+    Kind kind;
+    GrblBoardMotion::Move move = {};
+    double time = 0;
+    int number = 0;
+  };
+
+  bool is(std::string_view name) const { return state.substr(0, state.find(':')) == name; }
+  bool may_move() const { return is("Run") || is("Jog") || state == "Hold:1" || state == "Door:2"; }
+  bool suspended() const { return is("Hold") || is("Door") || is("Sleep") || cancels_jog_; }
+  std::size_t blocks() const { return limits_.blocks; }
+
+  // The line. -----------------------------------------------------------------------------------------------------
+  void arrive(char byte) {
+    if (boots_ || (now_ < stalls_until_ && !survives_stall())) {
+      ++lost_bytes_;
+      return;
     }
-  }
-  void report() {
-    if (own_report) return say(own_report());
-    output_ += fmt::format("<{}|MPos:{:.3f},0.000,0.000|Bf:{},{}|FS:0,0|WCO:0.000,0.000,0.000>\r\n", state, x,
-                           15 - planner_.size(), bytes_ - waiting_.size());
-  }
-  void begin_motion() {
-    state = planner_.empty() ? "Idle" : "Run";
-    end_ = now_ + block_time;
-  }
-  void finish_block() {
-    const std::string line = planner_.front();
-    planner_.pop_front();
-    done_.push_back(line);
-    const std::size_t at = line.find('X');
-    if (at != std::string::npos) x = std::atof(line.c_str() + at + 1);
-    end_ += block_time;
-    if (line != trips) return;
-    state = "Alarm";
-    output_ += "ALARM:1\r\n";
-  }
-  void read_lines() {
-    while (dwell_until_ == 0 && takes_lines() && planner_.size() < 15) {
-      const std::size_t end = waiting_.find('\n');
-      if (end == std::string::npos) return;
-      const std::string line = waiting_.substr(0, end);
-      const bool waits = line.starts_with("G4") || line.starts_with('M');
-      if (waits && !planner_.empty()) return;  // a line without motion waits until all motion is complete
-      waiting_.erase(0, end + 1);
-      take(line);
+    if (take_real_time(byte)) return;
+    if (byte == '\n' && std::exchange(loses_next_line_end, false)) return;
+    if (ring_.size() >= bytes_) {
+      overflowed_ = true;
+      ++lost_bytes_;
+      return;
     }
+    ring_ += byte;
+    most_waiting_ = std::max(most_waiting_, ring_.size());
   }
-  bool takes_lines() const { return state == "Idle" || state == "Run" || state == "Hold:0" || state == "Alarm"; }
-  void take(const std::string& line) {
-    if (line.size() > 79) {
-      output_ += "error:11\r\n";
-    } else if (line == "$I") {
-      output_ += "[VER:1.1h.20190830:]\r\n[OPT:" + options + "]\r\n" + more_of_itself + "ok\r\n";
-    } else if (line == "$$") {
-      output_ += settings + "ok\r\n";
-    } else if (line == "$#") {
-      output_ += offsets + "ok\r\n";
-    } else if (line == "$H" && homes_for_ever) {
-      state = "Home";
-    } else if (line == "$H") {
-      state = has_switches ? "Idle" : "Alarm";
-      output_ += has_switches ? "ok\r\n" : "ALARM:9\r\n";
-    } else if (line == "$G") {
-      output_ += "[GC:" + modes + "]\r\nok\r\n";
-    } else if (state == "Alarm") {
-      output_ += line.empty() ? "ok\r\n" : "error:9\r\n";
-    } else if (line == refused || line.find_first_not_of("GXYZFIJKMSP0123456789.-") != std::string::npos) {
-      output_ += "error:20\r\n";
-    } else if (line.starts_with("G4P")) {
-      dwell_until_ = now_ + std::atof(line.c_str() + 3) + 1e-9;
-      done_.push_back(line);
-    } else if (line.starts_with("M3") && spindle_time > 0) {
-      dwell_until_ = now_ + spindle_time;
-    } else {
-      output_ += "ok\r\n";
-      if (line.empty() || line.front() == 'M' || line.starts_with("G2")) return;
-      planner_.push_back(line);
-      if (state == "Idle") begin_motion();
+  // The chip keeps two bytes for each byte of the EEPROM that is written, during which no interrupt is served.
+  bool survives_stall() {
+    const double part = std::floor((stalls_until_ - now_) / byte_of_eeprom);
+    if (part != stall_part_) kept_in_stall_ = 0;
+    stall_part_ = part;
+    return ++kept_in_stall_ <= 2;
+  }
+  void add_reply(const std::string& text) {
+    if (replies_.empty() && bytes_per_second > 0) next_reply_ = std::max(next_reply_, now_ + 1 / bytes_per_second);
+    replies_ += text;
+  }
+  void flush() {
+    if (bytes_per_second <= 0) {
+      output_ += std::exchange(replies_, {});
+      return;
     }
+    if (replies_.empty() || now_ < next_reply_) return;
+    const double ready = std::floor((now_ - next_reply_) * bytes_per_second + 1e-9) + 1;
+    const std::size_t count = std::min(replies_.size(), static_cast<std::size_t>(ready));
+    output_ += replies_.substr(0, count);
+    replies_.erase(0, count);
+    next_reply_ += static_cast<double>(count) / bytes_per_second;
   }
 
+  // Real-time commands. -------------------------------------------------------------------------------------------
+  bool take_real_time(char byte) {
+    switch (static_cast<unsigned char>(byte)) {
+      case '?': asks_report_ = true; return true;
+      case '!': asks_hold_ = true; return true;
+      case '~': asks_start_ = true; return true;
+      case 0x18: reset(); return true;
+      case 0x84: asks_door_ = true; return true;
+      case 0x85: asks_cancel_ = state == "Jog"; return true;
+      default: break;
+    }
+    const auto code = static_cast<unsigned char>(byte);
+    if (code < 0x80) return false;
+    if (std::ranges::find(asked_overrides_, code) == asked_overrides_.end()) asked_overrides_.push_back(code);
+    return true;
+  }
+  // What was asked since the last time, each once, however often it was asked.
+  void do_real_time() {
+    if (asks_report_ && !is("Home")) {
+      asks_report_ = false;
+      if (!silent) report();
+    }
+    const bool holds = asks_hold_ || asks_door_ || asks_cancel_;
+    if (std::exchange(asks_cancel_, false) && state == "Jog") cancel_jog();
+    if (std::exchange(asks_hold_, false)) hold();
+    if (std::exchange(asks_door_, false)) enter_door();
+    if (std::exchange(asks_start_, false) && !holds) go_on();
+    for (const unsigned char code : std::exchange(asked_overrides_, {})) take_override(code);
+  }
+  void hold() {
+    if (state == "Jog") return cancel_jog();
+    if (state == "Idle") state = "Hold:0";
+    if (state != "Run") return;
+    state = motion_.moves() ? "Hold:1" : "Hold:0";
+    motion_.brake();
+  }
+  void cancel_jog() {
+    cancels_jog_ = true;
+    motion_.brake();
+  }
+  void go_on() {
+    if (state == "Hold:0") return resume();
+    if (state != "Door:0") return;
+    state = "Door:3";
+    restores_until_ = now_ + (spindle_ != 5 ? door_spindle_time : 0);
+  }
+  void enter_door() {
+    if (halted_ || is("Alarm") || is("Check") || is("Sleep") || is("Home")) return;
+    say("[MSG:Check Door]");
+    if (state == "Jog") cancel_jog();
+    if (cancels_jog_) {
+      door_after_jog_ = true;
+      return;
+    }
+    const bool moves = motion_.moves();
+    motion_.brake();
+    state = moves ? "Door:2" : door_is_open_ ? "Door:1" : "Door:0";
+  }
+  void reset() {
+    const bool homes = is("Home");
+    const bool loses_place = homes || is("Run") || is("Jog") || state == "Hold:1" || state == "Door:2";
+    if (std::exchange(answers_at_reset_, false)) answer(0);
+    if (loses_place) say(homes ? "ALARM:6" : "ALARM:3");
+    const bool locks = loses_place || is("Alarm") || is("Sleep");
+    drop_work();
+    state = locks ? "Alarm" : "Idle";
+    greet();
+  }
+  void take_override(unsigned char code) {
+    const int feed = stepped(feed_override_, code - 0x90, 10, 200);
+    int rapid = rapid_override_;
+    if (code == 0x95) rapid = 100;
+    if (code == 0x96) rapid = 50;
+    if (code == 0x97) rapid = 25;
+    const int spindle = stepped(spindle_override_, code - 0x99, 10, 200);
+    if (feed != feed_override_ || rapid != rapid_override_ || spindle != spindle_override_) override_count_ = 0;
+    feed_override_ = feed;
+    rapid_override_ = rapid;
+    spindle_override_ = spindle;
+    motion_.set_overrides(feed / 100.0, rapid / 100.0);
+    const bool may_switch = state == "Idle" || is("Run") || is("Hold") || is("Jog");
+    if (may_switch && code == 0xA0) modes_.flood = flood_ = !modes_.flood;
+    if (may_switch && code == 0xA1 && parser_.has_mist) modes_.mist = mist_ = !modes_.mist;
+  }
+  // The commands of an override: 100 %, 10 % up, 10 % down, 1 % up, 1 % down.
+  static int stepped(int now, int command, int least, int most) {
+    constexpr std::array steps = {0, 10, -10, 1, -1};
+    if (command < 0 || command > 4) return now;
+    return command == 0 ? 100 : std::clamp(now + steps[static_cast<std::size_t>(command)], least, most);
+  }
+
+  // Time. ---------------------------------------------------------------------------------------------------------
+  double next_event() const {
+    double next = may_move() ? now_ + motion_.next_event() : never;
+    if (probes_ && motion_.moves()) next = std::min(next, now_ + look_at_probe);
+    if (dwell_left_ > 0 && !suspended()) next = std::min(next, now_ + dwell_left_);
+    for (const double time : {stalls_until_, homes_until_, restores_until_, boots_ ? boots_until_ : 0}) {
+      if (time > now_) next = std::min(next, time);
+    }
+    return wire_.empty() ? next : std::min(next, next_byte_);
+  }
+  void advance(double time) {
+    const double passed = time - now_;
+    now_ = time;
+    if (may_move()) motion_.advance(passed);
+    x = motion_.place()[Axis::x];
+    if (dwell_left_ > 0 && !suspended()) dwell_left_ = std::max(0.0, dwell_left_ - passed);
+    if (probes_ && motion_.moves() && !touched_ && probe && probe(motion_.place()) == probes_for_touch_) touch();
+    for (std::string& line : motion_.take_done()) end_line(std::move(line));
+    settle();
+    if (boots_ && now_ >= boots_until_) end_boot();
+    if (state == "Door:3" && now_ >= restores_until_) resume();
+    while (!wire_.empty() && next_byte_ <= now_ + 1e-12) {
+      const char byte = wire_.front();
+      wire_.pop_front();
+      next_byte_ += 1 / bytes_per_second;
+      arrive(byte);
+    }
+  }
+  void touch() {
+    touched_ = true;
+    probed_ = motion_.place();
+    motion_.brake();
+  }
+  void end_line(std::string line) {
+    const bool trip = line == trips && !trips.empty();
+    done_.push_back(std::move(line));
+    if (trip) halt(1);
+  }
+  // A critical alarm: only a reset is heard after it.
+  void halt(int alarm) {
+    drop_work();
+    state = "Alarm";
+    halted_ = true;
+    say(fmt::format("ALARM:{}", alarm));
+    say("[MSG:Reset to continue]");
+  }
+  void settle() {
+    if (motion_.moves()) return;
+    if (cancels_jog_) {
+      motion_.drop();
+      modes_.position = motion_.place();
+      cancels_jog_ = false;
+      state = "Idle";
+      if (std::exchange(door_after_jog_, false)) state = door_is_open_ ? "Door:1" : "Door:0";
+    }
+    if ((state == "Run" || state == "Jog") && motion_.empty()) state = "Idle";
+    if (state == "Hold:1") state = "Hold:0";
+    if (state == "Door:2") state = door_is_open_ ? "Door:1" : "Door:0";
+  }
+
+  // The main program, in kit/strict_grbl_lines.hpp. -----------------------------------------------------------------
+  void work();
+  bool read_line();
+  void take_line(const std::string& line);
+  int take_command(const std::string& line);
+  int take_idle_command(const std::string& line);
+  int store_setting(const std::string& line);
+  int store_startup_line(const std::string& line);
+  int add_gcode(const std::string& line, bool jog);
+  void add_moves(const GrblBoardBlock& block, const std::string& line, bool jog);
+  void add_arc(const GrblBoardBlock& block, double feed, std::vector<GrblBoardMotion::Move>& moves) const;
+  bool leaves_travel(const Point& end) const;
+  bool run_task(const Task& task);
+  bool run_probe(const Task& task);
+  bool run_home(const Task& task);
+  void end_home(const Task& task);
+  void add_task(Task::Kind kind, int number = 0, double time = 0) {
+    tasks_.push_back({.kind = kind, .time = time, .number = number});
+  }
+  void answer(int error) { say(error == 0 ? "ok" : fmt::format("error:{}", error)); }
+  void start_cycle() {
+    if (state != "Idle" || motion_.empty()) return;
+    state = "Run";
+    motion_.start();
+  }
+  void greet();
+  void end_boot() {
+    boots_ = false;
+    greet();
+  }
+  void run_startup_lines();
+  void drop_work();
+  void use_settings();
+  void report();
+  std::string places(const Point& place) const;
+  std::string rate(double mm_per_minute) const;
+  void say_offsets();
+  void say_modes();
+
   std::size_t bytes_;
-  std::string waiting_;
-  std::deque<std::string> planner_;
-  std::deque<std::string> done_;
+  std::string ring_;  // the receive buffer
+  std::string line_;  // the part of a line that the main program has read
+  bool line_overflows_ = false;
+  char comment_ = 0;
+  std::deque<char> wire_;  // bytes on their way to it
+  double next_byte_ = 0;
+  std::string replies_;  // bytes on their way from it
+  double next_reply_ = 0;
   std::string output_;
+
+  GrblBoardSettings values_;
+  GrblBoardParser parser_;
+  GrblBoardModes modes_;
+  GrblBoardModes pending_;  // modes after the line that is executed
+  std::array<std::string, 2> startup_lines_;
+  GrblBoardMotion motion_;
+  GrblBoardMotion::Limits limits_;
+  std::string used_options_;
+  std::deque<Task> tasks_;
+  std::deque<std::string> done_;
+
   double now_ = 0;
-  double end_ = 0;
-  double dwell_until_ = 0;
+  double dwell_left_ = 0;
+  bool dwells_ = false;
+  double stalls_until_ = 0;
+  double stall_part_ = -1;
+  int kept_in_stall_ = 0;
+  double homes_until_ = 0;
+  double restores_until_ = 0;
+  double boots_until_ = 0;
+  bool boots_ = false;
+  bool halted_ = false;
+  bool answers_at_reset_ = false;  // the line that led out of the travel
+  bool asks_report_ = false;
+  bool asks_hold_ = false;
+  bool asks_start_ = false;
+  bool asks_door_ = false;
+  bool asks_cancel_ = false;
+  std::vector<unsigned char> asked_overrides_;
+  bool cancels_jog_ = false;
+  bool door_is_open_ = false;
+  bool door_after_jog_ = false;
+  bool probes_ = false;
+  bool probes_for_touch_ = true;
+  bool touched_ = false;
+  Point probed_;
+  bool probe_succeeded_ = false;
+  int feed_override_ = 100;
+  int rapid_override_ = 100;
+  int spindle_override_ = 100;
+  int spindle_ = 5;
+  double spindle_speed_ = 0;
+  bool flood_ = false;
+  bool mist_ = false;
+  int offset_count_ = 0;    // reports until WCO
+  int override_count_ = 0;  // reports until Ov
+  unsigned resets_ = 0;
   std::size_t most_waiting_ = 0;
   bool overflowed_ = false;
+  std::size_t lost_bytes_ = 0;
 };
 
 }  // namespace passo
+
+#include "kit/strict_grbl_lines.hpp"

@@ -37,7 +37,7 @@ class ApiRun {
  public:
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
                   const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
-                  const ToolTable& known_tools = {}, CamService* maker = nullptr)
+                  const ToolTable& known_tools = {}, CamService* maker = nullptr, FirstContact* contact = nullptr)
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -53,6 +53,7 @@ class ApiRun {
                    return disk_trouble;
                  },
              .maker = maker,
+             .contact = contact,
              .studies = studies,
              .timer = &timer_}) {}
 

@@ -38,6 +38,9 @@ TEST(ApiDescription, has_just_the_members_that_are_told) {
   expect_members(schemas["Job"], status["job"], "Job");
   expect_members(schemas["Program"], run.get(fmt::format("/programs/{}", id)), "Program");
   expect_members(schemas["Machine"], run.get("/machine"), "Machine");
+  const Json abilities = run.get("/machine")["abilities"];
+  ASSERT_EQ(abilities.size(), ability_count);
+  for (const Json& one : abilities) EXPECT_EQ(one["can"], true) << one["ability"];
   expect_members(schemas["Machine"]["properties"]["axes"]["items"], run.get("/machine")["axes"][0], "axes");
   expect_members(schemas["Health"], run.get("/health"), "Health");
 }

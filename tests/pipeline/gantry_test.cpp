@@ -11,7 +11,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/machine/virtual_line.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -60,7 +60,7 @@ class HomedMachine {
     EXPECT_TRUE(session_.request(jog));
     while (session_.busy()) session_.poll(endless);
   }
-  MachineSession& session() { return session_; }
+  BoardMachineSession& session() { return session_; }
   // The true position of a motor, in steps.
   std::int64_t truth(std::size_t motor) { return std::llround(plant_.truth_at(session_.now()).positions[motor]); }
 
@@ -68,7 +68,7 @@ class HomedMachine {
   IdealPlant plant_;
   VirtualMachine board_;
   VirtualLine line_;
-  MachineSession session_;
+  BoardMachineSession session_;
 };
 
 void expect_square(const MachineDescription& machine, HomedMachine& homed) {

@@ -21,6 +21,7 @@
 #include "passo/activity/stage_options.hpp"
 #include "passo/grbl/grbl_controller.hpp"
 #include "passo/machine/virtual_machine.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo::test {
 
@@ -49,7 +50,7 @@ class GrblRun {
   static KnownPosition at_zero() { return {.place = Point(), .trust = Trust::commanded}; }
 
   VirtualMachine& board() { return board_; }
-  MachineSession& session() { return session_; }
+  BoardMachineSession& session() { return session_; }
   StreamedProgram& program() { return program_; }
   GrblController& grbl() { return grbl_; }
   const MachineDescription& description() const { return description_; }
@@ -105,7 +106,7 @@ class GrblRun {
   MachineDescription description_;
   VirtualMachine board_;
   IdealPlant plant_;
-  MachineSession session_;
+  BoardMachineSession session_;
   StreamedProgram program_;
   GrblController grbl_;
 };

@@ -158,7 +158,7 @@ class JobServer final : public JobKeeper {
     post(fmt::format("/programs/{}/run", program["id"].get<int>()));
     EXPECT_EQ(status, 202U);
   }
-  MachineSession& session() { return session_; }
+  BoardMachineSession& session() { return session_; }
   WebApi& api() { return *api_; }
   std::string job_state() const { return std::string(name_of(api_->job().state)); }
   std::uint64_t moments() const { return port_.moments(); }
@@ -190,7 +190,7 @@ class JobServer final : public JobKeeper {
   JobBench& bench_;
   MortalPort port_;
   std::unique_ptr<JobHistory> history_;
-  MachineSession session_;
+  BoardMachineSession session_;
   MachineControl owner_;
   std::unique_ptr<WebApi> api_;
   std::string key_;

@@ -20,7 +20,7 @@
 #include "passo/activity/stage_options.hpp"
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo::test {
 
@@ -73,7 +73,7 @@ class SessionRun {
   std::vector<MachineChange> changes;  // all so far
 
   const MachineDescription& description() const { return description_; }
-  MachineSession& session() { return session_; }
+  BoardMachineSession& session() { return session_; }
   VirtualMachine& board() { return board_; }
   const VirtualMachine& board() const { return board_; }
   VirtualLine& line() { return line_; }
@@ -211,7 +211,7 @@ class SessionRun {
   IdealPlant plant_;
   VirtualLine line_;
   std::unique_ptr<StreamedProgram> lines_;
-  MachineSession session_;
+  BoardMachineSession session_;
   MachineState last_ = MachineState::offline;
   std::map<Ticket, Seconds> waiting_;  // and when they were asked
   std::map<Ticket, MachineChange> answers_;

@@ -19,7 +19,7 @@
 #include <sys/resource.h>
 
 #include "passo/activity/stage_options.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo::test {
 namespace {
@@ -80,7 +80,7 @@ class SessionSoak : public testing::Test {
   // --- Requests and their answers.
 
   // Whether the state as it is has to refuse; nothing: the values may be bad.
-  static std::optional<bool> must_refuse(const Request& wanted, const MachineSession& session) {
+  static std::optional<bool> must_refuse(const Request& wanted, const BoardMachineSession& session) {
     const MachineStatus status = session.status();
     const MachineState state = status.state;
     const bool runs = status.activity == ActivityKind::program;
@@ -291,7 +291,7 @@ class SessionSoak : public testing::Test {
   MachineDescription description_ = small_machine();
   Random random_;
   SoakWorld world_;
-  MachineSession session_;
+  BoardMachineSession session_;
   std::vector<SoakClient> clients_;
   std::array<double, max_motors> wrong_by_{};
   bool fooled_ = false;

@@ -490,7 +490,7 @@ TEST(LineTrouble, a_board_that_does_not_suit_is_a_fault) {
   MachineDescription other = router;
   other.board.clock = Hertz(router.board.clock.value() / 2);
   VirtualMachine board(3, router.board.clock);
-  MachineSession session(other, board);
+  BoardMachineSession session(other, board);
   for (int i = 0; i < 10; ++i) session.poll(Seconds(0.1));
   EXPECT_EQ(session.state(), MachineState::fault);
   EXPECT_NE(session.trouble_words().find("its clock"), std::string::npos) << session.trouble_words();

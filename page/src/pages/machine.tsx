@@ -1,10 +1,12 @@
-// The machine: what its file says, and its inputs now.
+// The machine: what its file says, and its inputs now; and, as a part of its own, its board.
 import { say, type Key } from '../core/language';
+import { query } from '../core/route';
 import { isRotary, lengthText, lengthUnit, perLength, placeText, smallUnit, speedText, speedUnit } from '../core/units';
 import type { MachineAxis } from '../machine/api';
 import { machine, status } from '../machine/connection';
 import { RowHead } from '../parts/row_head';
 import { Tuning } from '../parts/tuning';
+import { BoardPart } from './board';
 import { MachineEditor } from './machine_editor';
 
 const columns: readonly [Key, (axis: MachineAxis) => string, (() => string)?][] = [
@@ -24,12 +26,33 @@ const stepsText = ({ axis, steps_per_unit: steps }: MachineAxis): string =>
 const stepText = ({ axis, steps_per_unit: steps }: MachineAxis): string =>
   steps === undefined ? '' : isRotary(axis) ? (1000 / steps).toFixed(1) : (1000 / perLength(steps)).toFixed(2);
 
+const parts: readonly [string, Key][] = [
+  ['machine', 'page.machine'],
+  ['machine?part=board', 'board.title'],
+];
+
 export function MachinePage() {
+  const isBoard = query.value.get('part') === 'board';
+  return (
+    <div class="machine">
+      <nav class="machine-parts" aria-label={say('page.machine')}>
+        {parts.map(([path, title], i) => (
+          <a key={path} href={`#/${path}`} aria-current={isBoard === (i === 1) ? 'page' : undefined}>
+            {say(title)}
+          </a>
+        ))}
+      </nav>
+      {isBoard ? <BoardPart /> : <MachinePart />}
+    </div>
+  );
+}
+
+function MachinePart() {
   const known = machine.value;
   if (known === null) return <p class="dim">{say('frame.loading')}</p>;
   const inputs = status.value?.inputs;
   return (
-    <div class="machine">
+    <>
       <section class="panel" aria-label={say('machine.title')}>
         <h2 class="title">{known.name}</h2>
         <p class="dim">{say('machine.version', { version: known.version })}</p>
@@ -74,6 +97,6 @@ export function MachinePage() {
           </ul>
         </section>
       )}
-    </div>
+    </>
   );
 }

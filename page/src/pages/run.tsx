@@ -1,4 +1,5 @@
 // Run: the position, the program on its way, and the scene.
+import { FirstStart } from '../parts/first_start';
 import { InterruptedCard } from '../parts/interrupted_card';
 import { JobProgress } from '../parts/job_progress';
 import { Overrides } from '../parts/overrides';
@@ -10,6 +11,7 @@ export function RunPage() {
   return (
     <>
       <InterruptedCard />
+      <FirstStart />
       <div class="run">
         <Position />
         <JobProgress />

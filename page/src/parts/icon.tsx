@@ -5,6 +5,7 @@ const shapes = {
   files: 'M6 3h8l5 5v13H6zM14 3v5h5',
   console: 'M3 5h18v14H3zM7 9l3 3-3 3M12 15h5',
   machine: 'M4 21h16M6 21V5h12v3M12 5v7m-2 0h4l-2 4zM6 8h3',
+  plug: 'M9 3v5m6-5v5M6 8h12v3a6 6 0 0 1-12 0zM12 17v4',
   pins: 'M7 7h10v10H7zM10 7V3m4 4V3m-4 14v4m4-4v4M7 10H3m4 4H3m14-4h4m-4 4h4',
   cam: 'M4 20l10-10m-2-4 6 6-3 3-6-6zM16 4l4 4',
   lab: 'M9 3h6M10 3v6L4.5 19a1.4 1.4 0 0 0 1.2 2h12.6a1.4 1.4 0 0 0 1.2-2L14 9V3M7 15h10',

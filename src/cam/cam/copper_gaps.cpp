@@ -27,7 +27,7 @@ EdgeGrid grid_of(const std::vector<Region>& islands, Nanometres cell) {
 }  // namespace
 
 std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::vector<std::size_t>& group,
-                                 Nanometres narrowest) {
+                                 Nanometres narrowest, const std::function<bool(DrawnPoint)>& is_milled) {
   const EdgeGrid grid = grid_of(islands, narrowest);
   const auto reach = static_cast<double>(narrowest.count);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<double, DrawnPoint>> best;
@@ -41,10 +41,11 @@ std::vector<CopperGap> find_gaps(const std::vector<Region>& islands, const std::
           const EdgeGrid::Near near = EdgeGrid::to_edge(point, edge);
           if (near.distance_nm >= reach) return;
           const DrawnPoint middle{{(point.x.count + near.at.x.count) / 2}, {(point.y.count + near.at.y.count) / 2}};
-          const auto [entry, is_new] =
-              best.try_emplace({std::min(i, edge.owner), std::max(i, edge.owner)}, near.distance_nm, middle);
+          const std::pair islands_of_gap(std::min(i, edge.owner), std::max(i, edge.owner));
           const std::pair found(near.distance_nm, middle);
-          if (!is_new && found < entry->second) entry->second = found;
+          const auto known = best.find(islands_of_gap);
+          if (known != best.end() && known->second <= found) return;
+          if (!is_milled || !is_milled(middle)) best[islands_of_gap] = found;
         });
       }
     }

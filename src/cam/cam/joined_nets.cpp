@@ -7,6 +7,9 @@
 
 #include "copper_gaps.hpp"
 #include "edge_grid.hpp"
+#include "ring_groups.hpp"
+
+#include "passo/cam/bulge.hpp"
 
 namespace passo {
 namespace {
@@ -62,34 +65,108 @@ class NetFinder {
   std::vector<std::string> names_;
 };
 
-// Two islands may be joined elsewhere than where they are nearest, over a third one.
-std::vector<CopperGap> without_milled(std::vector<CopperGap> gaps, const MillPlan& plan) {
-  constexpr Nanometres chords{1'000};
-  if (gaps.empty()) return gaps;
-  std::vector<CopperGap> left;
-  std::vector<DrawnPoint> places;
-  for (const CopperGap& gap : gaps) places.push_back(gap.at);
-  DrawnBox box = box_of(places);
-  std::vector<bool> is_milled(gaps.size());
-  for (const MillTool& tool : plan.tools) {
-    std::vector<DrawnRing> ways;
-    for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, chords));
-    for (const DrawnRing& way : ways) {
-      const DrawnBox of_way = box_of(way);
-      box = {{std::min(box.least.x, of_way.least.x), std::min(box.least.y, of_way.least.y)},
-             {std::max(box.most.x, of_way.most.x), std::max(box.most.y, of_way.most.y)}};
+// Tells which places the plan mills.
+class MilledPlaces {
+ public:
+  explicit MilledPlaces(const MillPlan& plan) {
+    constexpr Nanometres chords{1'000};
+    for (const MillTool& tool : plan.tools) {
+      std::vector<DrawnRing> ways;
+      for (const MillRun& run : tool.runs) ways.push_back(chords_of(run, chords));
+      std::erase_if(ways, [](const DrawnRing& way) { return way.empty(); });
+      if (ways.empty()) continue;
+      EdgeGrid& grid = tools_.emplace_back(EdgeGrid(box_of(gathered_points(ways)), {200'000}), tool.width).first;
+      for (const DrawnRing& way : ways) grid.add_line(way, 0);
+      grid.finish();
     }
-    EdgeGrid grid(box, {200'000});
-    for (const DrawnRing& way : ways) grid.add_line(way, 0);
-    grid.finish();
-    for (std::size_t i = 0; i < gaps.size(); ++i)
-      is_milled[i] = is_milled[i] || grid.nearest(gaps[i].at, static_cast<double>(tool.width.count) / 2).has_value();
   }
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    if (!is_milled[i]) left.push_back(gaps[i]);
+  bool has(DrawnPoint place) const {
+    return std::ranges::any_of(tools_, [&](const auto& tool) {
+      return tool.first.nearest(place, static_cast<double>(tool.second.count) / 2).has_value();
+    });
   }
-  return left.empty() ? gaps : left;
+
+ private:
+  static DrawnRing gathered_points(const std::vector<DrawnRing>& ways) {
+    DrawnRing points;
+    for (const DrawnRing& way : ways) points.insert(points.end(), way.begin(), way.end());
+    return points;
+  }
+
+  std::vector<std::pair<EdgeGrid, Nanometres>> tools_;  // the ways of each, and its width
+};
+
+// An island whose corners are at most `step` apart.
+Region with_corners(const Region& island, Nanometres step) {
+  Region fine;
+  for (const DrawnRing& ring : island.rings) {
+    DrawnRing& points = fine.rings.emplace_back();
+    for (std::size_t i = 0, last = ring.size() - 1; i < ring.size(); last = i++) {
+      const auto count =
+          static_cast<std::size_t>(distance_nm(ring[last], ring[i]) / static_cast<double>(step.count)) + 1;
+      for (std::size_t k = 1; k <= count; ++k)
+        points.push_back(point_along(ring[last], ring[i], 0, static_cast<double>(k) / static_cast<double>(count)));
+    }
+  }
+  return fine;
 }
+
+// Finds where islands of the same group are joined.
+class GapFinder {
+ public:
+  GapFinder(const std::vector<Region>& islands, const std::vector<std::size_t>& group)
+      : islands_(islands), group_(group), linked_(islands.size()) {}
+
+  // All islands of a group hang together over its gaps.
+  std::vector<CopperGap> find(const MillPlan& plan, Nanometres finest) {
+    constexpr Nanometres margin{50'000};  // of the cutter's distance from the copper
+    const Nanometres reach = finest + margin;
+    const MilledPlaces places(plan);
+    const auto is_milled = [&](DrawnPoint place) { return places.has(place); };
+    // Between two long edges the cutter may have milled the mouths of a gap, where the corners are.
+    std::vector<Region> fine(islands_.size());
+    std::map<std::size_t, std::size_t> sizes;
+    for (const std::size_t number : group_) ++sizes[number];
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      if (sizes[group_[i]] > 1) fine[i] = with_corners(islands_[i], {finest.count / 4});
+    }
+    add(find_gaps(fine, group_, reach, is_milled));
+    // What is left between them may be thinner than the steps. The narrowest place is near it.
+    if (const std::vector<std::size_t> loose = loose_groups(); !loose.empty()) add(find_gaps(islands_, loose, reach));
+    std::ranges::sort(gaps_, {}, [](const CopperGap& gap) { return std::pair(gap.width, gap.at); });
+    return std::move(gaps_);
+  }
+
+ private:
+  void add(const std::vector<CopperGap>& found) {
+    for (const CopperGap& gap : found) {
+      const auto is_same = [&](const CopperGap& one) { return one.one == gap.one && one.other == gap.other; };
+      if (std::ranges::none_of(gaps_, is_same)) gaps_.push_back(gap);
+      linked_.join(gap.one, gap.other);
+    }
+  }
+  // The groups that do not hang together yet; other islands get a group of their own. Empty: there are none.
+  std::vector<std::size_t> loose_groups() {
+    std::map<std::size_t, std::set<std::size_t>> pieces;
+    for (std::size_t i = 0; i < group_.size(); ++i) pieces[group_[i]].insert(linked_.of(i));
+    std::vector<std::size_t> loose = group_;
+    std::size_t next = pieces.empty() ? 0 : pieces.rbegin()->first + 1;
+    bool is_any = false;
+    for (std::size_t& group : loose) {
+      if (pieces[group].size() < 2) {
+        group = next++;
+      } else {
+        is_any = true;
+      }
+    }
+    return is_any ? loose : std::vector<std::size_t>();
+  }
+
+  const std::vector<Region>& islands_;
+  const std::vector<std::size_t>& group_;
+  IndexGroups linked_;
+  std::vector<CopperGap> gaps_;
+};
 
 }  // namespace
 
@@ -129,8 +206,7 @@ JoinedNets find_joined_nets(const Region& copper, const std::vector<NetPlace>& k
     joined.insert(piece.nets.begin(), piece.nets.end());
   }
   found.joined = joined.size();
-  constexpr Nanometres margin{50'000};  // of the cutter's distance from the copper
-  if (found.joined > 0) found.gaps = without_milled(find_gaps(islands, group, finest + margin), plan);
+  if (found.joined > 0) found.gaps = GapFinder(islands, group).find(plan, finest);
   found.names = finder.take_names();
   return found;
 }

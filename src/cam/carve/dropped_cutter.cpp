@@ -143,6 +143,33 @@ DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float
       top = std::max(top, grid.at(x, y));
     }
   }
+  if (goes_on_) keep_frame();
+}
+
+// The tip moves as far beyond the grid as the cutter reaches, and the cutter covers as much again.
+void DroppedCutter::keep_frame() {
+  constexpr std::size_t some_nodes = 1'000'000;
+  const auto columns = static_cast<std::ptrdiff_t>(grid_.columns);
+  const auto rows = static_cast<std::ptrdiff_t>(grid_.rows);
+  std::ptrdiff_t wide = static_cast<std::ptrdiff_t>(2 * table_.reach_x() + chunk);
+  std::ptrdiff_t high = static_cast<std::ptrdiff_t>(2 * table_.reach_y());
+  const auto nodes = [&] { return static_cast<std::size_t>(2 * high * (columns + 2 * wide) + 2 * wide * rows); };
+  while (nodes() > grid_.heights.size() + some_nodes) {
+    wide /= 2;
+    high /= 2;
+  }
+  frame_rows_.reserve(static_cast<std::size_t>(2 * high * (columns + 2 * wide)));
+  for (std::ptrdiff_t i = 0; i < 2 * high; ++i) {
+    const std::ptrdiff_t row = i < high ? i - high : rows + i - high;
+    for (std::ptrdiff_t column = -wide; column < columns + wide; ++column) frame_rows_.push_back(beside(column, row));
+  }
+  frame_sides_.reserve(static_cast<std::size_t>(2 * wide * rows));
+  for (std::ptrdiff_t row = 0; row < rows; ++row) {
+    for (std::ptrdiff_t i = 0; i < 2 * wide; ++i)
+      frame_sides_.push_back(beside(i < wide ? i - wide : columns + i - wide, row));
+  }
+  frame_x_ = wide;
+  frame_y_ = high;
 }
 
 void DroppedCutter::heights(std::ptrdiff_t row, std::ptrdiff_t column, std::span<float> out, Scratch& scratch) const {
@@ -169,6 +196,40 @@ float DroppedCutter::beside(std::ptrdiff_t column, std::ptrdiff_t row) const {
     return go_on(beside(column, edge), beside(column, inside));
   }
   return grid_.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
+}
+
+// Raises the heights of some columns to those of a row, which may lie beside the grid.
+void DroppedCutter::raise(std::ptrdiff_t row, std::ptrdiff_t begin, std::ptrdiff_t end, float* heights) const {
+  const auto columns = static_cast<std::ptrdiff_t>(grid_.columns);
+  const auto rows = static_cast<std::ptrdiff_t>(grid_.rows);
+  std::ptrdiff_t done = begin;
+  // The columns up to `last` lie together: `from` is the height of column `first`.
+  const auto raise_to = [&](std::ptrdiff_t first, std::ptrdiff_t last, const float* from) {
+    last = std::min(last, end);
+    if (done < first || done >= last) return;
+    const float* const here = from + (done - first);
+    float* const to = heights + (done - begin);
+    const auto count = static_cast<std::size_t>(last - done);
+    for (std::size_t i = 0; i < count; ++i) to[i] = to[i] < here[i] ? here[i] : to[i];
+    done = last;
+  };
+  const auto raise_slowly = [&](std::ptrdiff_t last) {
+    for (; done < std::min(last, end); ++done)
+      heights[done - begin] = std::max(heights[done - begin], beside(done, row));
+  };
+  if (row >= -frame_y_ && row < rows + frame_y_) {
+    raise_slowly(-frame_x_);
+    if (row >= 0 && row < rows) {
+      const float* const sides = frame_sides_.data() + row * 2 * frame_x_;
+      raise_to(-frame_x_, 0, sides);
+      raise_to(0, columns, grid_.heights.data() + row * columns);
+      raise_to(columns, columns + frame_x_, sides + frame_x_);
+    } else {
+      const std::ptrdiff_t index = row < 0 ? row + frame_y_ : row - rows + frame_y_;
+      raise_to(-frame_x_, columns + frame_x_, frame_rows_.data() + index * (columns + 2 * frame_x_));
+    }
+  }
+  raise_slowly(end);
 }
 
 // Gathers, of the two rows so far `away`, the greater heights of all nodes that the cutter covers from this chunk.
@@ -222,9 +283,13 @@ bool DroppedCutter::combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size
     for (std::size_t i = 0; i < width; ++i) here[i] = a[i] > b[i] ? a[i] : b[i];
   }
   if (goes_on_) {
-    for (std::ptrdiff_t i = begin; i < stop; ++i) {
-      if (is_inside && i >= first && i < end) continue;
-      to[i - begin] = std::max(beside(i, from[0]), beside(i, from[count - 1]));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_inside && first < end) {
+        raise(from[i], begin, first, to);
+        raise(from[i], end, stop, to + (end - begin));
+      } else {
+        raise(from[i], begin, stop, to);
+      }
     }
   }
   for (std::size_t i = 0; i < size; i += block) {

@@ -9,7 +9,7 @@
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 #include "passo/session/planned_program.hpp"
 
 namespace passo {
@@ -53,11 +53,11 @@ Result<LinkDelay, std::string> link_delay(ProgramReader program, const MachineDe
   board.wire(pin_setup(machine));
   VirtualLine line(board, machine.board.clock, LineOptions());
   const Greeting greeting{.session = 1};
-  MachineSession session(machine, line,
-                         {.over_a_line = true,
-                          .care = virtual_line_care,
-                          .greeting = greeting,
-                          .start = {.place = Point(), .trust = Trust::commanded}});
+  BoardMachineSession session(machine, line,
+                              {.over_a_line = true,
+                               .care = virtual_line_care,
+                               .greeting = greeting,
+                               .start = {.place = Point(), .trust = Trust::commanded}});
   session.greet(greeting);
   while (session.state() == MachineState::offline) session.poll(endless);
   if (session.state() != MachineState::idle && session.state() != MachineState::door) {

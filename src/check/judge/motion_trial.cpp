@@ -6,7 +6,7 @@
 #include "passo/activity/stage_options.hpp"
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 #include "passo/verdict/proof_options.hpp"
 
 namespace passo {
@@ -19,7 +19,7 @@ MotionProof prove_motion(ProgramReader program, const MachineDescription& machin
   IdealPlant plant = plant_of(machine, options.start);
   board.connect(plant);
   board.wire(pin_setup(machine));
-  MachineSession session(machine, board, {.start = {.place = options.start, .trust = Trust::commanded}});
+  BoardMachineSession session(machine, board, {.start = {.place = options.start, .trust = Trust::commanded}});
   while (session.state() == MachineState::offline) session.poll(endless);
   request::Start start{.program = std::move(program),
                        .options = options,

@@ -87,8 +87,11 @@ Curve Curve::line(const Point& start, const Point& end, const SurfaceScale& surf
 bool Curve::has_length() const {
   constexpr double rounding = 1e-12;
   if (shape_ != Shape::line) return length_ > rounding;
-  return length_ > 0 &&
-         std::ranges::any_of((end_ - start_).values, [](double way) { return std::abs(way) > rounding; });
+  if (!(length_ > 0)) return false;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    if (std::abs(end_.values[i] - start_.values[i]) > rounding) return true;
+  }
+  return false;
 }
 
 Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
@@ -287,8 +290,8 @@ Point Curve::steepest_bound() const {
   return bound;
 }
 
-bool Curve::moves(Axis axis) const {
-  if (slope_[axis] != 0) return true;
+// Of an axis whose first slope is 0, on an arc or a cubic.
+bool Curve::bends(Axis axis) const {
   if (shape_ == Shape::cubic) return square_[axis] != 0 || cube_[axis] != 0;
   return shape_ == Shape::arc && (axis == arc_.first || axis == arc_.second) && steepest()[axis] != 0;
 }

@@ -89,6 +89,10 @@ WebAnswer no_place() {
       "from_line: expected the number of a line, 1 or more; pass: a number, 1 or more; after: millimetres, 0 or more");
 }
 
+WebAnswer no_ports() {
+  return error_answer(404, "ports.none", "this server opens no serial ports");
+}
+
 WebAnswer no_room() {
   return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
 }

@@ -35,6 +35,7 @@ WebAnswer job_begins();
 WebAnswer no_history();
 WebAnswer no_maker();
 WebAnswer no_place();
+WebAnswer no_ports();
 WebAnswer no_room();
 WebAnswer no_studies();
 // 507: writing failed because the disk is full, or for another reason. `what`: "the job"; `finer`: "job".

@@ -101,6 +101,19 @@ Json waits_json(const OperatorWait& wait) {
           {"free", false}};
 }
 
+Json abilities_json(const MachineAbilities& abilities) {
+  Json all = Json::array();
+  for (std::size_t i = 0; i < ability_count; ++i) {
+    const auto ability = static_cast<Ability>(i);
+    const Sentence* const why = abilities.why_not(ability);
+    all.push_back({{"ability", name_of(ability)},
+                   {"can", why == nullptr},
+                   {"why", why != nullptr ? why->text : ""},
+                   {"sentence", why != nullptr ? as_json(*why) : Json()}});
+  }
+  return all;
+}
+
 }  // namespace
 
 double rounded(double value) {
@@ -306,7 +319,7 @@ Json as_json(const StoredProgram& program, bool with_findings) {
   return json;
 }
 
-Json machine_json(const MachineDescription& machine, std::string_view version) {
+Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version) {
   Json axes = Json::array();
   for (const AxisDescription& axis : machine.axes) {
     axes.push_back({{"axis", axis_key(axis.axis)},
@@ -317,8 +330,13 @@ Json machine_json(const MachineDescription& machine, std::string_view version) {
                     {"steps_per_unit", axis.steps_per_unit},
                     {"homes", axis.home.has_value()}});
   }
-  return {{"name", machine.name},           {"version", version},         {"axes", std::move(axes)},
-          {"motors", motors_json(machine)}, {"pins", pins_json(machine)}, {"highest_rpm", machine.tool.highest_rpm}};
+  return {{"name", machine.name},
+          {"version", version},
+          {"axes", std::move(axes)},
+          {"motors", motors_json(machine)},
+          {"pins", pins_json(machine)},
+          {"highest_rpm", machine.tool.highest_rpm},
+          {"abilities", abilities_json(abilities)}};
 }
 
 }  // namespace passo

@@ -19,6 +19,8 @@
 
 namespace passo {
 
+class BoardMachineSession;
+
 // Returns the name from the query, with the user's capitalisation. It may become a file name and be displayed in a
 // terminal or a web page; a name that could be harmful there is refused. `otherwise`: the default.
 Result<std::string, WebAnswer> name_from(std::string_view query, std::string_view otherwise);
@@ -59,11 +61,11 @@ WebAnswer height_map_answer(const HeightMap& map, std::string_view query);
 using WayBack = Result<Reentry, Sentence>;
 Json as_json(const MachineDescription& machine, const WayBack& way);
 Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
-Json machine_json(const MachineDescription& machine, std::string_view version);
+Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version);
 
 // Returns {"severity", "code", "line", …} for each finding.
 Json as_json(const Diagnostics& findings);
 // Returns the individual step pulses of the board in a window of its clock.
-WebAnswer pulses_answer(MachineSession& session, const MachineDescription& machine, std::string_view query);
+WebAnswer pulses_answer(BoardMachineSession& session, const MachineDescription& machine, std::string_view query);
 
 }  // namespace passo

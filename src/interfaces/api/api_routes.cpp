@@ -7,6 +7,7 @@
 #include "machine_api.hpp"
 #include "machine_file_api.hpp"
 #include "owner_api.hpp"
+#include "ports_api.hpp"
 #include "programs_api.hpp"
 #include "studies_api.hpp"
 
@@ -56,6 +57,7 @@ constexpr ApiRoute routes[] = {
     {"GET", "/machine/file", "getMachineFile", anybody, none, &MachineFileApi::get},
     {"POST", "/machine/file", "writeMachineFile", owner, json, &MachineFileApi::write},
     {"POST", "/machine/file/draft", "draftMachineFile", anybody, json, &MachineFileApi::draft},
+    {"POST", "/machine/files", "keepMachineFile", owner, json, &PortsApi::keep_machine},
 
     {"POST", "/mdi", "runLine", owner, json, &MachineApi::run_line},
     {"POST", "/operator-done", "confirmOperatorDone", owner, none, &MachineApi::operator_done},
@@ -65,6 +67,10 @@ constexpr ApiRoute routes[] = {
     {"POST", "/owner", "takeOwnership", anybody, json, &OwnerApi::claim},
     {"DELETE", "/owner", "giveBackOwnership", anybody, none, &OwnerApi::release},
     {"POST", "/owner/renew", "renewOwnership", owner, none, &OwnerApi::renew},
+
+    {"GET", "/ports", "listPorts", anybody, none, &PortsApi::list, Needs::ports},
+    {"GET", "/ports/open", "getOpenedPort", anybody, none, &PortsApi::opened, Needs::ports},
+    {"POST", "/ports/open", "openPort", owner, json, &PortsApi::open},
 
     {"POST", "/position", "setPosition", owner, json, &MachineApi::set_position},
     {"POST", "/probe", "probe", owner, json, &JobsApi::probe},

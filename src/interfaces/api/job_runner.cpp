@@ -9,6 +9,7 @@
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -60,12 +61,13 @@ std::string_view name_of(JobState state) {
 
 JobRunner::JobRunner(const ApiShared& shared, MdiLines& mdi) : shared_(shared), mdi_(mdi) {
   const ApiOptions& options = shared.options;
-  if (options.keeper == nullptr || options.history == nullptr) return;
+  BoardMachineSession* const own = shared.session.as_board_session();
+  if (own == nullptr || options.keeper == nullptr || options.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(
-      shared.machine, shared.session, *options.keeper, *options.history,
+      shared.machine, *own, *options.keeper, *options.history,
       [&programs = shared.programs](Dialect dialect) { return programs.options_of(dialect); },
       KeptJob::Names{.made_by = options.version, .machine = options.machine_file});
-  shared.session.listen_before_hello(
+  own->listen_before_hello(
       [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
   if (options.broken_off) kept_->find(*options.broken_off);
 }
@@ -331,8 +333,8 @@ Sentence JobRunner::sentence_of_stop() const {
 
 // What a program has found, and set, counts when the program has come to its end.
 void JobRunner::keep_results() {
-  if (const Program* const program = shared_.session.program(); program != nullptr) {
-    shared_.offsets.adopt(program->saved_parameters(), program->tools());
+  if (const auto results = shared_.session.program_results()) {
+    shared_.offsets.adopt(results->parameters, results->tools);
   }
   if (begins_.map_for == 0) return;
   Diagnostics ignored;

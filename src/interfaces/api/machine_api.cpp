@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "passo/interpreter/saved_offsets.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -38,7 +39,7 @@ WebAnswer MachineApi::health(const ApiCall&) {
 }
 
 WebAnswer MachineApi::description(const ApiCall&) {
-  return json_answer(200, machine_json(shared_.machine, shared_.options.version));
+  return json_answer(200, machine_json(shared_.machine, shared_.session.abilities(), shared_.options.version));
 }
 
 WebAnswer MachineApi::homing(const ApiCall&) {
@@ -46,7 +47,12 @@ WebAnswer MachineApi::homing(const ApiCall&) {
 }
 
 WebAnswer MachineApi::pulses(const ApiCall& call) {
-  return pulses_answer(shared_.session, shared_.machine, call.request.query);
+  if (BoardMachineSession* const own = shared_.session.as_board_session()) {
+    return pulses_answer(*own, shared_.machine, call.request.query);
+  }
+  const MachineAbilities abilities = shared_.session.abilities();
+  const Sentence* const why = abilities.why_not(Ability::pulses);
+  return error_answer(409, "machine.cannot", why != nullptr ? *why : Sentence{.code = "machine.cannot"});
 }
 
 WebAnswer MachineApi::metrics(const ApiCall&) {

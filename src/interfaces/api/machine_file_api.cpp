@@ -59,7 +59,7 @@ Json draft_json(const std::string& text, const std::string& name) {
   return {{"text", text},
           {"good", machine.has_value()},
           {"values", std::move(values)},
-          {"axes", machine ? machine_json(*machine, "")["axes"] : Json::array()},
+          {"axes", machine ? machine_json(*machine, {}, "")["axes"] : Json::array()},
           {"findings", as_json(findings)}};
 }
 

@@ -192,7 +192,7 @@ void MdiLines::on_change(const MachineChange& change) {
 
 bool MdiLines::poll() {
   if (streams() && !stops_ && session_.state() == MachineState::await_line && program_->queued() == 0 &&
-      !program_->asks() && session_.drive() != nullptr && is_off(session_.drive()->outputs())) {
+      !program_->asks() && is_off(session_.status().outputs)) {
     if (const auto& wrong = program_->answer_fault(); wrong && trouble_.empty()) trouble_ = wrong->message;
     stops_ = session_.request(request::Stop{}).has_value();
   }

@@ -7,6 +7,7 @@
 #include "api_json.hpp"
 
 #include "passo/link/sent_segments.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -34,7 +35,7 @@ void put(std::string& bytes, Number number) {
 
 }  // namespace
 
-WebAnswer pulses_answer(MachineSession& session, const MachineDescription& machine, std::string_view query) {
+WebAnswer pulses_answer(BoardMachineSession& session, const MachineDescription& machine, std::string_view query) {
   const SentSegments& sent = session.board().sent_segments();
   const Seconds now = session.now();
   const auto from = seconds_of(query, "from");

@@ -9,11 +9,13 @@
 #include "machine_api.hpp"
 #include "machine_file_api.hpp"
 #include "owner_api.hpp"
+#include "ports_api.hpp"
 #include "programs_api.hpp"
 #include "studies_api.hpp"
 #include <fmt/format.h>
 
 #include "passo/api/api_routes.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -31,6 +33,7 @@ WebAnswer not_the_owner() {
 std::optional<WebAnswer> what_lacks(Needs needs, const ApiOptions& options) {
   if (needs == Needs::history && options.history == nullptr) return no_history();
   if (needs == Needs::maker && options.maker == nullptr) return no_maker();
+  if (needs == Needs::ports && options.contact == nullptr) return no_ports();
   if (needs == Needs::studies && options.studies == nullptr) return no_studies();
   return {};
 }
@@ -66,7 +69,9 @@ class WebApi::Parts {
                                                                                                              programs,
                                                                                                              offsets} {
     mdi.begin_anew();
-    session.board().sent_segments().keep(machine.board.clock);
+    if (BoardMachineSession* const own = session.as_board_session()) {
+      own->board().sent_segments().keep(machine.board.clock);
+    }
   }
 
   WebAnswer answer(const WebRequest& request, const FoundRoute& found, std::optional<Json> said = {}) {
@@ -101,6 +106,7 @@ class WebApi::Parts {
   MachineApi machine_api{shared, jobs, times, mdi};
   MachineFileApi machine_file_api{shared, jobs};
   OwnerApi owner_api{shared, jobs};
+  PortsApi ports_api{shared, jobs};
   ProgramsApi programs_api{shared, jobs};
   StudiesApi studies_api{shared};
 
@@ -125,6 +131,7 @@ class WebApi::Parts {
   WebAnswer ask(AnswerOf<MachineApi> handler, const ApiCall& call) { return (machine_api.*handler)(call); }
   WebAnswer ask(AnswerOf<MachineFileApi> handler, const ApiCall& call) { return (machine_file_api.*handler)(call); }
   WebAnswer ask(AnswerOf<OwnerApi> handler, const ApiCall& call) { return (owner_api.*handler)(call); }
+  WebAnswer ask(AnswerOf<PortsApi> handler, const ApiCall& call) { return (ports_api.*handler)(call); }
   WebAnswer ask(AnswerOf<ProgramsApi> handler, const ApiCall& call) { return (programs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<StudiesApi> handler, const ApiCall& call) { return (studies_api.*handler)(call); }
 

@@ -9,6 +9,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/interpreter/grbl_errors.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -189,7 +190,8 @@ void GrblController::end_probe() {
 
 // Grbl's numbers do not tell what it was, so a message does.
 void GrblController::raise_alarm_of_board() {
-  const bool is_drive = (session_.board().stopped_by() & pin_setup(machine_).alarms) != 0;
+  const BoardMachineSession* const own = session_.as_board_session();
+  const bool is_drive = own != nullptr && (own->board().stopped_by() & pin_setup(machine_).alarms) != 0;
   raise(is_drive ? GrblAlarm::motor_fault : GrblAlarm::hard_limit);
   say("[MSG:" + session_.trouble_words() + "]\r\n");
 }
@@ -225,7 +227,7 @@ void GrblController::request_stream() {
 // second goes on with the same stream.
 void GrblController::end_stream() {
   if (session_.state() != MachineState::await_line || !stream_.may_end(session_.now(), is_here_)) return;
-  if (program_.queued() > 0 || program_.asks() || !is_off(session_.drive()->outputs())) return;
+  if (program_.queued() > 0 || program_.asks() || !is_off(session_.status().outputs)) return;
   if (ask(request::Stop{})) stream_.note_asked_to_end();
 }
 

@@ -71,7 +71,7 @@ void GrblController::report_status() {
   GrblStatus report;
   report.state = state_name();
   report.machine_place = status.now_at;
-  report.work_offset = program_.modes().frame.machine_from_work(Point());
+  report.work_offset = program_.modes().frame.work_zero();
   report.planner_free = grbl_planner_blocks - std::min(program_.queued(), grbl_planner_blocks);
   report.bytes_free = input_.free();
   report.feed = status.speed_now.value() * seconds_per_minute;

@@ -91,7 +91,7 @@ void GrblMachine::hear(std::string_view line) {
     hear_alarm(value);
   } else if (name == "GC") {
     hear_modes(value);
-  } else if (is_system(name) || name == "G92" || name == "TLO") {
+  } else if (is_system(name) || name == "G28" || name == "G30" || name == "G92" || name == "TLO") {
     hear_offset(name, value);
   }
 }

@@ -19,6 +19,9 @@ void read_field(std::string_view name, std::string_view value, std::string_view 
   if (name == "MPos" || name == "WPos") report.values = 1 + static_cast<std::size_t>(std::ranges::count(value, ','));
   if (name == "WCO") report.work_offset = read_grbl_place(value, axes);
   if (name == "Pn") report.pins = value;
+  if (name == "A") report.outputs = value;
+  // A report with the overrides and without outputs: all are off.
+  if (name == "Ov" && !report.outputs) report.outputs.emplace();
   if (name != "Bf") return;
   report.blocks_free = read_count(next_grbl_field(value, ','));
   report.bytes_free = read_count(value);

@@ -56,6 +56,12 @@ std::string steps_to(int wanted, char hundred, char ten_up) {
 
 GrblSender::GrblSender(Seconds now) : now_(now), begun_(now), stage_since_(now), heard_(now) {}
 
+GrblSender GrblSender::on_open_line(Seconds now) {
+  GrblSender sender(now);
+  sender.stage_since_ = now - start_of_an_arduino;
+  return sender;
+}
+
 void GrblSender::ask_for_offsets() {
   if (machine_.settings.empty()) add("$$");
   add("$#");
@@ -99,6 +105,23 @@ void GrblSender::override_feed(int percent) {
 
 void GrblSender::override_spindle(int percent) {
   urgent_ += steps_to(percent, '\x99', '\x9A');
+}
+
+int GrblSender::override_rapids(int percent) {
+  const int level = percent > 75 ? 0 : percent > 37 ? 1 : 2;
+  act(static_cast<char>('\x95' + level));
+  return 100 >> level;
+}
+
+void GrblSender::cancel_jog() {
+  window_.drop_waiting();
+  act('\x85');
+}
+
+void GrblSender::reset() {
+  window_.drop_waiting();
+  act(soft_reset);
+  enter(Stage::dropping);
 }
 
 void GrblSender::stop() {
@@ -222,7 +245,7 @@ GrblFault GrblSender::fault_of_greeting() const {
 }
 
 void GrblSender::ask_for_status() {
-  const Seconds pause = stops() ? between_urgent_questions : between_questions;
+  const Seconds pause = stops() || looks_often_ ? between_urgent_questions : between_questions;
   if (asked_ >= Seconds(0) && now_ - asked_ < pause) return;
   asked_ = now_;
   act('?');
@@ -342,9 +365,11 @@ void GrblSender::hear(std::string_view line) {
   if (line.starts_with(alarm_head)) return alarm(without_blanks(line.substr(alarm_head.size())));
   machine_.hear(line);
   window_.note_said(with_blanks);
+  if (listener_) listener_(line);
 }
 
 void GrblSender::hear_report(const GrblReport& report) {
+  ++reports_heard_;
   if (greets()) machine_.hear_value_count(report.values);
   if (reports_.hear(report, now_)) progress_ = now_;
   if (report.bytes_free) window_.hear_free_bytes(*report.bytes_free);

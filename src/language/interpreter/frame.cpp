@@ -33,6 +33,12 @@ void rotate(Point& point, double cosine, double sine) {
 }  // namespace
 
 bool Frame::follow(const Operation& operation) {
+  if (!take(operation)) return false;
+  work_zero_ = machine_from_work(Point());
+  return true;
+}
+
+bool Frame::take(const Operation& operation) {
   if (const auto* work = std::get_if<operation::SetWorkOffset>(&operation.what)) {
     work_offset_ = work->offset;
     work_system_ = work->system;
@@ -69,7 +75,7 @@ Point Frame::work_from_machine(const Point& machine) const {
 }
 
 Box Frame::work_extents(const Curve& curve) const {
-  Point zero = machine_from_work(Point());
+  Point zero = work_zero_;
   Box box;
   if (rotation_degrees_ == 0) {
     box = curve.extents();

@@ -32,8 +32,8 @@ std::string describe(JobChange change, const JournalHead& then) {
 
 }  // namespace
 
-KeptJob::KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
-                 OptionsOf options_of, Names names)
+KeptJob::KeptJob(const MachineDescription& machine, BoardMachineSession& session, JobKeeper& keeper,
+                 JobHistory& history, OptionsOf options_of, Names names)
     : machine_(machine),
       session_(session),
       keeper_(keeper),

@@ -5,12 +5,12 @@
 // the door is closed and the operator presses cycle start.
 #pragma once
 
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
 
-class MachineSession::Panel {
+class BoardMachineSession::Panel {
  public:
   // In a hold the operator is probably near, so the panel queries more often, to detect a start soon.
   static constexpr Seconds between_questions{0.2};

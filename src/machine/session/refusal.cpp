@@ -47,6 +47,7 @@ constexpr RefusalRow all_refusals[] = {
     {bad_rapid_override, RefusalCode::bad_value, "machine.bad-value.rapid-override",
      "the override of rapids is a factor of 0.05 to 1"},
     {bad_place, RefusalCode::bad_value, "machine.bad-value.place", "a position needs a number for each axis"},
+    {board_cannot, RefusalCode::cannot, "machine.cannot", "{why}"},
     {switch_closed, RefusalCode::limit_closed, "machine.limit-closed",
      "limit switch {number} is closed: jog off it, or home the machine, first"},
     {switch_of_axes_closed, RefusalCode::limit_closed, "machine.limit-closed.of-axes",
@@ -82,6 +83,7 @@ std::string_view code_of(RefusalCode code) {
     case RefusalCode::no_switches: return "machine.no-switches";
     case RefusalCode::bad_value: return "machine.bad-value";
     case RefusalCode::limit_closed: return "machine.limit-closed";
+    case RefusalCode::cannot: return "machine.cannot";
     case RefusalCode::place_unknown: return "run.place-unknown";
   }
   return "machine";

@@ -14,11 +14,11 @@
 #include "passo/activity/homing_path.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/drive/motion_drive.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 
-class MachineSession::Work {
+class BoardMachineSession::Work {
  public:
   // asks_counts: the drive has ended, and the board is queried for its counts.
   enum class Stage : std::uint8_t { moves, asks_counts, ended };

@@ -360,7 +360,7 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item, cons
                  .merge = merge_,
                  .turn_tolerance = tolerance_ > Mm(0) ? options_.turn_tolerance : 0,
                  .surface = surface,
-                 .work_zero = frame_.machine_from_work(Point()),
+                 .work_zero = frame_.work_zero(),
                  .heeds = heeds(),
                  .lock = rapid ? SpindleLock::none : lock(),
                  .pitch = pitch(),

@@ -36,9 +36,8 @@ double rounded_radius(double radius) {
 
 bool turns_only_rotary_axes(const Curve& curve) {
   if (curve.shape() != Curve::Shape::line) return false;
-  const Point direction = curve.tangent(Mm(0));
   for (const Axis axis : all_axes) {
-    if (!is_rotary(axis) && direction[axis] != 0) return false;
+    if (!is_rotary(axis) && curve.moves(axis)) return false;
   }
   return true;
 }
@@ -91,7 +90,7 @@ SurfaceScale PathBuilder::surface_to(const Point& machine_end, bool rapid) const
 MmPerSecond PathBuilder::feed_along(const Curve& curve, const SurfaceScale& surface) {
   if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
   const bool only_turns = turns_only_rotary_axes(curve);
-  const double on_surface = std::sqrt(surface.square_of(curve.end() - curve.start()));
+  const double on_surface = has_surfaces_ ? std::sqrt(surface.square_of(curve.end() - curve.start())) : 0;
   const auto* const timed = std::get_if<operation::FeedPerSecond>(&feed_rate_.feed);
   if (timed != nullptr && timed->by_time && on_surface > 0) {
     // The duration is that without the surface. The length is not.

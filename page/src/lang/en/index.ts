@@ -1,4 +1,5 @@
 // English: all words of the page, but those of the lab (lab/lang) and what the server reports (faults.ts, findings.ts).
+import { board } from './board';
 import { cam } from './cam';
 import { console } from './console';
 import { files } from './files';
@@ -10,4 +11,4 @@ import { pins } from './pins';
 import { run } from './run';
 import { set_up } from './set_up';
 
-export const en = { ...cam, ...console, ...files, ...frame, ...job, ...machine, ...operations, ...pins, ...run, ...set_up };
+export const en = { ...board, ...cam, ...console, ...files, ...frame, ...job, ...machine, ...operations, ...pins, ...run, ...set_up };

@@ -1,4 +1,5 @@
 // Chinese: all words of the page, but those of the lab (lab/lang) and what the server reports (faults.ts, findings.ts).
+import { board } from './board';
 import { cam } from './cam';
 import { console } from './console';
 import { files } from './files';
@@ -11,4 +12,4 @@ import { run } from './run';
 import { set_up } from './set_up';
 import type { Words } from '../same';
 
-export const zh: Words = { ...cam, ...console, ...files, ...frame, ...job, ...machine, ...operations, ...pins, ...run, ...set_up };
+export const zh: Words = { ...board, ...cam, ...console, ...files, ...frame, ...job, ...machine, ...operations, ...pins, ...run, ...set_up };

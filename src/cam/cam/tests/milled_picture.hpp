@@ -122,6 +122,10 @@ class MilledPicture {
     return copper_[pixel] != 0 && milled_[pixel] == 0;
   }
 
+  bool is_milled(double x, double y) const {
+    return milled_[at(static_cast<int>((x - left_) / pixel_), static_cast<int>((y - low_) / pixel_))] != 0;
+  }
+
   double lost_mm2() const {
     std::size_t lost = 0;
     for (std::size_t i = 0; i < size(); ++i) lost += copper_[i] != 0 && milled_[i] != 0 ? 1 : 0;

@@ -176,6 +176,26 @@ TEST(JoinedNets, are_islands_with_pads_holes_or_names) {
   EXPECT_EQ(find_joined_nets(copper, known, plan.mill, proof, wide(0.2)).joined, 0U) << "one net, drawn in two islands";
 }
 
+// The cutter reaches into both mouths of a gap between parallel traces, where all of their corners are.
+TEST(JoinedNets, every_one_of_them_is_beside_a_gap_that_is_not_milled) {
+  const auto bar = [](double from, double to, double low, double high) {
+    return Region{{{spot(from, low), spot(to, low), spot(to, high), spot(from, high)}}};
+  };
+  const Region copper =
+      united({bar(0, 10, 0, 1), bar(2, 8, 1.19, 2), bar(3, 7, 2.2, 3), pad(20, 0, 2), pad(22.1, 0, 2)});
+  const auto [plan, proof] = isolated(copper, with({0.2}));
+  ASSERT_EQ(proof.joined, 5U);
+  const JoinedNets found = find_joined_nets(copper, {}, plan.mill, proof, wide(0.2));
+  ASSERT_EQ(found.gaps.size(), 3U);
+  const test::MilledPicture picture = picture_of(copper, plan.mill, 0.002);
+  std::vector<Nanometres> widths;
+  for (const CopperGap& gap : found.gaps) {
+    widths.push_back(gap.width);
+    EXPECT_FALSE(picture.is_milled(to_mm(gap.at.x).value(), to_mm(gap.at.y).value())) << gap.at.x.count;
+  }
+  EXPECT_EQ(widths, (std::vector{wide(0.1), wide(0.19), wide(0.2)}));
+}
+
 TEST(IsolationAdvice, is_tried) {
   const Region copper = united(two_pads(0.08), pad(10, 0, 2));
   IsolationOptions options = with({0.3});

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "commands.hpp"
+#include "machine_options.hpp"
 #include "number_range.hpp"
 #include <CLI/CLI.hpp>
 
@@ -14,7 +15,8 @@ namespace {
 constexpr const char* address = "address: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico";
 
 constexpr const char* examples = R"(Examples:
-  passo board list                                        list the boards on this computer's serial ports
+  passo board list                                        list this computer's serial ports, and who uses them
+  passo board list --ask                                  open the free ones, and ask which board is there
   passo board flash uno --device /dev/ttyACM0             flash Passo's firmware; back up the old one
   passo board flash pico                                  flash a Pico that was plugged in with BOOTSEL held
   passo board info serial:/dev/ttyACM0                    show type, firmware and status
@@ -27,11 +29,23 @@ constexpr const char* examples = R"(Examples:
 Wiring and the first start, without motors: docs/boards.md.)";
 
 void add_board_list_options(CLI::App& command, BoardListArguments& arguments) {
-  command.add_option("DEVICE", arguments.devices, "only these serial ports, e.g. /dev/ttyUSB0");
-  command.add_option("--wait", arguments.wait, "time to wait for each port, s; opening the port resets an Arduino")
+  command.add_option("DEVICE", arguments.devices,
+                     "serial ports to open and ask, e.g. /dev/ttyUSB0 (default: list all, and open none)");
+  command.add_flag("--ask", arguments.ask,
+                   "open all ports that are not in use, and ask which board is there; opening a port restarts an "
+                   "Arduino, also under a job of a program that is not seen");
+  command.add_option("--wait", arguments.wait, "time to wait for the answer of each port, s")
       ->check(number_range(0.05, 60.0))
       ->capture_default_str();
   command.add_flag("--json", arguments.json, "print the result as JSON");
+  add_system(command, arguments.system);
+  command.footer(
+      "Without DEVICE and --ask, no port is opened: names and users come from the files of the system.\n"
+      "A port that is in use is never opened.\n"
+      "Examples:\n"
+      "  passo board list\n"
+      "  passo board list --ask\n"
+      "  passo board list /dev/ttyACM0 --json | jq '.[0].says'");
 }
 
 void add_board_info_options(CLI::App& command, BoardInfoArguments& arguments) {

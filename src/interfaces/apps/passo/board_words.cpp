@@ -77,6 +77,15 @@ std::string reset_of(const BoardStatus& status) {
   return "a cause unknown to this version";
 }
 
+std::string silence_of(const BoardSession& board) {
+  if (board.hung_up()) return "closes the connection: another program uses it";
+  if (board.gibberish().empty()) return "does not answer";
+  if (board.gibberish().find("Grbl ") != std::string::npos || board.gibberish().find("GrblHAL ") != std::string::npos) {
+    return "is a machine with Grbl: use passo run or passo home with --board grbl:... [board.grbl]";
+  }
+  return fmt::format("answers, but is not a Passo board: \"{}\"", board.gibberish().substr(0, 60));
+}
+
 nlohmann::json to_json(const About& about) {
   return {{"name", name_of(about)},
           {"firmware", version_of(about)},

@@ -8,8 +8,10 @@
 #include "background_process.hpp"
 #include "cam_board_maker.hpp"
 #include "cam_job.hpp"
+#include "cam_tools.hpp"
 #include "progress_display.hpp"
 #include "unfinished_job.hpp"
+#include <nlohmann/json.hpp>
 
 #include "passo/cam/board_job.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -141,7 +143,7 @@ int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, 
   if (code == exit_done) progress.update(1);
   // What was read helps to mend what was refused.
   if (code != exit_done) maker.page.steps.clear();
-  if (arguments.json) fmt::print("{}", to_json(maker.page));
+  if (arguments.json) say_summary(to_json(maker.page), arguments);
   if (code != exit_done || maker.joined_nets == 0) return code;
   return fail(exit_failed, fmt::format("{} still joined; the programs were written (--accept-joined accepts this)",
                                        counted(maker.joined_nets, "net") + " are"));

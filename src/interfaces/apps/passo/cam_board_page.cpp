@@ -45,7 +45,7 @@ std::string words_for(const BoardPageFile& file) {
                      file.told_by == "you" ? "given with --as" : "from its " + file.told_by);
 }
 
-std::string to_json(const BoardPage& page) {
+nlohmann::ordered_json to_json(const BoardPage& page) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const BoardPageFile& file : page.files) {
     files.push_back({{"file", file.name},
@@ -82,7 +82,7 @@ std::string to_json(const BoardPage& page) {
     for (const auto& [x, y] : page.registration->holes) holes.push_back({{"x_mm", x}, {"y_mm", y}});
     json["registration"] = {{"holes", std::move(holes)}, {"axis_mm", page.registration->axis}};
   }
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json;
 }
 
 std::string to_html(const BoardPage& page) {

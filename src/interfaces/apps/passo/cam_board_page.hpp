@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -65,6 +67,6 @@ struct BoardPage {
 };
 
 std::string to_html(const BoardPage& page);
-std::string to_json(const BoardPage& page);
+nlohmann::ordered_json to_json(const BoardPage& page);
 
 }  // namespace passo

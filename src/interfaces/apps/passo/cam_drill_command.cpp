@@ -124,7 +124,7 @@ std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& pl
   return text;
 }
 
-std::string json_of(const DrillPlan& plan) {
+nlohmann::ordered_json json_of(const DrillPlan& plan) {
   nlohmann::ordered_json tools = nlohmann::ordered_json::array();
   for (const DrillTool& tool : plan.tools) {
     tools.push_back({{"kind", tool.is_mill ? "mill" : "drill"},
@@ -133,7 +133,7 @@ std::string json_of(const DrillPlan& plan) {
                      {"slots", tool.slots},
                      {"rapids_mm", tool.rapids_after_nm / nanometres_per_mm}});
   }
-  return nlohmann::ordered_json{{"tools", std::move(tools)}}.dump(2);
+  return {{"tools", std::move(tools)}};
 }
 
 // Adds the holes of --align, turns the board over, and moves it to its zero.
@@ -236,7 +236,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
     made->summary = words;
     made->last = plan.tools.back().targets.back().points.front().at;
   } else if (arguments.json) {
-    say(with_warnings(json_of(plan), arguments) + "\n");
+    say_summary(json_of(plan), arguments);
   } else if (!arguments.output.empty() && arguments.output != "-") {
     say(words);
   }

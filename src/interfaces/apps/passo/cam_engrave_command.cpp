@@ -220,7 +220,7 @@ int engrave_lines(const CamEngraveArguments& arguments, const MillJob& job, cons
                                        {"dots", plan.dots},
                                        {"deepest_mm", depth},
                                        {"width_mm", width}};
-  return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json.dump(2)},
+  return deliver(arguments, job, {plan.outline.mill, plan.face, plan.unreached, {}, words, json},
                  progress.part(0.8, 1));
 }
 
@@ -317,7 +317,7 @@ int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progre
                                  {"unreached_mm2", stays},
                                  {"deepest_mm", to_mm(plan.deepest).value()},
                                  {"layers", plan.layers}};
-  return deliver(arguments, job, {plan.mill, area, warned, {}, words, json.dump(2)}, progress.part(0.9, 1));
+  return deliver(arguments, job, {plan.mill, area, warned, {}, words, json}, progress.part(0.9, 1));
 }
 
 }  // namespace passo

@@ -6,6 +6,7 @@
 
 #include "cam_job.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/sensible_number.hpp"
@@ -389,7 +390,7 @@ int cam_isolate(const CamIsolateArguments& arguments, const WorkProgress& progre
   progress.update(1);
   if (!advice.empty()) note(name + ": " + advice);
   if (arguments.json) {
-    fmt::print("{}\n", as_json(result, options.park).dump(2));
+    say_summary(as_json(result, options.park), arguments);
   } else {
     const std::string words = summary_of(result.plan.mill, options.park, arguments.units, options.link) +
                               proof_words(result, sources->copies);

@@ -7,6 +7,7 @@
 #include "cam_job.hpp"
 #include "cam_profile_nest.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include "named_files.hpp"
 #include "part_job_nest.hpp"
 #include "part_job_operation.hpp"
@@ -341,7 +342,7 @@ void report(const JobRun& run, nlohmann::ordered_json record, const std::vector<
   if (run.arguments.json) {
     record["changes"] = changes;
     record["removed"] = removed;
-    say(record.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    say_summary(std::move(record));
     return;
   }
   std::string text = report_of(record);

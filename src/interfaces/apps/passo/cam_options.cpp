@@ -105,6 +105,7 @@ int run_with_progress(const Arguments& arguments, Run run) {
 
 template <class Arguments, int (*run)(const Arguments&, const WorkProgress&)>
 int shown(const Arguments& arguments) {
+  const RecordedMessages shown_ones;
   return run_with_progress(arguments, run);
 }
 
@@ -181,6 +182,7 @@ std::function<int()> board_job_of(CLI::App& command) {
   const auto all = std::make_shared<CamArguments>();
   add_cam_options(command, all->board);
   return [all, &command] {
+    const RecordedMessages shown_ones;
     const auto is_given = [&](const char* option) { return command.count(option) > 0; };
     return run_with_progress(all->board, [&](const CamBoardArguments& /*board*/, const WorkProgress& progress) {
       return make_board_job(*all, is_given, progress);

@@ -3,6 +3,7 @@
 
 #include "cam_job.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -126,7 +127,7 @@ int cam_outline(const CamOutlineArguments& arguments, const WorkProgress& progre
   }
   progress.update(1);
   if (arguments.json) {
-    fmt::print("{}\n", as_json(plan, edge.loops, board, options.park).dump(2));
+    say_summary(as_json(plan, edge.loops, board, options.park), arguments);
     return exit_done;
   }
   const std::string words =

@@ -111,7 +111,7 @@ int deliver(const CamMillArguments& arguments, const MillJob& job, const PartRes
   }
   progress.update(1);
   if (arguments.json) {
-    if (!result.json.empty()) say(with_warnings(result.json, arguments) + "\n");
+    if (!result.json.is_null()) say_summary(result.json, arguments);
     return exit_done;
   }
   return tell(arguments.output, result.mill, summary_of(result.mill, job.program.park, arguments.units) + result.words,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cam_job.hpp"
+#include <nlohmann/json.hpp>
 
 #include "passo/cam/profile.hpp"
 
@@ -38,7 +39,7 @@ struct PartResult {
   const Region& unreached;
   const std::vector<DrawnPoint>& tabs;
   std::string words;
-  std::string json;                       // empty: for all but the last of several programs, whose summary is of all
+  nlohmann::ordered_json json;            // null: for all but the last of several programs, whose summary is of all
   std::optional<Nanometres> offcut = {};  // X from which the sheet stays whole
 };
 // Writes and prints everything. Returns an exit code.

@@ -277,10 +277,11 @@ int cut_sheets(const CamProfileArguments& arguments, MillJob& job, const Profile
     const bool is_last = i + 1 == sheets;
     const std::string name = sheets > 1 ? fmt::format("{}:\n", orders[i].output) : "";
     const std::string words = name + cut.words + (is_last ? nest_words(nested.nest, nested.options, nested.parts) : "");
-    const int code = deliver(orders[i], job,
-                             {cut.plan.outline.mill, cut.plan.face, cut.plan.unreached, cut.plan.outline.tabs, words,
-                              is_last ? all.dump(2) : "", nested.nest.sheets[i].used + nested.options.margin},
-                             progress.stage(i, sheets));
+    const int code =
+        deliver(orders[i], job,
+                {cut.plan.outline.mill, cut.plan.face, cut.plan.unreached, cut.plan.outline.tabs, words,
+                 is_last ? all : nlohmann::ordered_json(), nested.nest.sheets[i].used + nested.options.margin},
+                progress.stage(i, sheets));
     if (code != exit_done) return code;
   }
   return exit_done;
@@ -323,7 +324,7 @@ int cam_profile(const CamProfileArguments& arguments, const WorkProgress& progre
   if (!cut) return exit_bad_program;
   const ProfilePlan& plan = cut->plan;
   return deliver(arguments, job,
-                 {plan.outline.mill, plan.face, plan.unreached, plan.outline.tabs, cut->words, cut->json.dump(2)},
+                 {plan.outline.mill, plan.face, plan.unreached, plan.outline.tabs, cut->words, cut->json},
                  progress.part(0.8, 1));
 }
 
@@ -395,7 +396,7 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
   json["finished"] = plan.finished;
   json["unfinished"] = plan.unfinished;
   json["climb"] = options.climb;
-  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json.dump(2)}, progress.part(0.9, 1));
+  return deliver(arguments, job, {plan.mill, area, plan.unreached, {}, words, json}, progress.part(0.9, 1));
 }
 
 }  // namespace passo

@@ -4,6 +4,7 @@
 
 #include "cam_part.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -147,7 +148,7 @@ int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress) {
   if (arguments.json) {
     const nlohmann::ordered_json json = {
         {"closed", plan.closed}, {"open", plan.open}, {"dots", plan.dots}, {"drawn_mm", drawn}, {"travel_mm", travel}};
-    fmt::print("{}\n", json.dump(2));
+    say_summary(json, arguments);
   } else if (!arguments.output.empty() && arguments.output != "-") {
     fmt::print("{}, {} and {}: {:.1f} mm drawn, {:.1f} mm of travels\n{}", counted(plan.closed, "closed line"),
                counted(plan.open, "open line"), counted(plan.dots, "dot"), drawn, travel, size_words(*part));

@@ -81,7 +81,7 @@ int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress
                                          {"columns", read->grid.columns},
                                          {"rows", read->grid.rows},
                                          {"passes", json_of(report)}};
-    say(with_warnings(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace), arguments) + "\n");
+    say_summary(json, arguments);
   } else if (!arguments.output.empty() && arguments.output != "-") {
     say(fmt::format("{}: {}\n{}\n{}", arguments.file, read->words, grid_words(read->grid), summary_of(report)));
   }

@@ -103,7 +103,7 @@ class SidesMaker {
   int write_all(const WorkProgress& progress);
   void put_stock(const std::string& name);
   void note_edge() const;
-  std::string as_json() const;
+  nlohmann::ordered_json as_json() const;
   int drill(const WorkProgress& progress);
   int carve(const HeightGrid& grid, const char* name, BoardStep step, const WorkProgress& progress);
   int flip();
@@ -347,17 +347,16 @@ int SidesMaker::write_all(const WorkProgress& progress) {
   return code == exit_done ? write_text(path("relief.html"), to_html(page_)) : code;
 }
 
-std::string SidesMaker::as_json() const {
-  const nlohmann::ordered_json json = {{"input", words_},
-                                       {"width_mm", width_.value()},
-                                       {"length_mm", length_.value()},
-                                       {"height_mm", high_},
-                                       {"parting_mm", -split_.parting.value()},
-                                       {"has_web", split_.has_web},
-                                       {"tabs", split_.tabs},
-                                       {"tabs_on_part_mm", split_.on_part.value()},
-                                       {"sides", json_}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+nlohmann::ordered_json SidesMaker::as_json() const {
+  return {{"input", words_},
+          {"width_mm", width_.value()},
+          {"length_mm", length_.value()},
+          {"height_mm", high_},
+          {"parting_mm", -split_.parting.value()},
+          {"has_web", split_.has_web},
+          {"tabs", split_.tabs},
+          {"tabs_on_part_mm", split_.on_part.value()},
+          {"sides", json_}};
 }
 
 int SidesMaker::make(ReliefReading& reading, const WorkProgress& progress) {
@@ -381,7 +380,7 @@ int SidesMaker::make(ReliefReading& reading, const WorkProgress& progress) {
   if (code == exit_done) code = write_all(progress);
   if (code == exit_done) code = unfinished_.finish();
   if (code == exit_done) progress.update(1);
-  if (code == exit_done && arguments_.json) say(with_warnings(as_json(), arguments_) + "\n");
+  if (code == exit_done && arguments_.json) say_summary(as_json(), arguments_);
   return code;
 }
 

@@ -3,6 +3,7 @@
 
 #include "cam_job.hpp"
 #include "cam_show_shapes.hpp"
+#include "cam_tools.hpp"
 #include "named_files.hpp"
 #include "picture_names.hpp"
 #include "program_input.hpp"
@@ -71,7 +72,7 @@ void print_json(const BoardJob& job) {
   const ShownSize size = size_of(bounds(face));
   nlohmann::ordered_json json = {{"files", std::move(files)}, {"left_out", job.left_out}};
   if (!face.empty()) json["board"] = {{"across_mm", size.across}, {"up_mm", size.up}, {"area_mm2", area_mm2(face)}};
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  say_summary(std::move(json));
 }
 
 void print_table(const BoardJob& job) {
@@ -88,6 +89,7 @@ void print_table(const BoardJob& job) {
 }  // namespace
 
 int cam_show(const CamShowArguments& arguments) {
+  const RecordedMessages shown_ones;
   if (arguments.shapes) return cam_show_shapes(arguments);
   NamedFiles files;
   for (const std::string& file : arguments.files) files.reads("the file", file);

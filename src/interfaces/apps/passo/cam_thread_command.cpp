@@ -245,7 +245,7 @@ int cam_thread(const CamThreadArguments& arguments, const WorkProgress& progress
         reach.value()));
   }
   const Region face = discs_at(places, size.major);
-  return deliver(arguments, mill, {plan.mill, face, {}, {}, words, json.dump(2)}, progress);
+  return deliver(arguments, mill, {plan.mill, face, {}, {}, words, json}, progress);
 }
 
 }  // namespace passo

@@ -209,14 +209,11 @@ int use_tools(CamReliefArguments& a, const IsGiven& is_given) {
   return shelf.finish();
 }
 
-std::string with_warnings(const std::string& json, const CamToolArguments& arguments) {
+void say_summary(ToolJson summary, const CamToolArguments& arguments) {
   const RecordedMessages* const shown = RecordedMessages::current();
-  const bool has_news = shown != nullptr && !(shown->warnings.empty() && shown->notes.empty());
-  if (arguments.tool_warnings_json.empty() && !has_news) return json;
-  ToolJson summary = ToolJson::parse(json, nullptr, false);
-  if (!summary.is_object()) return json;
   ToolJson warnings = ToolJson::parse(arguments.tool_warnings_json, nullptr, false);
-  if (!warnings.is_array()) warnings = ToolJson::array();
+  const bool has_tool_warnings = warnings.is_array();
+  if (!has_tool_warnings) warnings = ToolJson::array();
   const auto is_of_tool = [&](const Diagnostic& warning) {
     return std::ranges::any_of(warnings, [&](const ToolJson& one) {
       return one.value("code", "") == warning.code && one.value("message", "") == std::string(warning.message);
@@ -232,8 +229,9 @@ std::string with_warnings(const std::string& json, const CamToolArguments& argum
     }
     if (!shown->notes.empty()) summary["notes"] = shown->notes;
   }
-  summary["warnings"] = std::move(warnings);
-  return summary.dump(2, ' ', false, ToolJson::error_handler_t::replace);
+  const bool has_notes = shown != nullptr && !shown->notes.empty();
+  if (has_tool_warnings || has_notes || !warnings.empty()) summary["warnings"] = std::move(warnings);
+  say(summary.dump(2, ' ', false, ToolJson::error_handler_t::replace) + "\n");
 }
 
 }  // namespace passo

@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "passo/operations/cam_arguments.hpp"
 
 namespace passo {
@@ -24,9 +26,9 @@ int use_tools(CamIsolateArguments& arguments, const IsGiven& is_given);
 int use_tools(CamOutlineArguments& arguments, const IsGiven& is_given);
 int use_tools(CamReliefArguments& arguments, const IsGiven& is_given);
 
-// Adds to a summary what was shown beside it: warnings, of tools and of files, as its member "warnings", and notes as
-// "notes". Without any, the summary is unchanged.
-std::string with_warnings(const std::string& json, const CamToolArguments& arguments);
+// Prints the summary of an operation as JSON. What was shown beside it is added: warnings, of tools and of files, as
+// the member "warnings", and notes as "notes". Without any, the summary is printed unchanged.
+void say_summary(nlohmann::ordered_json summary, const CamToolArguments& arguments = {});
 // The same for the three operations of a board, which share a library. An operation that names no tool by its number
 // keeps its own options. Without a drill in its options, the rack has all drills of the library.
 int use_tools(const CamToolArguments& board, CamDrillArguments& drill, const IsGiven& is_given_drill,

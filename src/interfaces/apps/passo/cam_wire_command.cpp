@@ -7,6 +7,7 @@
 
 #include "cam_part.hpp"
 #include "cam_program.hpp"
+#include "cam_tools.hpp"
 #include "wire_kerfs.hpp"
 #include <nlohmann/json.hpp>
 
@@ -333,7 +334,7 @@ int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress) {
                                    {"minutes_at_feed", minutes},
                                    {"left", side_json(plan.left)}};
     if (wire.has_four_axes) json["right"] = side_json(plan.right);
-    fmt::print("{}\n", json.dump(2));
+    say_summary(std::move(json), arguments);
   } else if (!arguments.output.empty() && arguments.output != "-") {
     fmt::print("{} in {}, {:.2f} min at the feed rate\n{}", counted(plan.faces.size() - 1, "move"),
                counted(plan.sections, "section"), minutes,

@@ -148,9 +148,11 @@ struct MachineArguments {
 int machine(const MachineArguments& arguments);
 
 struct BoardListArguments {
-  std::vector<std::string> devices;  // empty: all serial ports of this computer
+  std::vector<std::string> devices;  // these are opened and asked; empty: all serial ports of this computer
+  bool ask = false;                  // opens all ports that are not in use, too
   double wait = 2.5;                 // seconds to wait for an answer on each port
   bool json = false;
+  std::string system;  // a folder with system files in place of this computer's; empty: this computer's
 };
 int board_list(const BoardListArguments& arguments);
 
@@ -217,6 +219,7 @@ struct ServeArguments {
   bool check = false;                   // only checks whether these options can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
+  std::string system;                   // a folder with system files, as for `board list`
 };
 int serve(const ServeArguments& arguments);
 

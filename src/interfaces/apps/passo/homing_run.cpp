@@ -48,7 +48,7 @@ class StageLine {
   std::string shown_;
 };
 
-void record_end(MachineSession& session, const Answered& answered, HomingReport& report) {
+void record_end(BoardMachineSession& session, const Answered& answered, HomingReport& report) {
   const HomingPath* const path = session.homing();
   report.axes = path->homed();
   if (answered.outcome == Outcome::done) return;
@@ -78,7 +78,7 @@ std::string words_without_homing(const std::string& machine_file) {
 }
 
 HomingReport home_machine(MachineConnection& machine, bool shows) {
-  MachineSession& session = machine.session();
+  BoardMachineSession& session = machine.session();
   HomingReport report;
   const Seconds from = session.now();
   const auto ticket = session.request(request::Home{});

@@ -68,7 +68,7 @@ struct Ending {
 constexpr Seconds between_renewals{0.02};
 
 Ending jog_to_rest(MachineConnection& opened, const JogWords& words, const JogArguments& arguments) {
-  MachineSession& session = opened.session();
+  BoardMachineSession& session = opened.session();
   const KnownPosition from = session.status().position;
   const JogWay way{.direction = words.way,
                    .speed = MmPerSecond(arguments.feed / seconds_per_minute),

@@ -80,7 +80,7 @@ std::unique_ptr<MachineConnection> MachineConnection::open(const MachineDescript
     opened->machine_.wire(pin_setup(machine));
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.over_a_line) {
-      opened->session_ = std::make_unique<MachineSession>(
+      opened->session_ = std::make_unique<BoardMachineSession>(
           machine, opened->machine_,
           SessionOptions{.tells_place = wish.tells_place, .start = at_zero, .needs_place = wish.needs_place});
       // For its switches. Over a line, the greeting asks.
@@ -89,13 +89,13 @@ std::unique_ptr<MachineConnection> MachineConnection::open(const MachineDescript
     }
     opened->line_.emplace(opened->machine_, machine.board.clock, LineOptions());
     if (wish.cut) opened->line_->cut(wish.cut->at, wish.cut->missing);
-    opened->session_ = std::make_unique<MachineSession>(machine, *opened->line_,
-                                                        SessionOptions{.over_a_line = true,
-                                                                       .care = virtual_line_care,
-                                                                       .greeting = {.session = 1},
-                                                                       .tells_place = wish.tells_place,
-                                                                       .start = at_zero,
-                                                                       .needs_place = wish.needs_place});
+    opened->session_ = std::make_unique<BoardMachineSession>(machine, *opened->line_,
+                                                             SessionOptions{.over_a_line = true,
+                                                                            .care = virtual_line_care,
+                                                                            .greeting = {.session = 1},
+                                                                            .tells_place = wish.tells_place,
+                                                                            .start = at_zero,
+                                                                            .needs_place = wish.needs_place});
     return opened;
   }
   const auto address = parse_board_address(wish.board);
@@ -120,13 +120,13 @@ std::unique_ptr<MachineConnection> MachineConnection::open(const MachineDescript
   }
   opened->port_ = std::move(*port);
   opened->plant_is_behind_ = !outlives;
-  opened->session_ = std::make_unique<MachineSession>(machine, *opened->port_,
-                                                      SessionOptions{.over_a_line = true,
-                                                                     .care = real_line,
-                                                                     .greeting = {.session = 1},
-                                                                     .tells_place = wish.tells_place,
-                                                                     .start = {},
-                                                                     .needs_place = wish.needs_place});
+  opened->session_ = std::make_unique<BoardMachineSession>(machine, *opened->port_,
+                                                           SessionOptions{.over_a_line = true,
+                                                                          .care = real_line,
+                                                                          .greeting = {.session = 1},
+                                                                          .tells_place = wish.tells_place,
+                                                                          .start = {},
+                                                                          .needs_place = wish.needs_place});
   if (!opened->ask_first(wish.board, wish.may_move, code)) return nullptr;
   opened->stand_as_counted();
   return opened;
@@ -221,7 +221,7 @@ std::optional<std::string> MachineConnection::wait_for_rest() {
 }
 
 bool MachineConnection::greet(const Greeting& greeting, int& code) {
-  MachineSession& session = *session_;
+  BoardMachineSession& session = *session_;
   const KnownPosition position = session.status().position;
   numbers_ = {.session_before = before_.session,
               .executed_before = before_.executed,
@@ -299,7 +299,7 @@ void try_request(MachineSession& session, Request wanted) {
 }
 
 void poll_until_end(MachineConnection& machine, const std::function<void()>& look) {
-  MachineSession& session = machine.session();
+  BoardMachineSession& session = machine.session();
   LinkMonitor line = link_monitor();
   bool asked_to_stop = false;
   while (session.busy()) {

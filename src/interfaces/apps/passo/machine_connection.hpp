@@ -19,7 +19,7 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/fitted_plant.hpp"
 #include "passo/plant/rotor_plant.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 
@@ -47,8 +47,8 @@ class MachineConnection {
   MachineConnection(const MachineConnection&) = delete;
   MachineConnection& operator=(const MachineConnection&) = delete;
 
-  MachineSession& session() { return *session_; }
-  const MachineSession& session() const { return *session_; }
+  BoardMachineSession& session() { return *session_; }
+  const BoardMachineSession& session() const { return *session_; }
   // Returns the board itself, or the virtual machine that mirrors the board.
   VirtualMachine& machine() { return machine_; }
   // Returns the motors with physics, or null without physics: then they follow their steps exactly.
@@ -113,7 +113,7 @@ class MachineConnection {
   std::optional<VirtualLine> line_;
   std::unique_ptr<BoardPort> port_;
   bool plant_is_behind_ = true;
-  std::unique_ptr<MachineSession> session_;
+  std::unique_ptr<BoardMachineSession> session_;
   std::unique_ptr<BoardSession> shadow_;
   BoardStatus before_;
   std::optional<BoardClaim> claim_;

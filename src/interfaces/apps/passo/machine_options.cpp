@@ -15,6 +15,13 @@ void add_board(CLI::App& command, std::string& board) {
                      "and a PIC (default: the simulated machine)");
 }
 
+void add_system(CLI::App& command, std::string& system) {
+  command
+      .add_option("--system", system,
+                  "folder with sys, proc, dev and var/lock, to be read in place of this computer's; for tests")
+      ->check(CLI::ExistingDirectory);
+}
+
 void add_jog_options(CLI::App& command, JogArguments& arguments) {
   command.add_option(
       "MOVES", arguments.moves,
@@ -86,6 +93,7 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");
   command.add_option("--page", arguments.page, "folder with the web interface (default: next to the program passo)");
+  add_system(command, arguments.system);
   command.footer(
       "Examples:\n  passo serve                                    a simulated machine, to try the web interface or a "
       "sender\n"

@@ -14,6 +14,8 @@ namespace passo {
 
 void add_machine(CLI::App& command, std::string& machine);
 void add_board(CLI::App& command, std::string& board);
+// Adds --system, a folder with the files of another computer's system.
+void add_system(CLI::App& command, std::string& system);
 
 void add_jog_options(CLI::App& command, JogArguments& arguments);
 void add_home_options(CLI::App& command, HomeArguments& arguments);

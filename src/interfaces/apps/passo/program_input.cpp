@@ -190,7 +190,7 @@ RecordedMessages::~RecordedMessages() {
   recorded = outer_;
 }
 const RecordedMessages* RecordedMessages::current() {
-  return recorded;
+  return kept == nullptr ? recorded : nullptr;
 }
 
 int flush_output() {

@@ -89,7 +89,7 @@ class RecordedMessages {
   RecordedMessages(const RecordedMessages&) = delete;
   RecordedMessages& operator=(const RecordedMessages&) = delete;
 
-  // Null: nothing is recorded.
+  // Null: nothing is recorded, also while messages are kept.
   static const RecordedMessages* current();
 
   std::vector<Diagnostic> warnings = {};

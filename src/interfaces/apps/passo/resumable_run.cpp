@@ -143,7 +143,7 @@ std::optional<JobEntry> ResumableRun::find_place(MachineConnection& machine, con
 }
 
 bool ResumableRun::begin(MachineConnection& machine, const ProgramReader& program, const Subject& subject, int& code) {
-  MachineSession& session = machine.session();
+  BoardMachineSession& session = machine.session();
   const bool is_ready = session.state() != MachineState::offline;
   const BoardStatus status = is_ready ? *session.board().status() : machine.before();
   std::optional<JobEntry> entry;
@@ -188,7 +188,7 @@ bool ResumableRun::stands_there(const BoardSession& board, const MachineDescript
   return false;
 }
 
-void ResumableRun::end(const MachineSession& session, const Answered& answered) {
+void ResumableRun::end(const BoardMachineSession& session, const Answered& answered) {
   const JobEnd end = end_of_run(answered, session.status().trouble, resumes_);
   if (end == JobEnd::over) return file_.remove();
   if (!run_.is_written()) return note(file_.path() + ": this journal could not be written: " + file_.trouble());

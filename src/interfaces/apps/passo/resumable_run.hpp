@@ -46,7 +46,7 @@ class ResumableRun {
   void add_to(request::Start& start) { run_.add_to(start); }
   // Must be called after the run. Removes the journal if the program has reached its end, is invalid, or did not begin
   // and was not to be resumed. Otherwise the journal stays.
-  void end(const MachineSession& session, const Answered& answered);
+  void end(const BoardMachineSession& session, const Answered& answered);
 
  private:
   explicit ResumableRun(const std::string& path) : file_(path), run_(file_) {}

@@ -91,12 +91,12 @@ void add_board(RunSummary& summary, MachineConnection& opened, const MachineDesc
   summary.board = board;
 }
 
-void stop(MachineSession& session) {
+void stop(BoardMachineSession& session) {
   try_request(session, request::Stop{});
 }
 
 // Tells how often the board had to brake by itself.
-void tell_tails(const MachineSession& session) {
+void tell_tails(const BoardMachineSession& session) {
   const int rests = session.ledger()->recoveries();
   if (rests == 0) return;
   fmt::print(
@@ -205,7 +205,7 @@ Seconds turned_until(const Run& run) {
 
 // Runs the program to its end and returns the summary. `answered` is set to the outcome.
 RunSummary play(const Run& run, request::Start start, Answered& answered) {
-  MachineSession& session = run.opened.session();
+  BoardMachineSession& session = run.opened.session();
   const MachineDescription& machine = run.machine;
   SummaryBuilder builder(axes_of(machine));
   ProbeSummary probes;
@@ -341,7 +341,7 @@ void tell_of_touch(const RunArguments& arguments, const Diagnostics& findings) {
 // What is left to say and to write when a program has ended. Returns the exit code.
 int end_run(const Run& run, const Answered& answered, const RunSummary& summary, const Diagnostics& late,
             LengthUnits machine_units) {
-  MachineSession& session = run.opened.session();
+  BoardMachineSession& session = run.opened.session();
   if (session.status().trouble == LinkError::stopped) {
     const std::uint32_t line = summary.physics ? summary.physics->fault_line : 0;
     return fail(exit_failed,

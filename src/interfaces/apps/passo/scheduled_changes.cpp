@@ -57,7 +57,7 @@ std::optional<CableCut> read_cable_cut(const std::string& text) {
   return std::nullopt;
 }
 
-void TailWatch::update(const MachineSession& session, const VirtualMachine& machine,
+void TailWatch::update(const BoardMachineSession& session, const VirtualMachine& machine,
                        const MachineDescription& description) {
   const QueueUpdateLedger* const ledger = session.ledger();
   if (ledger == nullptr || static_cast<std::size_t>(ledger->recoveries()) == tails_.size()) return;
@@ -103,7 +103,7 @@ bool ScheduledChanges::add_adaptive_feed(const std::string& file) {
   return true;
 }
 
-Seconds ScheduledChanges::act(MachineSession& session, const VirtualMachine& machine,
+Seconds ScheduledChanges::act(BoardMachineSession& session, const VirtualMachine& machine,
                               const MachineDescription& description) {
   const Seconds most = update_rest(session, machine, description);
   for (; next_ < changes_.size() && changes_[next_].at <= now(session) && session.busy(); ++next_) {
@@ -114,7 +114,7 @@ Seconds ScheduledChanges::act(MachineSession& session, const VirtualMachine& mac
   return most;
 }
 
-void ScheduledChanges::apply(const Change& change, MachineSession& session) {
+void ScheduledChanges::apply(const Change& change, BoardMachineSession& session) {
   if (!change.is_hold()) {
     try_request(session, request::Override{.feed = change.factor, .adaptive_feed = change.adaptive});
     return;
@@ -128,7 +128,7 @@ void ScheduledChanges::apply(const Change& change, MachineSession& session) {
 
 // Decides how long the machine goes on resting, and returns that time. A hold lasts until its pause is over; a hold
 // without a pause stops the program. A feed of 0 lasts until the next change; if there is none, the program is stopped.
-Seconds ScheduledChanges::update_rest(MachineSession& session, const VirtualMachine& machine,
+Seconds ScheduledChanges::update_rest(BoardMachineSession& session, const VirtualMachine& machine,
                                       const MachineDescription& description) {
   const MachineStatus status = session.status();
   if (!session.busy() || status.state != MachineState::hold || !status.rests) return endless;

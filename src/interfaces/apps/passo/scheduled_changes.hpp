@@ -12,7 +12,7 @@
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/summary.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 
@@ -33,7 +33,7 @@ std::vector<double> place_of(const VirtualMachine& machine, const MachineDescrip
 class TailWatch {
  public:
   // Must be called after each turn of the session.
-  void update(const MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
+  void update(const BoardMachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   const std::vector<StopRampSummary>& tails() const { return tails_; }
 
  private:
@@ -60,15 +60,16 @@ class ScheduledChanges {
   // Must be called when the program begins. `now` is the board's time.
   void begin(Seconds now) { begun_ = now; }
   // Must be called before each turn of the session. Returns the maximum duration of the turn.
-  Seconds act(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
+  Seconds act(BoardMachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
 
   // The holds in which the machine has stopped.
   std::vector<HoldSummary> holds() const;
 
  private:
-  Seconds now(const MachineSession& session) const { return session.now() - begun_; }
-  Seconds update_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
-  void apply(const Change& change, MachineSession& session);
+  Seconds now(const BoardMachineSession& session) const { return session.now() - begun_; }
+  Seconds update_rest(BoardMachineSession& session, const VirtualMachine& machine,
+                      const MachineDescription& description);
+  void apply(const Change& change, BoardMachineSession& session);
   [[nodiscard]] bool add_adaptive_feed(const std::string& file);
 
   std::vector<Change> changes_;

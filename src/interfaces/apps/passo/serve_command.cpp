@@ -7,6 +7,8 @@
 
 #include "commands.hpp"
 #include "example_machine_text.hpp"
+#include "grbl_connection.hpp"
+#include "grbl_machine_connection.hpp"
 #include "machine_connection.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
@@ -134,6 +136,85 @@ std::unique_ptr<ServedJournal> open_journal(const std::string& folder, MachineCo
   return journal;
 }
 
+// What is served, and what belongs to it.
+struct ServedThings {
+  const ServeArguments& arguments;
+  const std::string& text;  // of the machine file
+  const MachineDescription& machine;
+  ServedMachine served;
+  std::string words = {};                    // the board
+  ServedJournal* journal = nullptr;          // null: an interrupted job cannot be resumed
+  MachineConnection* simulated = nullptr;    // a machine in this process
+  GrblMachineSession* grbl_board = nullptr;  // a board that keeps the work offsets
+};
+
+// Serves until a signal is received. The machine is ready.
+int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& service) {
+  const ServeArguments& arguments = things.arguments;
+  const MachineDescription& machine = things.machine;
+  MachineSession& session = things.served.session;
+  int code = exit_done;
+  InterpreterOptions dialect;
+  dialect.dialect = Dialect::grbl;
+  dialect.more_grbl_axes = more_grbl_axes(machine);
+  StreamedProgram program(machine, dialect, session.status().position.place);
+  GrblController grbl(machine, session, program);
+  if (!arguments.machine.empty()) {
+    grbl.keep_settings(things.text, [&](const std::string& before, const std::string& after) {
+      return replace_file(arguments.machine, before, after).empty();
+    });
+  }
+  MachineControl owner;
+  std::unique_ptr<ServedWeb> web;
+  const ServedJobs jobs{.journal = things.journal,
+                        .machine_file = stamp_of_text(arguments.machine, things.text),
+                        .machine_access = access_to(arguments.machine)};
+  if (!arguments.http.empty()) {
+    web = ServedWeb::open(arguments, machine, session, owner, jobs, code);
+    if (!web) return code;
+    if (things.grbl_board != nullptr) web->follow_offsets(*things.grbl_board);
+    web->share_offsets(grbl);
+    if (const auto place = web->broken_off_at(); place && things.simulated != nullptr) {
+      things.simulated->stand_in_truth_at(*place);
+    }
+  }
+  if (!arguments.data.empty()) remember(grbl, arguments.data);
+  std::unique_ptr<ServedStatus> status;
+  if (!arguments.mqtt.empty()) {
+    status = ServedStatus::open(arguments, machine, code);
+    if (!status) return code;
+  }
+  fmt::print("{} on {}{}\n", machine.name, things.words, lines.empty() ? ":" : ", for Grbl 1.1 senders:");
+  for (const auto& line : lines) fmt::print("  {}\n", line->name());
+  if (web) fmt::print("Web interface and API:\n  {}\n", web->name());
+  if (status) fmt::print("Status by MQTT:\n  {}\n", status->name());
+  fmt::print("Ctrl-C stops the machine and the server.\n");
+  std::fflush(stdout);
+  ServeDaemon daemon(things.served, grbl, owner, std::move(lines), web.get(), service);
+  daemon.tell(status.get());
+  service.ready(machine.name);
+  daemon.serve();
+  service.stopping();
+  daemon.stop();
+  return interrupted_by() == 2 || interrupted_by() == 15 ? exit_done : exit_of_signal();
+}
+
+// A machine whose motion a Grbl board plans. It has no journal: its jobs continue at a line.
+int serve_grbl_board(const ServeArguments& arguments, const std::string& text, const MachineDescription& machine,
+                     ServeDaemon::Lines lines, ServiceNotice& service) {
+  int code = exit_done;
+  brake_on_signals();
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, code);
+  if (!opened) return code;
+  return serve_machine({.arguments = arguments,
+                        .text = text,
+                        .machine = machine,
+                        .served = {.session = opened->session(), .has_board = true},
+                        .words = opened->words(),
+                        .grbl_board = &opened->session()},
+                       std::move(lines), service);
+}
+
 }  // namespace
 
 int serve(const ServeArguments& given) {
@@ -155,6 +236,9 @@ int serve(const ServeArguments& given) {
   ServeDaemon::Lines lines;
   if (!open_lines(arguments, lines, code)) return code;
   outlive_readers();
+  if (names_grbl_machine(arguments.board)) {
+    return serve_grbl_board(arguments, *text, *machine, std::move(lines), service);
+  }
   // A board that a killed program has left brakes by itself.
   const bool keeps = !arguments.data.empty();
   const auto opened = MachineConnection::open(*machine,
@@ -174,48 +258,16 @@ int serve(const ServeArguments& given) {
     if (!journal) return exit_failed;
   }
   if (!opened->greet(greeting, code)) return code;
-  const KnownPosition position = opened->session().status().position;
-  InterpreterOptions dialect;
-  dialect.dialect = Dialect::grbl;
-  dialect.more_grbl_axes = more_grbl_axes(*machine);
-  StreamedProgram program(*machine, dialect, position.place);
-  GrblController grbl(*machine, opened->session(), program);
-  if (!arguments.machine.empty()) {
-    grbl.keep_settings(*text, [&](const std::string& before, const std::string& after) {
-      return replace_file(arguments.machine, before, after).empty();
-    });
-  }
-  MachineControl owner;
-  std::unique_ptr<ServedWeb> web;
-  const ServedJobs jobs{.journal = journal.get(),
-                        .machine_file = stamp_of_text(arguments.machine, *text),
-                        .machine_access = access_to(arguments.machine)};
-  if (!arguments.http.empty()) {
-    web = ServedWeb::open(arguments, *machine, opened->session(), owner, jobs, code);
-    if (!web) return code;
-    web->share_offsets(grbl);
-    if (const auto place = web->broken_off_at(); place && !opened->has_board()) opened->stand_in_truth_at(*place);
-  }
-  if (keeps) remember(grbl, arguments.data);
-  std::unique_ptr<ServedStatus> status;
-  if (!arguments.mqtt.empty()) {
-    status = ServedStatus::open(arguments, *machine, code);
-    if (!status) return code;
-  }
-  fmt::print("{} on {}{}\n", machine->name, opened->has_board() ? arguments.board : "a simulated board",
-             lines.empty() ? ":" : ", for Grbl 1.1 senders:");
-  for (const auto& line : lines) fmt::print("  {}\n", line->name());
-  if (web) fmt::print("Web interface and API:\n  {}\n", web->name());
-  if (status) fmt::print("Status by MQTT:\n  {}\n", status->name());
-  fmt::print("Ctrl-C stops the machine and the server.\n");
-  std::fflush(stdout);
-  ServeDaemon daemon(*opened, grbl, owner, std::move(lines), web.get(), service);
-  daemon.tell(status.get());
-  service.ready(machine->name);
-  daemon.serve();
-  service.stopping();
-  daemon.stop();
-  return interrupted_by() == 2 || interrupted_by() == 15 ? exit_done : exit_of_signal();
+  return serve_machine({.arguments = arguments,
+                        .text = *text,
+                        .machine = *machine,
+                        .served = {.session = opened->session(),
+                                   .has_board = opened->has_board(),
+                                   .keep_place = [&] { opened->keep_place(); }},
+                        .words = opened->has_board() ? arguments.board : "a simulated board",
+                        .journal = journal.get(),
+                        .simulated = opened->has_board() ? nullptr : opened.get()},
+                       std::move(lines), service);
 }
 
 }  // namespace passo

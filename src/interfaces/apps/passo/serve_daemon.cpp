@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "machine_connection.hpp"
 #include "run_signals.hpp"
 #include <poll.h>
 
@@ -17,10 +18,10 @@ constexpr int most_turns = 5000;  // of one look
 
 }  // namespace
 
-ServeDaemon::ServeDaemon(MachineConnection& machine, GrblController& grbl, MachineControl& owner, Lines lines,
+ServeDaemon::ServeDaemon(ServedMachine machine, GrblController& grbl, MachineControl& owner, Lines lines,
                          ServedWeb* web, ServiceNotice& service)
-    : machine_(machine),
-      session_(machine.session()),
+    : machine_(std::move(machine)),
+      session_(machine_.session),
       grbl_(grbl),
       owner_(owner),
       lines_(std::move(lines)),
@@ -45,24 +46,17 @@ void ServeDaemon::stop() {
   if (web_ != nullptr) web_->leave();
   if (session_.busy()) try_request(session_, request::Stop{});
   while (session_.busy()) {
-    session_.poll(machine_.has_board() ? busy_look : Seconds(1));
+    session_.poll(machine_.has_board ? busy_look : Seconds(1));
     service_.alive();
   }
   hear_changes();
 }
 
-// A board that is greeted anew is waited for: the time of an emulated one passes only meanwhile.
-bool ServeDaemon::works() const {
-  const BoardSession& board = session_.board();
-  const bool is_greeted = !board.ready() && !board.error();
-  return session_.busy() || session_.state() == MachineState::offline || is_greeted;
-}
-
 // While the machine is busy, its board is waited for in poll(). A look that may not sleep would only cost: each socket
 // of each client is looked at again.
 void ServeDaemon::wait() {
-  if (works() && machine_.has_board()) return;
-  Seconds most = works() ? busy_look : idle_look;
+  if (session_.works() && machine_.has_board) return;
+  Seconds most = session_.works() ? busy_look : idle_look;
   if (web_ != nullptr) most = web_->most_wait(most);
   if (most == Seconds(0)) return;
   std::vector<pollfd> all;
@@ -123,8 +117,8 @@ void ServeDaemon::hear_changes() {
 }
 
 void ServeDaemon::poll() {
-  if (machine_.has_board()) {
-    session_.poll(works() ? busy_look : Seconds(0));
+  if (machine_.has_board) {
+    session_.poll(session_.works() ? busy_look : Seconds(0));
     return hear_changes();
   }
   for (int turns = 0; turns < most_turns; ++turns) {
@@ -139,7 +133,7 @@ void ServeDaemon::poll() {
 // Homing, or a person, may have said where the machine stands. Whoever kills the daemon then takes nothing of it away.
 void ServeDaemon::keep_place_if_changed() {
   const std::uint64_t version = session_.status().version;
-  if (works() || std::exchange(kept_version_, version) == version) return;
+  if (session_.works() || std::exchange(kept_version_, version) == version) return;
   machine_.keep_place();
 }
 

@@ -4,10 +4,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
-#include "machine_connection.hpp"
 #include "serve_web.hpp"
 #include "served_status.hpp"
 
@@ -39,12 +39,19 @@ class WallClock {
   Seconds from_{0};
 };
 
+// The machine that is served.
+struct ServedMachine {
+  MachineSession& session;
+  bool has_board = false;                    // not in this process: its time is that of this computer
+  std::function<void()> keep_place = [] {};  // saves the position for the next command
+};
+
 class ServeDaemon {
  public:
   using Lines = std::vector<std::unique_ptr<SenderConnection>>;
 
   // All references must outlive the daemon. `web` may be null.
-  ServeDaemon(MachineConnection& machine, GrblController& grbl, MachineControl& owner, Lines lines, ServedWeb* web,
+  ServeDaemon(ServedMachine machine, GrblController& grbl, MachineControl& owner, Lines lines, ServedWeb* web,
               ServiceNotice& service);
 
   // Publishes the status to a broker, too. `status` must outlive the daemon; null: not published.
@@ -55,7 +62,6 @@ class ServeDaemon {
   void stop();
 
  private:
-  bool works() const;  // or is getting ready
   void wait();
   bool may_read(const SenderConnection& line) const;
   void attend(SenderConnection& line);
@@ -66,7 +72,7 @@ class ServeDaemon {
   void keep_place_if_changed();
   void reply();
 
-  MachineConnection& machine_;
+  ServedMachine machine_;
   MachineSession& session_;
   GrblController& grbl_;
   MachineControl& owner_;

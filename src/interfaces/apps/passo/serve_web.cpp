@@ -33,7 +33,7 @@ double seconds_since_1970() {
 }
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       CamService& maker, Studies& studies, MotionTimer& timer,
+                       FirstContact& contact, CamService& maker, Studies& studies, MotionTimer& timer,
                        std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
@@ -51,6 +51,7 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
+  options.contact = &contact;
   options.maker = &maker;
   options.studies = &studies;
   options.timer = &timer;
@@ -85,10 +86,11 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       offsets_(std::move(offsets)),
+      contact_(arguments),
       timer_(machine),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, maker_,
-                       studies_, timer_, [this](const SavedParameters& parameters, const ToolTable& tools) {
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, contact_,
+                       maker_, studies_, timer_, [this](const SavedParameters& parameters, const ToolTable& tools) {
                          return keep(parameters, tools);
                        })) {}
 
@@ -163,11 +165,18 @@ void ServedWeb::share_offsets(GrblController& grbl) {
   grbl.apply_offsets(api_.parameters());
   grbl.share_offsets([this](const SavedParameters& parameters) {
     api_.apply_offsets(parameters);
+    if (board_ != nullptr) board_->store_offsets(parameters);
     if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
   });
 }
 
+void ServedWeb::follow_offsets(GrblMachineSession& board) {
+  api_.apply_offsets(board.offsets(api_.parameters()));
+  board_ = &board;
+}
+
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
+  if (board_ != nullptr) board_->store_offsets(parameters);
   if (grbl_ != nullptr) grbl_->apply_offsets(parameters);
   return offsets_ ? offsets_->keep(parameters, tools) : std::string();
 }

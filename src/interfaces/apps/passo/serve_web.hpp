@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "page_folder.hpp"
 #include "serve_addresses.hpp"
+#include "served_contact.hpp"
 #include "served_journal.hpp"
 #include "served_maker.hpp"
 #include "served_offsets.hpp"
@@ -17,6 +18,7 @@
 
 #include "passo/api/web_api.hpp"
 #include "passo/grbl/grbl_controller.hpp"
+#include "passo/sender/grbl_machine_session.hpp"
 #include "passo/web/web_server.hpp"
 
 namespace passo {
@@ -50,6 +52,9 @@ class ServedWeb {
   const WebApi& api() const { return api_; }
   // Makes senders and programs share the same offsets. `grbl` must outlive this object.
   void share_offsets(GrblController& grbl);
+  // The board keeps the work offsets: takes over its own, and writes changed ones to it. `board` must outlive this
+  // object.
+  void follow_offsets(GrblMachineSession& board);
   // Processes requests of the clients, and sends changes to those that are subscribed.
   void poll();
 
@@ -67,7 +72,9 @@ class ServedWeb {
   std::unique_ptr<JobHistory> history_;     // may be null
   std::unique_ptr<ServedOffsets> offsets_;  // may be null
   GrblController* grbl_ = nullptr;          // the controller for senders
+  GrblMachineSession* board_ = nullptr;     // a board that keeps the offsets
   std::string host_;
+  ServedContact contact_;
   ServedMaker maker_;
   ServedStudies studies_;
   ServedTimer timer_;

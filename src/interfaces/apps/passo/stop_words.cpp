@@ -16,7 +16,7 @@ namespace {
 // Where the motors were by the board's counts when it said `status`.
 Point counted_place(MachineConnection& opened, const MachineDescription& machine,
                     const std::optional<BoardStatus>& status) {
-  const MachineSession& session = opened.session();
+  const BoardMachineSession& session = opened.session();
   MotorPosition motors = motors_of(opened.machine().counts());
   if (session.zero_counts() && status) motors = steps_since(*session.zero_counts(), status->positions);
   return kinematics_of(machine).axes(motors);

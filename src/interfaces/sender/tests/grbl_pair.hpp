@@ -12,7 +12,7 @@
 namespace passo {
 
 struct GrblPair {
-  explicit GrblPair(std::size_t bytes = 128) : machine(bytes) {}
+  explicit GrblPair(std::size_t bytes = 128) : machine(bytes) { machine.block_time = 0.05; }
 
   // Runs until is_so() returns true, or for a minute. `each` is called at each step.
   bool play(const std::function<bool()>& is_so, const std::function<void()>& each = {}) {

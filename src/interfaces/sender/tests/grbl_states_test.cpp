@@ -36,10 +36,10 @@ TEST(GrblStates, a_machine_that_takes_no_lines_is_not_asked) {
 
 TEST(GrblStates, an_alarm_at_the_start_is_known_by_its_number) {
   GrblPair said;
-  said.machine.state = "Alarm";
   said.machine.more_of_itself = "[FIRMWARE:grblHAL]\r\n";
   said.machine.greeting = "GrblHAL 1.1f ['$' or '$HELP' for help]";
   said.machine.restart();
+  said.machine.state = "Alarm";
   said.machine.say("ALARM:11");
   ASSERT_TRUE(said.greet());
   EXPECT_EQ(said.sender.alarm_words(), "ALARM:11, it must be homed first");
@@ -144,6 +144,7 @@ TEST(GrblStates, people_at_the_machine_have_their_time_and_are_told_what_to_do) 
 TEST(GrblStates, homing_is_reset_at_once) {
   GrblPair pair;
   ASSERT_TRUE(pair.greet());
+  pair.machine.put(22, 1);
   pair.machine.homes_for_ever = true;
   pair.sender.add("$H", 0, Seconds(300));
   ASSERT_TRUE(pair.play([&] { return pair.machine.state == "Home"; }));
@@ -158,6 +159,7 @@ TEST(GrblStates, homing_is_reset_at_once) {
 TEST(GrblStates, homing_that_does_not_end_is_an_error) {
   GrblPair pair;
   ASSERT_TRUE(pair.greet());
+  pair.machine.put(22, 1);
   pair.machine.homes_for_ever = true;
   pair.sender.add("$H", 0, Seconds(300));
   ASSERT_TRUE(pair.play_for(Seconds(400), [&] { return pair.sender.stopped(); }));

@@ -20,7 +20,8 @@ struct JoinedNets {
   std::size_t joined = 0;               // number of nets that are connected to another one
   std::size_t groups = 0;               // number of connected pieces that they form
   std::size_t others = 0;               // number of other islands that are connected to something
-  std::vector<CopperGap> gaps = {};     // where islands of these pieces are joined, the narrowest first
+  std::vector<CopperGap> gaps = {};     // where islands of these pieces are joined, the narrowest first; they link all
+                                        // islands of a piece
   std::vector<std::string> names = {};  // of each island; empty: unknown
 };
 

@@ -85,6 +85,8 @@ class DroppedCutter {
  private:
   void drop(std::ptrdiff_t row, std::ptrdiff_t column, float* out, Scratch& scratch) const;
   float beside(std::ptrdiff_t column, std::ptrdiff_t row) const;
+  void keep_frame();
+  void raise(std::ptrdiff_t row, std::ptrdiff_t begin, std::ptrdiff_t end, float* heights) const;
   bool combine(std::ptrdiff_t row, std::ptrdiff_t column, std::size_t away, float least, Scratch& scratch) const;
 
   const HeightGrid& grid_;
@@ -93,6 +95,11 @@ class DroppedCutter {
   bool goes_on_;
   std::size_t blocks_ = 0;   // number of blocks in a row of the grid
   std::vector<float> tops_;  // the maximum height of each 32 columns of each row
+  // The heights that the cutter needs most often beside the grid. They cost more to compute than to read.
+  std::ptrdiff_t frame_x_ = 0;  // width of the frame, in nodes
+  std::ptrdiff_t frame_y_ = 0;
+  std::vector<float> frame_rows_;   // those below the grid, then those above it, with their corners
+  std::vector<float> frame_sides_;  // of each row of the grid those to its left, then those to its right
 };
 
 // A rectangle of nodes with a height for each; it may extend beyond the grid by `margin` nodes on each side.

@@ -86,7 +86,7 @@ class Curve {
   // An upper bound of steepest(), computed without the trigonometry of an arc. Equal to it for a line.
   Point steepest_bound() const;
   // Whether the axis moves on the curve: its steepest() is above 0.
-  bool moves(Axis axis) const;
+  bool moves(Axis axis) const { return slope_[axis] != 0 || (shape_ != Shape::line && bends(axis)); }
   // An upper bound of |d²P/ds²|. For an arc only its plane counts: 1/r times the square of the fraction of s in the
   // plane. For a cubic all axes count. 0 for a line.
   double curvature() const;
@@ -103,6 +103,7 @@ class Curve {
   std::array<Mm, 2> turning_points(Axis axis) const;
 
  private:
+  bool bends(Axis axis) const;
   Point steepest_of_cubic() const;
   Box extents_of_ends() const;
   void widen_by_turning_points(Box& box) const;

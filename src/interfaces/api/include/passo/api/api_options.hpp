@@ -6,6 +6,7 @@
 #include <string>
 
 #include "passo/api/cam_service.hpp"
+#include "passo/api/first_contact.hpp"
 #include "passo/api/motion_times.hpp"
 #include "passo/api/studies.hpp"
 #include "passo/job/job_history.hpp"
@@ -45,6 +46,8 @@ struct ApiOptions {
   std::optional<BrokenOff> broken_off = {};  // the job of an earlier program run
   // Generates programs from drawings; must outlive the API. Null: not available.
   CamService* maker = nullptr;
+  // Lists and opens serial ports; must outlive the API. Null: not available.
+  FirstContact* contact = nullptr;
   // Runs longer analyses; must outlive the API. Null: not available.
   Studies* studies = nullptr;
   // Computes the duration of programs; must outlive the API. Null: not available, so the remaining time is unknown.

@@ -16,6 +16,7 @@ class JobsApi;
 class MachineApi;
 class MachineFileApi;
 class OwnerApi;
+class PortsApi;
 class ProgramsApi;
 class StudiesApi;
 struct ApiCall;
@@ -24,12 +25,12 @@ struct WebAnswer;
 template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
 using ApiHandler = std::variant<AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>, AnswerOf<MachineFileApi>,
-                                AnswerOf<OwnerApi>, AnswerOf<ProgramsApi>, AnswerOf<StudiesApi>>;
+                                AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>, AnswerOf<StudiesApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
 // A service that a server may lack; the request then gets 404.
-enum class Needs : std::uint8_t { nothing, history, maker, studies };
+enum class Needs : std::uint8_t { nothing, history, maker, ports, studies };
 
 struct ApiRoute {
   std::string_view method;

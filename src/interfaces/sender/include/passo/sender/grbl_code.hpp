@@ -37,6 +37,16 @@ class GrblCode {
   // Appends the lines of an item; none if nothing changes. Stops and tool changes produce only the lines of their
   // outputs; the caller must wait. The error is a clause that names what a Grbl machine does not support.
   Status<std::string> write(const PathItem& item, std::vector<std::string>& lines);
+  // Lines of another origin have changed modes or the position: the next lines have all words.
+  void forget_modes() {
+    code_ = -1;
+    plane_ = -1;
+    feed_ = -1;
+    by_time_ = false;
+    sure_ = {};
+  }
+  // Returns whether the last line was in inverse time (G93).
+  bool is_by_time() const { return by_time_; }
 
  private:
   using Place = PerAxis<std::int64_t>;

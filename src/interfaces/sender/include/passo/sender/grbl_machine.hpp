@@ -24,7 +24,7 @@ struct GrblMachine {
   std::string new_options = {};               // grblHAL: "ENUMS,RT+,TC,SED"
   std::string kinematics = {};                // if it tells any: "CoreXY"
   std::map<int, double> settings = {};        // the settings $0 … and their values
-  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G92, TLO
+  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G59.1 …, G28, G30, G92, TLO
   std::string system = "G54";                 // the active work coordinate system
   std::map<int, std::string> alarms = {};     // its own words for its alarms, if it tells them
 

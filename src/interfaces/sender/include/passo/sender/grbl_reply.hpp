@@ -22,6 +22,9 @@ struct GrblReport {
   std::optional<std::size_t> blocks_free = {};
   std::optional<std::size_t> bytes_free = {};
   std::string pins = {};  // letters of the triggered inputs
+  // Letters of the outputs that are on: S or C spindle, F flood, M mist. Grbl reports them now and then; empty: not in
+  // this report.
+  std::optional<std::string> outputs = {};
 
   // Returns whether nothing moves, and nothing will start moving by itself.
   bool rests() const;

@@ -20,9 +20,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "passo/geometry/axes.hpp"
@@ -46,6 +48,8 @@ class GrblSender {
   // Begins the handshake with the machine at this time. Nothing is sent for 2 s, because an Arduino restarts when its
   // serial port is opened.
   explicit GrblSender(Seconds now);
+  // The same for a connection that is open already, so that nothing restarts.
+  static GrblSender on_open_line(Seconds now);
 
   void receive(std::string_view bytes, Seconds now);
   // Returns the bytes to send now. Must be called often.
@@ -86,12 +90,32 @@ class GrblSender {
   // Returns the number of bytes that may be in the machine's receive buffer.
   std::size_t unanswered_bytes() const { return window_.sent_bytes(); }
   std::uint64_t lines_sent() const { return window_.lines_sent(); }
+  std::uint64_t lines_answered() const { return window_.lines_answered(); }
+  // Returns the number of reports received, so that news can be told from the last report.
+  std::uint64_t reports_heard() const { return reports_heard_; }
+  // Sets a listener for the lines that are neither reports nor answers, e.g. [PRB:…] and [MSG:…].
+  void listen(std::function<void(std::string_view)> listener) { listener_ = std::move(listener); }
+  // Queries the position more often, e.g. during a jog.
+  void look_often(bool often) { looks_often_ = often; }
 
   void hold();
   void resume();
   // Sets the feed override, percent, 10 to 200, as closely as Grbl allows.
   void override_feed(int percent);
   void override_spindle(int percent);
+  // Sets the override of rapids: Grbl has 100, 50 and 25 percent. Returns the percentage that was set.
+  int override_rapids(int percent);
+  // As for an open door: brakes, and switches spindle and coolant off. resume() restores them.
+  void open_door() { act('\x84'); }
+  // Stops jogging motion, and drops the jog lines that were not sent.
+  void cancel_jog();
+  // Toggles an output during a program.
+  void toggle_flood() { act('\xA0'); }
+  void toggle_mist() { act('\xA1'); }
+  // In a hold: stops the spindle, or starts it again.
+  void toggle_spindle_stop() { act('\x9E'); }
+  // Resets the machine at once, whatever it does. Its position is lost if it moves.
+  void reset();
   // Brakes along the path, and drops the lines in the machine. stopped() becomes true when that is done; the position
   // is then still known if the machine has reported a stop. Homing is reset immediately.
   void stop();
@@ -148,6 +172,9 @@ class GrblSender {
   std::string urgent_;
   UnacknowledgedLines window_;
   bool is_held_ = false;  // the machine was held by hold()
+  bool looks_often_ = false;
+  std::uint64_t reports_heard_ = 0;
+  std::function<void(std::string_view)> listener_;
   GrblMachine machine_;
   LastGrblReport reports_;
   std::optional<GrblFault> fault_;

@@ -62,6 +62,7 @@ class UnacknowledgedLines {
   const Line* oldest() const { return sent_.empty() ? nullptr : &sent_.front(); }
   std::size_t sent_bytes() const { return sent_bytes_; }
   std::uint64_t lines_sent() const { return lines_sent_; }
+  std::uint64_t lines_answered() const { return lines_sent_ - sent_.size(); }
 
   // Program lines. Returns the last one sent; 0 if there was none.
   std::uint32_t last_line() const { return last_line_; }

@@ -19,6 +19,8 @@ class Frame {
 
   Point machine_from_work(const Point& work) const;
   Point work_from_machine(const Point& machine) const;
+  // Returns the zero of the work coordinate system in machine coordinates.
+  const Point& work_zero() const { return work_zero_; }
   // Returns the extents of a curve in machine coordinates along the work axes, relative to the work zero.
   Box work_extents(const Curve& curve) const;
 
@@ -29,9 +31,12 @@ class Frame {
   int work_system() const { return work_system_; }
 
  private:
+  bool take(const Operation& operation);
+
   Point work_offset_;
   Point g92_offset_;
   Point tool_offset_;
+  Point work_zero_;
   double rotation_degrees_ = 0;
   double cosine_ = 1;
   double sine_ = 0;

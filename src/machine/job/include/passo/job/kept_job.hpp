@@ -18,7 +18,7 @@
 #include "passo/job/job_history.hpp"
 #include "passo/job/job_identity.hpp"
 #include "passo/machine_file/machine_description.hpp"
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 
@@ -31,7 +31,7 @@ class KeptJob {
   // Returns the current offsets and tools for a program of that dialect.
   using OptionsOf = std::function<InterpreterOptions(Dialect dialect)>;
   // All of them must outlive this object.
-  KeptJob(const MachineDescription& machine, MachineSession& session, JobKeeper& keeper, JobHistory& history,
+  KeptJob(const MachineDescription& machine, BoardMachineSession& session, JobKeeper& keeper, JobHistory& history,
           OptionsOf options_of, Names names);
 
   // Processes the job found before the handshake. Interprets the program up to the job's position.
@@ -82,7 +82,7 @@ class KeptJob {
   bool is_of(std::uint64_t path);
 
   const MachineDescription& machine_;
-  MachineSession& session_;
+  BoardMachineSession& session_;
   JobKeeper& keeper_;
   JobHistory& history_;
   OptionsOf options_of_;

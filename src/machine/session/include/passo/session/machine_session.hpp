@@ -1,200 +1,72 @@
 // MachineSession: represents the machine for all clients. Everything that moves a machine goes through its session.
 //
-// Requests go in; a status and an ordered list of changes come out. The session owns the board's session, the current
-// activity, and the position with its trust. A session never blocks, and has no thread and no clock. Its owner calls
-// poll() repeatedly, in the board's simulated time or in real time.
+// Requests go in; a status and an ordered list of changes come out. A session never blocks, and has no thread and no
+// clock. Its owner calls poll() repeatedly, in the board's simulated time or in real time.
 //
 //   owner:  session.request(…);  while (…) { session.poll(Seconds(0.02));  session.status();  session.take_changes(); }
 //
-// Invariants: the state changes only as the table in machine_state.hpp says. A position whose trust is not `unknown` is
-// as accurate as the board's counts. Each request is answered exactly once.
+// Invariants: the state changes only as the table in machine_state.hpp says. Each request is answered exactly once.
+//
+// There are two kinds of session. BoardMachineSession: for boards that execute steps planned here. GrblMachineSession
+// (sender/): for boards that plan their own motion. abilities() lists what the machine cannot do.
 #pragma once
 
-#include <cstdint>
-#include <deque>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "passo/activity/program.hpp"
 #include "passo/base/result.hpp"
-#include "passo/drive/queue_update_ledger.hpp"
-#include "passo/link/board_session.hpp"
-#include "passo/machine_file/machine_description.hpp"
-#include "passo/session/live_position.hpp"
+#include "passo/interpreter/interpreter.hpp"
+#include "passo/session/machine_abilities.hpp"
 #include "passo/session/machine_status.hpp"
-#include "passo/session/position_tracker.hpp"
 #include "passo/session/request.hpp"
 
 namespace passo {
 
-struct SessionOptions {
-  // True: the board is connected by a link. Its queue always ends in a stop, its counts are compared with the commanded
-  // position, and its buttons and door switch are used. False: the board is in this process.
-  bool over_a_line = false;
-  LinkTimeouts care = {};
-  Greeting greeting = {};    // the session sets `motors`
-  bool tells_place = false;  // the board's position is queried even during motion, for MachineStatus::now_at
-  KnownPosition start = {};  // the position as known to the owner
-  // Programs do not start while the position is lost or, on a machine that can home all axes, unknown.
-  bool needs_place = false;
-};
+class BoardMachineSession;
 
 class MachineSession {
  public:
-  // `machine` and `port` must outlive the session. It sends nothing to the board before greet() or the first poll().
-  MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options = {});
-  ~MachineSession();
+  // What a program has found and set.
+  struct ProgramResults {
+    SavedParameters parameters;
+    ToolTable tools;
+  };
+
+  virtual ~MachineSession() = default;
   MachineSession(const MachineSession&) = delete;
   MachineSession& operator=(const MachineSession&) = delete;
 
-  // The board's session, for queries before the first poll(), which change nothing on the board.
-  BoardSession& board() { return board_; }
-  const BoardSession& board() const { return board_; }
-  // Sets the position before greet() or the first poll(), if it depends on the board's status.
-  void start_at(const KnownPosition& position) { place_.start_at(position); }
-  // Starts the handshake before the first poll(), if its parameters depend on the board's status. Otherwise they come
-  // from SessionOptions.
-  void greet(const Greeting& greeting);
-  // Gives the board another session number, between two programs.
-  void name_session(std::uint16_t number);
-  // The listener is called before each later handshake (after a reset), with the board's status and the parameters of
-  // the handshake.
-  void listen_before_hello(std::function<void(const BoardStatus&, const Greeting&)> listener) {
-    before_hello_ = std::move(listener);
-  }
-
-  [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
+  [[nodiscard]] virtual Result<Ticket, Refusal> request(Request wanted) = 0;
   // Performs one bounded step. If the session can only wait for the board, time passes until something changes, but at
   // most `most`, which may be infinite only while something moves.
-  void poll(Seconds most);
+  virtual void poll(Seconds most) = 0;
 
-  MachineStatus status() const;
-  std::vector<MachineChange> take_changes();
-  MachineState state() const { return state_; }
+  virtual MachineStatus status() const = 0;
+  virtual std::vector<MachineChange> take_changes() = 0;
+  virtual MachineState state() const = 0;
   // The board's time.
-  Seconds now() const { return board_.now(); }
+  virtual Seconds now() const = 0;
   // An activity is running or held.
-  bool busy() const;
+  virtual bool busy() const = 0;
+  // The board must be polled often: something is going on, or the board is expected to answer.
+  virtual bool works() const = 0;
   // The reason why this board cannot control the machine, as a sentence without a full stop.
-  const std::string& trouble_words() const { return trouble_.sentence.text; }
-
-  // Returns the current activity, or otherwise the last one, for reports; null if there is none of this kind.
-  const MotionDrive* drive() const;
-  const Program* program() const;
-  const HomingPath* homing() const;
-  const QueueUpdateLedger* ledger() const;
-  // The difference between the board's counts and the commanded position, if any. The position is then lost.
-  const std::optional<CountMismatch>& mismatch() const { return place_.mismatch(); }
-  // With a board on a link, when the machine is ready: the board's counts at machine zero.
-  const std::optional<MotorSteps>& zero_counts() const { return place_.zero_counts(); }
+  virtual const std::string& trouble_words() const = 0;
+  // The results of the current program, or otherwise of the last one. Empty: the last activity was not a program.
+  virtual std::optional<ProgramResults> program_results() const = 0;
   // The reason why no program may start because of the switches: a closed limit switch can no longer stop the board at
   // that end. Empty: none.
-  std::optional<Refusal> closed_limit() const;
-  // The same for an unknown or lost position (SessionOptions::needs_place). Jogging is possible.
-  std::optional<Refusal> lost_place() const;
+  virtual std::optional<Refusal> closed_limit() const = 0;
+  // The same for an unknown or lost position. Jogging is possible.
+  virtual std::optional<Refusal> lost_place() const = 0;
+  virtual MachineAbilities abilities() const { return {}; }
+  // Returns the session if it has a board that executes our steps; otherwise null.
+  virtual BoardMachineSession* as_board_session() { return nullptr; }
+  virtual const BoardMachineSession* as_board_session() const { return nullptr; }
 
- private:
-  class Work;
-  class Panel;
-  // An error that blocks the machine until a reset.
-  struct Trouble {
-    std::optional<LinkError> error = {};  // none: the board does not suit the machine
-    Sentence sentence = {};
-  };
-
-  // One function for each request.
-  using Answer = Result<Ticket, Refusal>;
-  Answer handle(request::Start& start);
-  Answer handle(request::Stream& stream);
-  Answer handle(request::DropLines& drop);
-  Answer handle(request::Jog& jog);
-  Answer handle(request::RenewKeepAlive& renew);
-  Answer handle(request::Home& home);
-  Answer handle(request::Probe& probe);
-  Answer handle(request::Check& check);
-  Answer handle(request::Hold& hold);
-  Answer handle(request::Resume& resume);
-  Answer handle(request::Stop& stop);
-  Answer handle(request::Override& change);
-  Answer handle(request::SwitchOutputs& wanted);
-  Answer handle(request::ChooseStops& chosen);
-  Answer handle(request::OperatorDone& done);
-  Answer handle(request::SetPosition& set);
-  Answer handle(request::ResetMachine& reset);
-  Answer handle(request::Sleep& sleep);
-  Answer handle(request::Wake& wake);
-  std::optional<Refusal> refuse(MachineEvent event) const;
-  Refusal why_not() const;
-  Refusal refusal_in_alarm() const;
-  std::optional<Refusal> refuse_way(const Point& way) const;
-  Answer at_once();
-  Answer begin(MachineEvent event, std::unique_ptr<Work> work);
-  DriveOptions drive_options() const;
-  StepOptions step_options() const;
-
-  void put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers = {}, bool knows_ahead = true,
-                    Seconds nominal_time = Seconds(0));
-  // The clock of the board's executed motion.
-  Seconds clock_of(const Work& work) const;
-
-  void go_online(Seconds most);
-  void begin_reset();
-  void find_place_again();
-  void stand_at(const KnownPosition& position);
-  const KnownPosition& position() const { return place_.position(); }
-  const BoardStatus* watched_status() const;
-
-  void poll_work(Seconds most);
-  void poll_check();
-  void finish_work();
-  void end_work();
-  std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
-  void record_place(bool knows_counts);
-  bool poll_lines(Seconds most);
-  void go_on_after_drop();
-  void check_lease();
-  void update_holds();
-  void update_door();
-  void end_overrides();
-  void put_overrides_on(MotionDrive& drive) const;
-  void report_tails();
-  void on_standstill();
-  void check_board();
-  Sentence sentence_of(LinkError error) const;
-  void poll_panel();
-  void poll_place();
-  Sentence sentence_of_stop() const;
-  bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
-
-  void move_to(MachineEvent event);
-  void publish(MachineChange change);
-  void answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault = {});
-  void answer_holds(Outcome outcome);
-
-  const MachineDescription& machine_;
-  SessionOptions options_;
-  BoardSession board_;
-  std::function<void(const BoardStatus&, const Greeting&)> before_hello_;
-  MachineState state_ = MachineState::offline;
-  bool greeted_ = false;
-  bool asks_place_ = false;    // the board's position is queried before another handshake
-  bool switches_off_ = false;  // after another handshake: the interrupted activity may have left outputs on
-  PositionTracker place_;
-  std::unique_ptr<Work> work_;  // the current or the last activity
-  std::unique_ptr<Panel> panel_;
-  Overrides overrides_;
-  ChosenStops stops_;
-  LivePosition live_position_;  // for tells_place
-  Trouble trouble_;
-  std::deque<MachineChange> changes_;
-  std::vector<Ticket> waiting_holds_;  // answered when the machine is stopped
-  Ticket last_ticket_ = 0;
-  Seconds enabled_at_{0};  // time of the last handshake, which enables the drivers
-  std::uint64_t version_ = 0;
+ protected:
+  MachineSession() = default;
 };
 
 }  // namespace passo

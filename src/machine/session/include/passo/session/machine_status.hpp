@@ -63,6 +63,8 @@ struct MachineStatus {
   std::uint16_t inputs = 0;        // bits of BoardInput: the closed inputs
   OutputState outputs;             // the outputs as commanded by the program and the operator
   OperationSource executes;        // in a program: the executed line, as last reported
+  // The last line that may be executed instead, on a board that does not report lines; 0: `executes` is exact.
+  std::uint32_t executes_to = 0;
   Overrides overrides;
   ChosenStops stops;
   std::optional<OperatorWait> waits_for;

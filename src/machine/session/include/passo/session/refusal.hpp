@@ -22,6 +22,7 @@ enum class RefusalCode : std::uint8_t {
   no_switches,    // the machine has no switches for homing
   bad_value,      // not a number, or out of range
   limit_closed,   // a limit switch is closed: only a jog off it or homing is possible
+  cannot,         // the board cannot do it
   place_unknown,  // the machine's position is unknown: only a jog, homing or a stated position is possible
 };
 std::string_view code_of(RefusalCode code);
@@ -56,6 +57,7 @@ enum class RefusalReason : std::uint8_t {
   bad_override,
   bad_rapid_override,
   bad_place,
+  board_cannot,           // {why}
   switch_closed,          // {number}
   switch_of_axes_closed,  // {axes}
   switch_closed_there,    // {axis}

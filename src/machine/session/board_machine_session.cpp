@@ -1,4 +1,4 @@
-#include "passo/session/machine_session.hpp"
+#include "passo/session/board_machine_session.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -44,7 +44,8 @@ constexpr MachineFault fault_of(LinkError error) {
 
 }  // namespace
 
-MachineSession::MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options)
+BoardMachineSession::BoardMachineSession(const MachineDescription& machine, BoardPort& port,
+                                         const SessionOptions& options)
     : machine_(machine),
       options_(options),
       board_(port, options.care),
@@ -53,20 +54,20 @@ MachineSession::MachineSession(const MachineDescription& machine, BoardPort& por
   options_.greeting = with_machine(options_.greeting, machine, options_.over_a_line);
 }
 
-MachineSession::~MachineSession() = default;
+BoardMachineSession::~BoardMachineSession() = default;
 
-void MachineSession::greet(const Greeting& greeting) {
+void BoardMachineSession::greet(const Greeting& greeting) {
   options_.greeting = with_machine(greeting, machine_, options_.over_a_line);
   greeted_ = true;
   board_.greet(options_.greeting);
 }
 
-void MachineSession::name_session(std::uint16_t number) {
+void BoardMachineSession::name_session(std::uint16_t number) {
   options_.greeting.session = number;
   board_.name_session(number);
 }
 
-void MachineSession::poll(Seconds most) {
+void BoardMachineSession::poll(Seconds most) {
   if (state_ == MachineState::offline) {
     go_online(most);
   } else if (state_ == MachineState::check) {
@@ -82,7 +83,7 @@ void MachineSession::poll(Seconds most) {
 }
 
 // Says hello. Before a second hello, asks the board for its status and its place.
-void MachineSession::go_online(Seconds most) {
+void BoardMachineSession::go_online(Seconds most) {
   if (asks_place_) {
     if (!board_.settled()) board_.poll(most);
     if (!board_.settled() || board_.error()) return;
@@ -114,17 +115,17 @@ void MachineSession::go_online(Seconds most) {
   move_to(MachineEvent::ready);
 }
 
-void MachineSession::stand_at(const KnownPosition& position) {
+void BoardMachineSession::stand_at(const KnownPosition& position) {
   place_.stand_at(position, watched_status());
   ++version_;
 }
 
 // What the board has told last, if its counts are compared with what was commanded.
-const BoardStatus* MachineSession::watched_status() const {
+const BoardStatus* BoardMachineSession::watched_status() const {
   return watches_counts() && board_.status() ? &*board_.status() : nullptr;
 }
 
-void MachineSession::begin_reset() {
+void BoardMachineSession::begin_reset() {
   board_.hang_up();
   trouble_ = {};
   greeted_ = false;
@@ -136,7 +137,7 @@ void MachineSession::begin_reset() {
 }
 
 // A board that knows the session and has lost no step has gone on counting. Then its counts tell the place.
-void MachineSession::find_place_again() {
+void BoardMachineSession::find_place_again() {
   const BoardStatus& status = *board_.status();
   const bool knows = status.session == options_.greeting.session && status.motors == machine_.motor_count() &&
                      (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
@@ -144,13 +145,13 @@ void MachineSession::find_place_again() {
 }
 
 // A check needs no board, but hears what the board says.
-void MachineSession::poll_check() {
+void BoardMachineSession::poll_check() {
   board_.poll(Seconds(0));
   if (!work_->stopped && !work_->checker->go_on(items_a_turn)) return;
   end_work();
 }
 
-void MachineSession::poll_work(Seconds most) {
+void BoardMachineSession::poll_work(Seconds most) {
   if (work_->stage == Work::Stage::asks_counts) {
     if (!board_.settled()) board_.poll(most);
     if (board_.settled()) end_work();
@@ -171,7 +172,7 @@ void MachineSession::poll_work(Seconds most) {
 }
 
 // The drive has ended. Over a line, the board is asked where it stands. A limit switch that was closed may be open now.
-void MachineSession::finish_work() {
+void BoardMachineSession::finish_work() {
   report_tails();
   const bool asks = watches_counts() || closed_limit();
   if (!asks || board_.error()) return end_work();
@@ -179,7 +180,7 @@ void MachineSession::finish_work() {
   board_.inquire(Question::status);
 }
 
-void MachineSession::end_work() {
+void BoardMachineSession::end_work() {
   // The standstill may have been heard of when the drive had ended already.
   on_standstill();
   if (board_.standstill()) board_.fail(LinkError::stood_still);
@@ -201,7 +202,7 @@ void MachineSession::end_work() {
   answer_holds(outcome == Outcome::failed ? Outcome::failed : Outcome::done);
 }
 
-std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() const {
+std::pair<Outcome, std::optional<ActivityFault>> BoardMachineSession::judge_work() const {
   if (const auto error = board_.error()) {
     const Sentence trouble = sentence_of(*error);
     return {Outcome::failed, ActivityFault{fault_of(*error), {{"trouble", trouble.text}}, trouble}};
@@ -218,7 +219,7 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
 }
 
 // Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
-void MachineSession::record_place(bool knows_counts) {
+void BoardMachineSession::record_place(bool knows_counts) {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_.rest_at(work_->drive->place(), work_->drive->downs());
   const bool agrees = !knows_counts || place_.agrees_with(watched_status());
@@ -231,7 +232,7 @@ void MachineSession::record_place(bool knows_counts) {
 }
 
 // The drive brakes and switches the outputs off before it fails the link, so the line is noted now.
-void MachineSession::on_standstill() {
+void BoardMachineSession::on_standstill() {
   if (!board_.standstill() || board_.error()) return;
   if (!busy()) return board_.fail(LinkError::stood_still);
   if (!work_->is_program() || work_->checker || work_->standstill_line) return;
@@ -239,7 +240,7 @@ void MachineSession::on_standstill() {
 }
 
 // An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
-void MachineSession::check_board() {
+void BoardMachineSession::check_board() {
   on_standstill();
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
@@ -252,7 +253,7 @@ void MachineSession::check_board() {
   move_to(lost ? MachineEvent::lose_board : MachineEvent::stop_at_once);
 }
 
-void MachineSession::poll_panel() {
+void BoardMachineSession::poll_panel() {
   if (!options_.over_a_line || board_.error() || !board_.ready()) return;
   const bool finishing = busy() && work_->stage == Work::Stage::asks_counts;
   const bool runs = busy() && work_->drive && !finishing;
@@ -278,7 +279,7 @@ void MachineSession::poll_panel() {
   update_holds();
 }
 
-void MachineSession::move_to(MachineEvent event) {
+void BoardMachineSession::move_to(MachineEvent event) {
   const std::optional<MachineState> next = next_state(state_, event);
   assert(next);
   if (!next) return;
@@ -286,32 +287,38 @@ void MachineSession::move_to(MachineEvent event) {
   publish({.kind = MachineChange::Kind::state, .state = state_});
 }
 
-void MachineSession::publish(MachineChange change) {
+void BoardMachineSession::publish(MachineChange change) {
   change.time = now();
   ++version_;
   if (changes_.size() == most_changes) changes_.pop_front();
   changes_.push_back(std::move(change));
 }
 
-void MachineSession::answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault) {
+void BoardMachineSession::answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault) {
   publish({.kind = MachineChange::Kind::answered, .ticket = ticket, .outcome = outcome, .fault = std::move(fault)});
 }
 
-void MachineSession::answer_holds(Outcome outcome) {
+void BoardMachineSession::answer_holds(Outcome outcome) {
   for (const Ticket ticket : std::exchange(waiting_holds_, {})) answer(ticket, outcome);
 }
 
-std::vector<MachineChange> MachineSession::take_changes() {
+std::vector<MachineChange> BoardMachineSession::take_changes() {
   std::vector<MachineChange> taken(changes_.begin(), changes_.end());
   changes_.clear();
   return taken;
 }
 
-bool MachineSession::busy() const {
+bool BoardMachineSession::busy() const {
   return work_ && work_->stage != Work::Stage::ended;
 }
 
-MachineStatus MachineSession::status() const {
+// A board that is greeted anew is waited for: the time of an emulated one passes only meanwhile.
+bool BoardMachineSession::works() const {
+  const bool is_greeted = !board_.ready() && !board_.error();
+  return busy() || state_ == MachineState::offline || is_greeted;
+}
+
+MachineStatus BoardMachineSession::status() const {
   MachineStatus status;
   status.version = version_;
   status.time = now();
@@ -351,16 +358,20 @@ MachineStatus MachineSession::status() const {
   return status;
 }
 
-const MotionDrive* MachineSession::drive() const {
+const MotionDrive* BoardMachineSession::drive() const {
   return work_ ? work_->drive.get() : nullptr;
 }
-const Program* MachineSession::program() const {
+const Program* BoardMachineSession::program() const {
   return work_ ? work_->program : nullptr;
 }
-const HomingPath* MachineSession::homing() const {
+std::optional<MachineSession::ProgramResults> BoardMachineSession::program_results() const {
+  if (program() == nullptr) return {};
+  return ProgramResults{.parameters = program()->saved_parameters(), .tools = program()->tools()};
+}
+const HomingPath* BoardMachineSession::homing() const {
   return work_ ? work_->homing : nullptr;
 }
-const QueueUpdateLedger* MachineSession::ledger() const {
+const QueueUpdateLedger* BoardMachineSession::ledger() const {
   return work_ && work_->drive ? work_->drive->ledger() : nullptr;
 }
 

@@ -1,4 +1,4 @@
-// MachineSession: how the session answers each request.
+// BoardMachineSession: how the session answers each request.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -48,17 +48,17 @@ Failure<Refusal> refusal(RefusalReason reason) {
 
 }  // namespace
 
-Result<Ticket, Refusal> MachineSession::request(Request wanted) {
+Result<Ticket, Refusal> BoardMachineSession::request(Request wanted) {
   return std::visit([this](auto& one) { return handle(one); }, wanted);
 }
 
 // Why an event may not happen now. Empty: the table allows the event.
-std::optional<Refusal> MachineSession::refuse(MachineEvent event) const {
+std::optional<Refusal> BoardMachineSession::refuse(MachineEvent event) const {
   if (next_state(state_, event)) return {};
   return why_not();
 }
 
-Refusal MachineSession::why_not() const {
+Refusal BoardMachineSession::why_not() const {
   switch (state_) {
     case MachineState::offline: return {RefusalReason::not_ready};
     case MachineState::alarm: return refusal_in_alarm();
@@ -72,7 +72,7 @@ Refusal MachineSession::why_not() const {
   return {RefusalReason::nothing_going_on};
 }
 
-std::optional<Refusal> MachineSession::closed_limit() const {
+std::optional<Refusal> BoardMachineSession::closed_limit() const {
   const unsigned closed = board_.inputs() & ~unsigned{options_.greeting.setup.alarms};
   for (unsigned input = 0; input < max_motors; ++input) {
     if ((closed & (unsigned{input_limit} << input)) == 0) continue;
@@ -85,7 +85,7 @@ std::optional<Refusal> MachineSession::closed_limit() const {
 
 // A way off a closed switch is free, and so is a way of axes that have other switches. Of a switch that no axis is
 // homed by, nobody knows at which end it is.
-std::optional<Refusal> MachineSession::refuse_way(const Point& way) const {
+std::optional<Refusal> BoardMachineSession::refuse_way(const Point& way) const {
   for (const AxisDescription& axis : machine_.axes) {
     const double part = way[axis.axis];
     if (!axis.home || part == 0 || (board_.inputs() & axis.home_switches()) == 0) continue;
@@ -95,20 +95,20 @@ std::optional<Refusal> MachineSession::refuse_way(const Point& way) const {
   return {};
 }
 
-MachineSession::Answer MachineSession::at_once() {
+BoardMachineSession::Answer BoardMachineSession::at_once() {
   const Ticket ticket = ++last_ticket_;
   answer(ticket, Outcome::done);
   return ticket;
 }
 
-MachineSession::Answer MachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
+BoardMachineSession::Answer BoardMachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
   work_ = std::move(work);
   work_->ticket = ++last_ticket_;
   move_to(event);
   return work_->ticket;
 }
 
-StepOptions MachineSession::step_options() const {
+StepOptions BoardMachineSession::step_options() const {
   StepOptions options = passo::step_options(machine_);
   options.start = position().place;
   options.place = place_.on_board();
@@ -116,7 +116,7 @@ StepOptions MachineSession::step_options() const {
   return options;
 }
 
-DriveOptions MachineSession::drive_options() const {
+DriveOptions BoardMachineSession::drive_options() const {
   DriveOptions options{.live = live_commitment,
                        .not_before = enabled_at_ + machine_.pins.enable_wait,
                        .spindle_wait = machine_.silence.spindle_wait,
@@ -126,7 +126,7 @@ DriveOptions MachineSession::drive_options() const {
   return options;
 }
 
-MachineSession::Answer MachineSession::handle(request::Start& start) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit()) return Failure{*refused};
   // A journal knows where its job was broken off.
@@ -173,7 +173,7 @@ MachineSession::Answer MachineSession::handle(request::Start& start) {
 }
 
 // The program outlives the stream, and so do its modes. So what the program has left on is switched on again.
-MachineSession::Answer MachineSession::handle(request::Stream& stream) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Stream& stream) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit(); refused && !stream.program->jogs()) return Failure{*refused};
   if (auto refused = lost_place(); refused && !stream.program->jogs()) return Failure{*refused};
@@ -187,7 +187,7 @@ MachineSession::Answer MachineSession::handle(request::Stream& stream) {
 }
 
 // Asked again before the machine rests, it brakes no second time: it would never get to where the lines go on.
-MachineSession::Answer MachineSession::handle(request::DropLines&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::DropLines&) {
   if (!busy() || work_->lines == nullptr) return refusal(RefusalReason::no_lines_queued);
   const Ticket ticket = ++last_ticket_;
   waiting_holds_.push_back(ticket);
@@ -196,14 +196,14 @@ MachineSession::Answer MachineSession::handle(request::DropLines&) {
   return ticket;
 }
 
-Seconds MachineSession::clock_of(const Work& work) const {
+Seconds BoardMachineSession::clock_of(const Work& work) const {
   const QueueUpdateLedger* const ledger = work.drive->ledger();
   return ledger != nullptr ? ledger->executed_time() : now();
 }
 
 // Puts the work's activity on a drive, and connects all watchers.
-void MachineSession::put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers, bool knows_ahead,
-                                  Seconds nominal_time) {
+void BoardMachineSession::put_on_drive(Work& work, const DriveOptions& options, const Watchers& watchers,
+                                       bool knows_ahead, Seconds nominal_time) {
   StoredResults& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
   const MotionLimits limits = motion_limits(machine_);
   work.path = std::make_unique<SkippedTime>(*work.activity, limits, options.begin_at.value_or(PathPosition()));
@@ -238,7 +238,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, const
   if (work.is_program() && overrides_ != Overrides()) put_overrides_on(drive);
 }
 
-MachineSession::Answer MachineSession::handle(request::Jog& jog) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Jog& jog) {
   if (auto refused = refuse(MachineEvent::begin_jog)) return Failure{*refused};
   const double speed = jog.way.speed.value();
   const bool good = std::isfinite(speed) && speed > 0 && is_finite(jog.way.direction) &&
@@ -257,13 +257,13 @@ MachineSession::Answer MachineSession::handle(request::Jog& jog) {
 }
 
 // Has no effect on a jog that has begun to brake.
-MachineSession::Answer MachineSession::handle(request::RenewKeepAlive&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::RenewKeepAlive&) {
   if (state_ != MachineState::jog) return refusal(RefusalReason::no_jog);
   work_->lease.renew(now());
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::Home&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Home&) {
   if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
   if (machine_.homing.empty()) {
     return refusal(RefusalReason::no_switches);
@@ -278,7 +278,7 @@ MachineSession::Answer MachineSession::handle(request::Home&) {
   return begin(MachineEvent::begin_home, std::move(work));
 }
 
-MachineSession::Answer MachineSession::handle(request::Probe& probe) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Probe& probe) {
   if (auto refused = refuse(MachineEvent::begin_probe)) return Failure{*refused};
   if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
     return refusal(RefusalReason::bad_probe);
@@ -294,7 +294,7 @@ MachineSession::Answer MachineSession::handle(request::Probe& probe) {
   return begin(MachineEvent::begin_probe, std::move(work));
 }
 
-MachineSession::Answer MachineSession::handle(request::Check& check) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Check& check) {
   if (auto refused = refuse(MachineEvent::begin_check)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   if (check.findings != nullptr) work->findings = check.findings;
@@ -304,7 +304,7 @@ MachineSession::Answer MachineSession::handle(request::Check& check) {
 }
 
 // A hold ends an activity that is not a program.
-MachineSession::Answer MachineSession::handle(request::Hold& hold) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Hold& hold) {
   if (!busy() || state_ == MachineState::check) return refusal(RefusalReason::nothing_moves);
   const Ticket ticket = ++last_ticket_;
   if (!work_->is_program()) {
@@ -318,7 +318,7 @@ MachineSession::Answer MachineSession::handle(request::Hold& hold) {
   return ticket;
 }
 
-MachineSession::Answer MachineSession::handle(request::Resume&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Resume&) {
   if (!busy() || !work_->is_program()) return refusal(RefusalReason::no_program_held);
   MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
@@ -335,7 +335,7 @@ MachineSession::Answer MachineSession::handle(request::Resume&) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::Stop&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Stop&) {
   if (!busy()) return refusal(RefusalReason::nothing_going_on);
   const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
   work_->stopped = true;
@@ -343,7 +343,7 @@ MachineSession::Answer MachineSession::handle(request::Stop&) {
   return ticket;
 }
 
-MachineSession::Answer MachineSession::handle(request::Override& change) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Override& change) {
   if (!is_factor(change.feed, highest_factor) || !is_factor(change.adaptive_feed, 1) ||
       !is_factor(change.spindle, highest_factor)) {
     return refusal(RefusalReason::bad_override);
@@ -367,7 +367,7 @@ MachineSession::Answer MachineSession::handle(request::Override& change) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::SwitchOutputs& wanted) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::SwitchOutputs& wanted) {
   if (!busy() || !work_->is_program() || work_->stage != Work::Stage::moves || work_->drive->stopped()) {
     return refusal(RefusalReason::no_program_runs);
   }
@@ -384,7 +384,7 @@ MachineSession::Answer MachineSession::handle(request::SwitchOutputs& wanted) {
 }
 
 // Of single block, a stream knows nothing: whoever sends its lines may wait between them.
-MachineSession::Answer MachineSession::handle(request::ChooseStops& chosen) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::ChooseStops& chosen) {
   stops_.single_block = chosen.single_block.value_or(stops_.single_block);
   stops_.optional_stop = chosen.optional_stop.value_or(stops_.optional_stop);
   if (busy() && work_->is_program()) {
@@ -396,7 +396,7 @@ MachineSession::Answer MachineSession::handle(request::ChooseStops& chosen) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::OperatorDone&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::OperatorDone&) {
   if (!busy() || !work_->drive || !work_->drive->waits_for()) {
     return refusal(RefusalReason::not_waiting);
   }
@@ -406,7 +406,7 @@ MachineSession::Answer MachineSession::handle(request::OperatorDone&) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::SetPosition& set) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
   if (!is_finite(set.position.place)) return refusal(RefusalReason::bad_place);
   KnownPosition position = set.position;
@@ -415,19 +415,19 @@ MachineSession::Answer MachineSession::handle(request::SetPosition& set) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::ResetMachine&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::ResetMachine&) {
   if (auto refused = refuse(MachineEvent::reset)) return Failure{*refused};
   begin_reset();
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::Sleep&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Sleep&) {
   if (auto refused = refuse(MachineEvent::fall_asleep)) return Failure{*refused};
   move_to(MachineEvent::fall_asleep);
   return at_once();
 }
 
-MachineSession::Answer MachineSession::handle(request::Wake&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::Wake&) {
   if (auto refused = refuse(MachineEvent::wake)) return Failure{*refused};
   move_to(MachineEvent::wake);
   return at_once();

@@ -1,4 +1,4 @@
-// MachineSession: a program that comes line by line.
+// BoardMachineSession: a program that comes line by line.
 #include <algorithm>
 
 #include "work.hpp"
@@ -14,7 +14,7 @@ constexpr Seconds a_wait_for_lines{0.001};
 
 // Lets a program that comes line by line go on when there are lines. True: the turn was spent waiting for more lines,
 // so that the look-ahead sees them.
-bool MachineSession::poll_lines(Seconds most) {
+bool BoardMachineSession::poll_lines(Seconds most) {
   StreamedProgram* const lines = work_->lines;
   if (lines == nullptr) return false;
   MotionDrive& drive = *work_->drive;
@@ -34,7 +34,7 @@ bool MachineSession::poll_lines(Seconds most) {
 }
 
 // The machine rests, and the path was dropped up to here. The program goes on from where that is.
-void MachineSession::go_on_after_drop() {
+void BoardMachineSession::go_on_after_drop() {
   work_->drops = false;
   work_->lines->drop(work_->drive->dropped_to().value_or(work_->ahead.place()));
   answer_holds(Outcome::done);

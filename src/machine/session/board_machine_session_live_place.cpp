@@ -1,4 +1,4 @@
-// MachineSession: where the machine is while it moves, as its board tells.
+// BoardMachineSession: where the machine is while it moves, as its board tells.
 #include <optional>
 
 #include "work.hpp"
@@ -15,7 +15,7 @@ constexpr Seconds between_places_over_a_line{0.05};
 
 }  // namespace
 
-std::optional<Refusal> MachineSession::lost_place() const {
+std::optional<Refusal> BoardMachineSession::lost_place() const {
   if (!options_.needs_place || position().trust != Trust::unknown) return {};
   const bool homes_all_axes = machine_.homing.size() == machine_.axes.size();
   if (!homes_all_axes && !position().is_lost) return {};
@@ -23,7 +23,7 @@ std::optional<Refusal> MachineSession::lost_place() const {
 }
 
 // Asks the board where it is, and takes over what it has told.
-void MachineSession::poll_place() {
+void BoardMachineSession::poll_place() {
   if (!options_.tells_place) return;
   if (!busy()) return live_position_.rest_at(position().place);
   // At rest the drive knows the place itself: a question of before the rest may be answered after the rest.

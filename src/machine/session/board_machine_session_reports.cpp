@@ -1,4 +1,4 @@
-// MachineSession: what is wrong with the board, in sentences, with what only the session knows of it.
+// BoardMachineSession: what is wrong with the board, in sentences, with what only the session knows of it.
 #include <string>
 #include <utility>
 
@@ -33,7 +33,7 @@ const char* finer_code_of(StopCause::Kind kind) {
 
 }  // namespace
 
-Sentence MachineSession::sentence_of(LinkError error) const {
+Sentence BoardMachineSession::sentence_of(LinkError error) const {
   Sentence sentence{.code = std::string(code_of(error)), .text = std::string(message_of(error))};
   const auto add = [&sentence](std::string_view finer, std::string_view name, std::string value, const char* more) {
     sentence.code += finer;
@@ -54,7 +54,7 @@ Sentence MachineSession::sentence_of(LinkError error) const {
   return sentence;
 }
 
-Sentence MachineSession::sentence_of_stop() const {
+Sentence BoardMachineSession::sentence_of_stop() const {
   const std::uint16_t inputs = board_.stopped_by();
   const std::string code(code_of(LinkError::stopped));
   if (inputs == 0) return {.code = code, .text = std::string(message_of(LinkError::stopped))};
@@ -67,7 +67,7 @@ Sentence MachineSession::sentence_of_stop() const {
           .text = cause.what + ": the motor positions are unreliable"};
 }
 
-Refusal MachineSession::refusal_in_alarm() const {
+Refusal BoardMachineSession::refusal_in_alarm() const {
   if (trouble_.error == LinkError::drivers_off) return {RefusalReason::drivers_off};
   StopCause cause = stop_cause(board_.stopped_by(), machine_);
   return {reason_of(cause.kind), std::move(cause.arguments)};

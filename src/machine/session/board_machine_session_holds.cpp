@@ -1,23 +1,23 @@
-// MachineSession: why a program rests, and what a person changes meanwhile.
+// BoardMachineSession: why a program rests, and what a person changes meanwhile.
 #include "work.hpp"
 
 namespace passo {
 
 // Stops the jog in time. The moves that one step commits may not end after the lease.
-void MachineSession::check_lease() {
+void BoardMachineSession::check_lease() {
   const Seconds pulled = 3 * live_commitment.longest_move;
   if (work_->lease.is_over_at(now() + work_->drive->committed() + pulled)) work_->drive->stop();
 }
 
 // As in grbl, the operator's factors are 100 % again after M2 and M30.
-void MachineSession::end_overrides() {
+void BoardMachineSession::end_overrides() {
   overrides_ = {.adaptive_feed = overrides_.adaptive_feed};
   ++version_;
   if (busy()) put_overrides_on(*work_->drive);
 }
 
 // Sets the state of a program by its strongest reason to rest.
-void MachineSession::update_holds() {
+void BoardMachineSession::update_holds() {
   if (!work_->is_program() || !work_->drive) return;
   const MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
@@ -42,19 +42,19 @@ void MachineSession::update_holds() {
 }
 
 // A hold as for a door: at rest, spindle and coolant are off.
-void MachineSession::update_door() {
+void BoardMachineSession::update_door() {
   const bool rests = work_->drive->state() == MotionDrive::State::held;
   if (rests && work_->rest.take_stop_of_outputs()) work_->drive->stop_outputs();
 }
 
-void MachineSession::report_tails() {
+void BoardMachineSession::report_tails() {
   const QueueUpdateLedger* const tails = work_->drive->ledger();
   for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
     publish({.kind = MachineChange::Kind::rested_by_tail});
   }
 }
 
-void MachineSession::put_overrides_on(MotionDrive& drive) const {
+void BoardMachineSession::put_overrides_on(MotionDrive& drive) const {
   drive.set_feed_override(overrides_.feed);
   drive.set_adaptive_feed(overrides_.adaptive_feed);
   drive.set_spindle_override(overrides_.spindle);

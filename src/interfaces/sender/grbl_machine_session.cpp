@@ -1,0 +1,324 @@
+#include "passo/sender/grbl_machine_session.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "grbl_work.hpp"
+#include <fmt/format.h>
+
+#include "passo/interpreter/saved_offsets.hpp"
+#include "passo/wire/message.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::size_t most_kept_changes = 4096;
+constexpr std::uint64_t items_of_a_turn = 2000;
+// How long a lost connection is looked for before it is a fault.
+constexpr Seconds longest_reopening{10};
+
+// Inputs as bits of BoardInput: a board reports letters.
+std::uint16_t inputs_of(std::string_view pins) {
+  unsigned inputs = 0;
+  for (const char letter : pins) {
+    switch (letter) {
+      case 'P': inputs |= input_probe; break;
+      case 'D': inputs |= input_door; break;
+      case 'H': inputs |= input_hold; break;
+      case 'S': inputs |= input_start; break;
+      case 'E': inputs |= input_emergency_stop; break;
+      default: {
+        const auto axis = axis_of(letter);
+        if (axis && index_of(*axis) < max_motors) inputs |= unsigned{input_limit} << index_of(*axis);
+      }
+    }
+  }
+  return static_cast<std::uint16_t>(inputs);
+}
+
+std::optional<Point> contact_of(std::string_view value, const GrblMachine& board, bool& touched) {
+  const std::size_t colon = value.rfind(':');
+  if (colon == std::string_view::npos) return {};
+  touched = value.substr(colon + 1) == "1";
+  const auto place = read_grbl_place(value.substr(0, colon), board.axes);
+  return place ? std::optional(board.millimetres(*place)) : std::nullopt;
+}
+
+}  // namespace
+
+GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port)
+    : machine_(machine), port_(port), sender_(port.now()) {
+  connect_again(false);
+}
+
+GrblMachineSession::~GrblMachineSession() = default;
+
+void GrblMachineSession::connect_again(bool on_open_line) {
+  sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
+  sender_.listen([this](std::string_view line) { hear(line); });
+  prepared_ = false;
+  reports_ = 0;
+}
+
+bool GrblMachineSession::busy() const {
+  return work_ && work_->stage != Work::Stage::ended;
+}
+
+bool GrblMachineSession::works() const {
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || !sender_.all_answered();
+}
+
+// All lines are answered, and the board has reported since that it is idle.
+bool GrblMachineSession::rests() const {
+  return sender_.at_rest();
+}
+
+void GrblMachineSession::exchange(Seconds most) {
+  const std::string bytes = sender_.take_bytes(now());
+  if (!bytes.empty()) port_.send(bytes);
+  const std::string came = port_.receive(std::isfinite(most.value()) ? most : between_looks);
+  if (port_.is_broken()) return sender_.lose();
+  sender_.receive(came, now());
+  // Answers to what was just received go out at once.
+  const std::string more = sender_.take_bytes(now());
+  if (!more.empty()) port_.send(more);
+}
+
+void GrblMachineSession::poll(Seconds most) {
+  if (broken_since_) {
+    if (port_.open_again()) {
+      broken_since_.reset();
+      connect_again(false);
+    } else if (now() - *broken_since_ > longest_reopening) {
+      broken_since_.reset();
+      return break_off(MachineEvent::lose_board, {.code = "grbl.line-lost", .message = "the connection is not there"});
+    } else {
+      static_cast<void>(port_.receive(std::min(most, between_looks)));
+      return;
+    }
+  }
+  if (state_ == MachineState::fault) {
+    static_cast<void>(port_.receive(std::isfinite(most.value()) ? most : between_looks));
+    return;
+  }
+  exchange(busy() ? std::min(most, between_looks) : most);
+  hear_report();
+  check_fault();
+  if (state_ == MachineState::offline) return go_online();
+  if (state_ == MachineState::check) return poll_check();
+  if (busy()) return poll_work();
+  poll_idle();
+}
+
+void GrblMachineSession::hear(std::string_view line) {
+  constexpr std::string_view probe = "[PRB:";
+  if (!line.starts_with(probe) || !line.ends_with(']')) return;
+  line.remove_prefix(probe.size());
+  line.remove_suffix(1);
+  probed_at_ = contact_of(line, sender_.machine(), probe_touched_);
+}
+
+void GrblMachineSession::hear_report() {
+  if (sender_.reports_heard() == reports_ || !sender_.report()) return;
+  reports_ = sender_.reports_heard();
+  const GrblReport& report = *sender_.report();
+  if (pins_ != report.pins) ++version_;
+  pins_ = report.pins;
+  if (report.outputs) outputs_ = *report.outputs;
+  const auto place = sender_.place();
+  if (!place) return;
+  live_.hear(*place, now());
+  if (report.rests() && !busy()) {
+    if (position_.place != *place) ++version_;
+    position_.place = *place;
+    live_.rest_at(*place);
+  }
+  if (!busy() || !work_->feed || work_->stage == Work::Stage::resyncs) return;
+  const std::size_t blocks = board_.blocks + 1;
+  work_->executed.hear(sender_.lines_answered(), blocks, *place);
+}
+
+// Sets the modes that the lines need, and reads the offsets.
+void GrblMachineSession::prepare() {
+  for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender_.add(line);
+  sender_.ask_for_offsets();
+  prepared_ = true;
+}
+
+void GrblMachineSession::go_online() {
+  if (!sender_.ready()) return;
+  locked_ = sender_.report()->state == "Alarm";
+  if (!prepared_ && !locked_) return prepare();
+  if (!(locked_ ? sender_.all_answered() : rests())) return;
+  board_ = sender_.machine();
+  const auto place = sender_.place();
+  if (!place) {
+    return break_off(
+        MachineEvent::lose_board,
+        {.code = "grbl.no-place", .message = "the machine's status reports have no position; $10=1 adds it"});
+  }
+  position_.place = *place;
+  live_.rest_at(*place);
+  // A board that is locked at its start, or in an alarm, does not know where it is.
+  if (locked_ || loses_place_) {
+    position_.trust = Trust::unknown;
+    position_.is_lost = true;
+  } else if (position_.trust == Trust::unknown) {
+    position_.trust = Trust::commanded;
+    position_.is_lost = false;
+  }
+  overrides_ = {};
+  move_to(MachineEvent::ready);
+}
+
+// In an alarm that is over, e.g. after the start of a machine with switches.
+void GrblMachineSession::unlock() {
+  if (!std::exchange(locked_, false)) return;
+  sender_.add("$X");
+}
+
+void GrblMachineSession::poll_idle() {
+  const auto& report = sender_.report();
+  if (!report) return;
+  if (state_ == MachineState::idle && report->state == "Door") {
+    move_to(MachineEvent::open_door);
+  } else if (state_ == MachineState::door && report->state == "Idle") {
+    move_to(MachineEvent::close_door);
+  }
+  if (!to_store_ || state_ != MachineState::idle || locked_ || !rests()) return;
+  const SavedParameters wanted = *std::exchange(to_store_, {});
+  const SavedParameters present = offsets();
+  bool is_changed = false;
+  for (int system = 1; system <= work_systems; ++system) {
+    if (!board_.offsets.contains(name_of_system(system))) continue;
+    const Point now_there = saved_point(present, work_offset_parameter(system));
+    const Point then = saved_point(wanted, work_offset_parameter(system));
+    std::string words;
+    for (const AxisDescription& axis : machine_.axes) {
+      if (std::abs(then[axis.axis] - now_there[axis.axis]) < 5e-4) continue;
+      words += fmt::format("{}{:.4f}", letter_of(axis.axis), then[axis.axis]);
+    }
+    if (words.empty()) continue;
+    sender_.add(fmt::format("G10L2P{}{}", system, words));
+    is_changed = true;
+  }
+  if (is_changed) sender_.ask_for_offsets();
+}
+
+void GrblMachineSession::poll_check() {
+  if (!work_->stopped && !work_->checker->go_on(items_of_a_turn)) return;
+  const bool good = work_->checker->result().good;
+  end_work(work_->stopped ? Outcome::stopped : good ? Outcome::done : Outcome::failed);
+}
+
+SavedParameters GrblMachineSession::offsets(const SavedParameters& kept) const {
+  SavedParameters parameters = kept;
+  const GrblMachine& board = board_;
+  const auto set = [&](int first, const Point& offset) {
+    for (const AxisDescription& axis : machine_.axes) {
+      parameters[first + static_cast<int>(index_of(axis.axis))] = offset[axis.axis];
+    }
+  };
+  for (int system = 1; system <= work_systems; ++system) {
+    const auto found = board.offsets.find(name_of_system(system));
+    if (found != board.offsets.end()) set(work_offset_parameter(system), found->second);
+  }
+  constexpr int first_home = 5161;
+  constexpr int second_home = 5181;
+  if (const auto home = board.offsets.find("G28"); home != board.offsets.end()) set(first_home, home->second);
+  if (const auto home = board.offsets.find("G30"); home != board.offsets.end()) set(second_home, home->second);
+  return parameters;
+}
+
+void GrblMachineSession::store_offsets(const SavedParameters& parameters) {
+  to_store_ = parameters;
+}
+
+std::optional<Refusal> GrblMachineSession::lost_place() const {
+  if (position_.trust != Trust::unknown || state_ == MachineState::offline) return {};
+  const bool homes = abilities().can(Ability::home);
+  return Refusal{homes ? RefusalReason::unknown_so_home : RefusalReason::unknown_so_jog};
+}
+
+std::optional<MachineSession::ProgramResults> GrblMachineSession::program_results() const {
+  if (!work_ || !work_->program) return {};
+  return ProgramResults{.parameters = work_->program->saved_parameters(), .tools = work_->program->tools()};
+}
+
+MachineStatus GrblMachineSession::status() const {
+  MachineStatus status;
+  status.version = version_;
+  status.time = now();
+  status.state = state_;
+  status.position = position_;
+  status.lost_place = lost_place().has_value();
+  status.now_at = live_.at();
+  status.speed_now = live_.speed();
+  status.ahead = position_.place;
+  status.inputs = inputs_of(pins_);
+  status.overrides = overrides_;
+  status.stops = stops_;
+  status.trouble_sentence = trouble_;
+  if (!busy() || work_->checker) return status;
+  const Work& work = *work_;
+  const auto& report = sender_.report();
+  const bool waits = work.feed && work.feed->asks() != GrblFeed::Asks::nothing && rests();
+  status.rests = waits || (report && report->rests() && work.stage == Work::Stage::moves);
+  status.ahead = live_.at();
+  status.activity = work.kind;
+  status.holds.set(HoldReason::operator_hold, work.held || (state_ == MachineState::hold && work.was_held));
+  status.holds.set(HoldReason::door, state_ == MachineState::door);
+  if (work.feed) {
+    status.outputs = work.feed->outputs();
+    status.executes = work.executed.source();
+    status.executes_to = work.executed.last_line();
+    if (work.start && work.start->nominal_time > Seconds(0)) {
+      status.progress = std::min(1.0, (work.skipped + work.executed.time()) / work.start->nominal_time);
+    }
+    if (waits && work.feed->asks() == GrblFeed::Asks::operator_stop) {
+      const Action& stop = work.feed->stop();
+      status.waits_for = OperatorWait{.kind = stop.kind,
+                                      .tool = stop.tool,
+                                      .line = stop.source.line,
+                                      .number = work.stops,
+                                      .words = work_->words_at(stop.source.line)};
+      const bool is_tool = stop.kind == Action::Kind::tool_change;
+      status.holds.add(is_tool ? HoldReason::tool_change : HoldReason::program_stop);
+    }
+    if (waits && work.feed->asks() == GrblFeed::Asks::line) status.holds.add(HoldReason::await_line);
+  }
+  return status;
+}
+
+void GrblMachineSession::move_to(MachineEvent event) {
+  const std::optional<MachineState> next = next_state(state_, event);
+  assert(next);
+  if (!next) return;
+  state_ = *next;
+  publish({.kind = MachineChange::Kind::state, .state = state_});
+}
+
+void GrblMachineSession::publish(MachineChange change) {
+  change.time = now();
+  ++version_;
+  if (changes_.size() == most_kept_changes) changes_.pop_front();
+  changes_.push_back(std::move(change));
+}
+
+void GrblMachineSession::answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault) {
+  publish({.kind = MachineChange::Kind::answered, .ticket = ticket, .outcome = outcome, .fault = std::move(fault)});
+}
+
+void GrblMachineSession::answer_holds(Outcome outcome) {
+  for (const Ticket ticket : std::exchange(waiting_holds_, {})) answer(ticket, outcome);
+}
+
+std::vector<MachineChange> GrblMachineSession::take_changes() {
+  std::vector<MachineChange> taken(changes_.begin(), changes_.end());
+  changes_.clear();
+  return taken;
+}
+
+}  // namespace passo

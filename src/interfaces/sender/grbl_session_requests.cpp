@@ -1,0 +1,380 @@
+// GrblMachineSession: how the session answers each request.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grbl_work.hpp"
+#include <fmt/format.h>
+
+#include "passo/geometry/euclid.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double least_feed_factor = 0.1;
+constexpr double greatest_factor = 2;
+constexpr double same_position = 5e-3;  // mm
+constexpr Seconds longest_grbl_homing{300};
+constexpr int setting_of_homing = 22;
+
+Failure<Refusal> refused(RefusalReason reason) {
+  return Failure{Refusal{reason}};
+}
+
+Failure<Refusal> refused_because(std::string why) {
+  return Failure{Refusal{RefusalReason::board_cannot, {{"why", std::move(why)}}}};
+}
+
+bool all_finite(const Point& point) {
+  return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
+}
+
+bool leaves_travel_of(const MachineDescription& machine, const Point& place) {
+  return std::ranges::any_of(machine.axes, [&](const AxisDescription& axis) {
+    return place[axis.axis] < axis.travel_low - same_position || place[axis.axis] > axis.travel_high + same_position;
+  });
+}
+
+int percent_of(double factor) {
+  return static_cast<int>(std::lround(factor * 100));
+}
+
+}  // namespace
+
+MachineAbilities GrblMachineSession::abilities() const {
+  MachineAbilities abilities;
+  const auto lack = [&](Ability ability, const char* code, const char* why) {
+    abilities.lack(ability, {.code = std::string("ability.grbl.") + code, .text = why});
+  };
+  lack(Ability::exact_resume, "exact-resume",
+       "this board does not report which step it has made: an interrupted job continues at the beginning of a line");
+  lack(Ability::step_counts, "step-counts", "this board does not report its step counts");
+  lack(Ability::pulses, "pulses", "this board plans its own motion, so its step pulses are not known here");
+  lack(Ability::adaptive_feed, "adaptive-feed", "this board does not know M52; use the feed override");
+  lack(Ability::any_override, "any-override",
+       "this board changes feed and spindle speed by 10 to 200 %, and rapids to 100, 50 or 25 %");
+  lack(Ability::single_block, "single-block", "this board plans ahead over several lines; use hold");
+  lack(Ability::home_axis, "home-axis", "this board homes all its axes together");
+  lack(Ability::set_position, "set-position",
+       "this board keeps its own position: home it, or set the zero of the work");
+  lack(Ability::thread, "thread", "this board cannot follow the spindle");
+  const auto homing = board_.settings.find(setting_of_homing);
+  if (homing != board_.settings.end() && homing->second == 0) {
+    lack(Ability::home, "home", "homing is off on this board ($22=0)");
+  }
+  return abilities;
+}
+
+GrblMachineSession::Answer GrblMachineSession::refuse_ability(Ability ability) const {
+  const MachineAbilities all = abilities();
+  const Sentence* const why = all.why_not(ability);
+  return refused_because(why != nullptr ? why->text : std::string());
+}
+
+Result<Ticket, Refusal> GrblMachineSession::request(Request wanted) {
+  return std::visit([this](auto& one) { return handle(one); }, wanted);
+}
+
+std::optional<Refusal> GrblMachineSession::refuse(MachineEvent event) const {
+  if (next_state(state_, event)) return {};
+  return why_not();
+}
+
+Refusal GrblMachineSession::why_not() const {
+  switch (state_) {
+    case MachineState::offline: return {RefusalReason::not_ready};
+    case MachineState::alarm: return {RefusalReason::motors_stopped};
+    case MachineState::fault: return {RefusalReason::board_lost};
+    case MachineState::sleep: return {RefusalReason::asleep};
+    case MachineState::door: return {RefusalReason::door_open};
+    case MachineState::await_line: return {RefusalReason::outputs_left_on};
+    default: break;
+  }
+  if (busy()) return {RefusalReason::busy};
+  return {RefusalReason::nothing_going_on};
+}
+
+GrblMachineSession::Answer GrblMachineSession::at_once() {
+  const Ticket ticket = ++last_ticket_;
+  answer(ticket, Outcome::done);
+  return ticket;
+}
+
+GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
+  work_ = std::move(work);
+  work_->ticket = ++last_ticket_;
+  sender_.look_often(true);
+  move_to(event);
+  return work_->ticket;
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
+  if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
+  if (auto refusal = lost_place()) return Failure{*refusal};
+  auto work = std::make_unique<Work>();
+  if (start.findings != nullptr) work->findings = start.findings;
+  work->watchers = start.watchers;
+  if (start.from) work->stops = start.from->stops;
+  work->start = std::move(start);
+  work->start->options.start = work->start->from ? work->start->options.start : position_.place;
+  work->program = std::make_unique<GrblProgramPath>(std::move(work->start->program), machine_, work->start->options,
+                                                    *work->findings, std::move(work->start->known_probes));
+  if (work->watchers.operations) work->program->operations().watch(work->watchers.operations);
+  prepare();
+  return begin(MachineEvent::begin_run, std::move(work));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Stream& stream) {
+  if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
+  if (auto refusal = lost_place(); refusal && !stream.program->jogs()) return Failure{*refusal};
+  unlock();
+  auto work = std::make_unique<Work>();
+  work->kind = stream.program->jogs() ? ActivityKind::jog : ActivityKind::program;
+  work->lines = stream.program;
+  work->watchers = stream.watchers;
+  prepare();
+  return begin(MachineEvent::begin_run, std::move(work));
+}
+
+// The board brakes, and forgets what it holds. The stream goes on from there.
+GrblMachineSession::Answer GrblMachineSession::handle(request::DropLines&) {
+  if (!busy() || work_->lines == nullptr) return refused(RefusalReason::no_lines_queued);
+  const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
+  work_->lines->drop(position_.place);
+  if (!std::exchange(work_->drops, true) && work_->stage < Work::Stage::brakes) {
+    sender_.stop();
+    work_->stage = Work::Stage::brakes;
+  }
+  return ticket;
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Jog& jog) {
+  if (auto refusal = refuse(MachineEvent::begin_jog)) return Failure{*refusal};
+  const double speed = jog.way.speed.value();
+  const bool good = std::isfinite(speed) && speed > 0 && all_finite(jog.way.direction) &&
+                    std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
+                    length_of(jog.way.direction) > 0;
+  if (!good) return refused(RefusalReason::bad_jog);
+  if (!(jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease)) {
+    return refused(RefusalReason::bad_lease);
+  }
+  unlock();
+  auto work = std::make_unique<Work>();
+  work->kind = ActivityKind::jog;
+  work->stage = Work::Stage::moves;
+  work->from = position_.place;
+  work->jog = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
+  work->length = Mm(distance(work->from, work->jog->target()));
+  work->speed = jog.way.speed;
+  double least_acceleration = 1e9;
+  for (const AxisDescription& axis : machine_.axes) {
+    if (jog.way.direction[axis.axis] == 0) continue;
+    work->speed = std::min(work->speed, axis.velocity);
+    least_acceleration = std::min(least_acceleration, axis.acceleration.value());
+  }
+  // As much as the way between two reports, and to brake from the speed.
+  constexpr double two_reports = 0.25;  // s
+  const double v = work->speed.value();
+  work->ahead = Mm(v * two_reports + 0.6 * v * v / least_acceleration);
+  work->lease = jog.lease;
+  work->lease_end = now() + jog.lease;
+  return begin(MachineEvent::begin_jog, std::move(work));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive&) {
+  if (state_ != MachineState::jog) return refused(RefusalReason::no_jog);
+  work_->lease_end = now() + work_->lease;
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Home&) {
+  if (auto refusal = refuse(MachineEvent::begin_home)) return Failure{*refusal};
+  if (!abilities().can(Ability::home)) return refuse_ability(Ability::home);
+  auto work = std::make_unique<Work>();
+  work->kind = ActivityKind::homing;
+  work->stage = Work::Stage::moves;
+  sender_.add("$H", 0, longest_grbl_homing);
+  return begin(MachineEvent::begin_home, std::move(work));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Probe& probe) {
+  if (auto refusal = refuse(MachineEvent::begin_probe)) return Failure{*refusal};
+  if (!all_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
+    return refused(RefusalReason::bad_probe);
+  }
+  if (position_.trust != Trust::unknown && leaves_travel_of(machine_, probe.target)) {
+    return refused(RefusalReason::probe_leaves_travel);
+  }
+  unlock();
+  auto work = std::make_unique<Work>();
+  work->kind = ActivityKind::probing;
+  work->probe =
+      std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->probe_results);
+  prepare();
+  return begin(MachineEvent::begin_probe, std::move(work));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Check& check) {
+  if (auto refusal = refuse(MachineEvent::begin_check)) return Failure{*refusal};
+  auto work = std::make_unique<Work>();
+  if (check.findings != nullptr) work->findings = check.findings;
+  check.options.start = position_.place;
+  work->checker = std::make_unique<ProgramChecker>(std::move(check.program), machine_, check.options, *work->findings);
+  return begin(MachineEvent::begin_check, std::move(work));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Hold& hold) {
+  if (!busy() || state_ == MachineState::check) return refused(RefusalReason::nothing_moves);
+  if (!work_->is_program()) {
+    request::Stop stop;
+    return handle(stop);
+  }
+  const Ticket ticket = ++last_ticket_;
+  waiting_holds_.push_back(ticket);
+  work_->held = true;
+  work_->door = hold.for_door;
+  work_->rest_told = false;
+  work_->held_at = now();
+  hold.for_door ? sender_.open_door() : sender_.hold();
+  update_holds();
+  return ticket;
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
+  const bool is_held = busy() && work_->is_program() && (work_->held || work_->was_held);
+  const bool is_door_closed = state_ == MachineState::door && pins_.find('D') == std::string::npos;
+  if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);
+  if (pins_.find('D') != std::string::npos) return refused(RefusalReason::door_open);
+  if (busy()) work_->held = work_->door = work_->was_held = false;
+  sender_.resume();
+  answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Stop&) {
+  if (!busy()) return refused(RefusalReason::nothing_going_on);
+  const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
+  work_->stopped = true;
+  work_->drops = false;
+  if (work_->checker || work_->stage >= Work::Stage::brakes) return ticket;
+  // A machine at rest needs no brake and no reset: only its outputs are switched off.
+  if (work_->feed && work_->feed->asks() != GrblFeed::Asks::nothing && rests()) {
+    if (work_->feed->outputs() != OutputState()) {
+      sender_.add("M5");
+      sender_.add("M9");
+    }
+    end_work(Outcome::stopped);
+    return ticket;
+  }
+  if (work_->jog) {
+    sender_.cancel_jog();
+    work_->cancelled_at = now();
+  } else {
+    sender_.stop();
+    work_->stage = Work::Stage::brakes;
+  }
+  return ticket;
+}
+
+void GrblMachineSession::send_overrides() {
+  sender_.override_feed(percent_of(overrides_.feed));
+  sender_.override_spindle(percent_of(overrides_.spindle));
+  sender_.override_rapids(percent_of(overrides_.rapids));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Override& change) {
+  if (change.adaptive_feed && *change.adaptive_feed != 1) return refuse_ability(Ability::adaptive_feed);
+  for (const auto& factor : {change.feed, change.spindle}) {
+    if (!factor) continue;
+    if (!(*factor >= 0 && *factor <= greatest_factor)) return refused(RefusalReason::bad_override);
+    if (*factor < least_feed_factor) return refuse_ability(Ability::any_override);
+  }
+  if (change.rapids && !(*change.rapids >= 0.05 && *change.rapids <= 1)) {
+    return refused(RefusalReason::bad_rapid_override);
+  }
+  if (state_ == MachineState::offline || state_ == MachineState::fault) return Failure{why_not()};
+  if (change.feed) {
+    overrides_.feed = percent_of(*change.feed) / 100.0;
+    sender_.override_feed(percent_of(*change.feed));
+  }
+  if (change.spindle) {
+    overrides_.spindle = percent_of(*change.spindle) / 100.0;
+    sender_.override_spindle(percent_of(*change.spindle));
+  }
+  if (change.rapids) overrides_.rapids = sender_.override_rapids(percent_of(*change.rapids)) / 100.0;
+  ++version_;
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::SwitchOutputs& wanted) {
+  if (!busy() || !work_->is_program() || work_->stage != Work::Stage::moves) {
+    return refused(RefusalReason::no_program_runs);
+  }
+  if (wanted.spindle_stands && state_ != MachineState::hold) return refused(RefusalReason::spindle_turns);
+  const auto is_on = [&](char letter) { return outputs_.find(letter) != std::string::npos; };
+  if (wanted.mist && *wanted.mist != is_on('M')) sender_.toggle_mist();
+  if (wanted.flood && *wanted.flood != is_on('F')) sender_.toggle_flood();
+  if (wanted.spindle_stands && *wanted.spindle_stands == (is_on('S') || is_on('C'))) sender_.toggle_spindle_stop();
+  ++version_;
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::ChooseStops& chosen) {
+  if (chosen.single_block.value_or(false)) return refuse_ability(Ability::single_block);
+  stops_.optional_stop = chosen.optional_stop.value_or(stops_.optional_stop);
+  if (busy() && work_->feed) work_->feed->wait_at_optional(stops_.optional_stop);
+  ++version_;
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::OperatorDone&) {
+  const bool waits = busy() && work_->feed && work_->feed->asks() == GrblFeed::Asks::operator_stop && rests();
+  if (!waits) return refused(RefusalReason::not_waiting);
+  const std::uint32_t line = work_->feed->stop().source.line;
+  if (work_->program) work_->program->operator_messages().pass(line);
+  if (work_->lines != nullptr) work_->lines->operator_messages().pass(line);
+  work_->rest_told = false;
+  work_->feed->go_on();
+  update_holds();
+  return at_once();
+}
+
+// The board knows no other place. That it stands where it is shown can be confirmed.
+GrblMachineSession::Answer GrblMachineSession::handle(request::SetPosition& set) {
+  if (state_ != MachineState::idle) return Failure{why_not()};
+  if (!all_finite(set.position.place)) return refused(RefusalReason::bad_place);
+  if (distance(set.position.place, position_.place) > same_position) return refuse_ability(Ability::set_position);
+  unlock();
+  loses_place_ = false;
+  position_.trust = Trust::commanded;
+  position_.is_lost = false;
+  ++version_;
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::ResetMachine&) {
+  if (auto refusal = refuse(MachineEvent::reset)) return Failure{*refusal};
+  trouble_ = {};
+  if (port_.is_broken()) {
+    broken_since_ = now();
+  } else {
+    port_.send("\x18");
+    connect_again(true);
+  }
+  move_to(MachineEvent::reset);
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Sleep&) {
+  if (auto refusal = refuse(MachineEvent::fall_asleep)) return Failure{*refusal};
+  move_to(MachineEvent::fall_asleep);
+  return at_once();
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::Wake&) {
+  if (auto refusal = refuse(MachineEvent::wake)) return Failure{*refusal};
+  move_to(MachineEvent::wake);
+  return at_once();
+}
+
+}  // namespace passo

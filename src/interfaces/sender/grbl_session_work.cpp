@@ -1,0 +1,346 @@
+// GrblMachineSession: how an activity goes on, and how it ends.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grbl_work.hpp"
+#include <fmt/format.h>
+
+#include "passo/activity/nominal_time.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "passo/geometry/euclid.hpp"
+
+namespace passo {
+namespace {
+
+// A jog line that the board had received before the cancel may begin after it.
+constexpr Seconds between_cancels{0.1};
+constexpr double shortest_piece = 0.02;  // mm
+constexpr int pieces_ahead = 4;
+// The hold of a board at rest is not reported by each firmware.
+constexpr Seconds longest_wait_for_hold{0.3};
+
+}  // namespace
+
+void GrblMachineSession::poll_work() {
+  switch (work_->stage) {
+    case Work::Stage::prepares:
+      update_holds();
+      if (rests()) make_feed();
+      return;
+    case Work::Stage::moves:
+      if (work_->jog) return poll_jog();
+      if (work_->feed) return poll_feed();
+      return poll_home();
+    case Work::Stage::brakes:
+      if (sender_.stopped()) resync();
+      return;
+    case Work::Stage::resyncs: return end_resync();
+    case Work::Stage::ended: return;
+  }
+}
+
+// The modes are set, and the offsets are known: they are the zero of the lines.
+void GrblMachineSession::make_feed() {
+  Work& work = *work_;
+  board_ = sender_.machine();
+  const GrblTarget target = GrblTarget::of(board_);
+  StoredResults& results = work.program            ? work.program->answers()
+                           : work.lines != nullptr ? work.lines->answers()
+                                                   : work.probe_results;
+  Source<PathItem>& path = work.program            ? static_cast<Source<PathItem>&>(*work.program)
+                           : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines)
+                                                   : *work.probe;
+  const bool waits = !work.start || work.start->waits_for_operator;
+  work.feed = std::make_unique<GrblFeed>(path, results, target, waits, stops_.optional_stop);
+  work.lines_before = sender_.lines_sent();
+  const MotionLimits limits = motion_limits(machine_);
+  work.feed->watch([this, &work, limits](const PathItem& item) {
+    if (const auto* segment = std::get_if<Segment>(&item)) {
+      work.executed.add(segment->curve, segment->source, nominal_time_of(item, limits),
+                        work.lines_before + work.feed->lines_written());
+    }
+    if (work.watchers.path) work.watchers.path(item);
+  });
+  work.feed->watch_skipped([&work, limits](const PathItem& item) { work.skipped += nominal_time_of(item, limits); });
+  if (work.start && work.start->from) work.feed->begin_at(*work.start->from, work.start->lead_in);
+  if (work.is_program() && overrides_ != Overrides()) send_overrides();
+  work.stage = Work::Stage::moves;
+}
+
+void GrblMachineSession::poll_feed() {
+  GrblFeed& feed = *work_->feed;
+  while (sender_.wants_lines()) {
+    const auto line = feed.next();
+    if (!line) break;
+    sender_.add(line->text, line->line, line->silence);
+  }
+  if (rests() && feed.asks() != GrblFeed::Asks::nothing) answer_question();
+  if (busy() && work_->stage == Work::Stage::moves) update_holds();
+}
+
+// The machine is at rest, and the path continues with what it has found.
+void GrblMachineSession::answer_question() {
+  GrblFeed& feed = *work_->feed;
+  work_->executed.finish();
+  position_.place = sender_.place().value_or(position_.place);
+  switch (feed.asks()) {
+    case GrblFeed::Asks::nothing: return;
+    case GrblFeed::Asks::operator_stop:
+      if (!std::exchange(work_->rest_told, true)) {
+        ++work_->stops;
+        update_holds();
+        publish({.kind = MachineChange::Kind::came_to_rest});
+      }
+      return;
+    case GrblFeed::Asks::line:
+      if (work_->lines->is_to_begin(now())) feed.go_on();
+      return;
+    case GrblFeed::Asks::probe_state:
+      probed_at_.reset();
+      probe_touched_ = false;
+      feed.take_probe_state(pins_.find('P') != std::string::npos, position_.place);
+      return;
+    case GrblFeed::Asks::probe_result: {
+      const ProbeOutcome outcome{.refused = false,
+                                 .touched = probe_touched_ && probed_at_,
+                                 .contact = probed_at_.value_or(position_.place),
+                                 .rest = position_.place};
+      feed.take_probe(outcome);
+      if (work_->watchers.probe) work_->watchers.probe(outcome);
+      return publish({.kind = MachineChange::Kind::probed, .probe = outcome});
+    }
+    case GrblFeed::Asks::end: return end_program();
+  }
+}
+
+void GrblMachineSession::end_program() {
+  const GrblFeed& feed = *work_->feed;
+  if (!feed.objection().empty()) {
+    work_->findings->add({.code = "grbl.cannot",
+                          .file = {},
+                          .place = {.line = feed.objection_line(), .column = 0},
+                          .message = "a machine with Grbl cannot do this: " + feed.objection(),
+                          .expected = "",
+                          .text = ""});
+  }
+  if (work_->is_program() && overrides_ != Overrides()) {
+    overrides_ = {};
+    send_overrides();
+  }
+  if (work_->findings->any_error()) return end_work(Outcome::failed, ActivityFault{MachineFault::program_wrong});
+  auto fault = work_->probe ? work_->probe->fault() : std::nullopt;
+  if (work_->probe && work_->probe_results.probe()->refused) {
+    publish({.kind = MachineChange::Kind::probed, .probe = *work_->probe_results.probe()});
+  }
+  const Outcome outcome = fault ? Outcome::failed : Outcome::done;
+  end_work(outcome, std::move(fault));
+}
+
+// Sets the state of a program by its strongest reason to rest.
+void GrblMachineSession::update_holds() {
+  Work& work = *work_;
+  if (!work.is_program() || work.stage > Work::Stage::moves || !sender_.report()) return;
+  const GrblReport& report = *sender_.report();
+  const bool holds = report.state == "Hold";
+  const bool is_door = report.state == "Door";
+  // Somebody has resumed the program at the machine.
+  if (work.was_held && !holds && !is_door && report.state == "Run") work.held = work.door = work.was_held = false;
+  work.was_held = work.was_held || holds || is_door;
+  if (!holds && !is_door && !work.held) work.was_held = false;
+  const bool waits = work.feed && (rests() || work.rest_told);
+  const GrblFeed::Asks asks = waits ? work.feed->asks() : GrblFeed::Asks::nothing;
+  const bool is_stop = asks == GrblFeed::Asks::operator_stop;
+  const bool is_tool = is_stop && work.feed->stop().kind == Action::Kind::tool_change;
+  if (is_door || work.door) {
+    if (state_ != MachineState::door) move_to(MachineEvent::open_door);
+  } else if (holds || work.held || (is_stop && !is_tool)) {
+    if (state_ != MachineState::hold) move_to(MachineEvent::hold);
+  } else if (is_tool) {
+    if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
+  } else if (asks == GrblFeed::Asks::line) {
+    if (state_ != MachineState::await_line) move_to(MachineEvent::want_line);
+  } else if (state_ != MachineState::run) {
+    move_to(MachineEvent::resume);
+  }
+  if (!work.held || waiting_holds_.empty()) return;
+  const bool is_late = now() - work.held_at > longest_wait_for_hold;
+  const bool is_at_rest = (holds || is_door) ? report.rests() : is_late && report.rests();
+  if (!is_at_rest) return;
+  publish({.kind = MachineChange::Kind::came_to_rest});
+  answer_holds(Outcome::done);
+}
+
+void GrblMachineSession::send_jog_piece() {
+  Work& work = *work_;
+  const Mm piece = std::max(work.ahead / pieces_ahead, Mm(shortest_piece));
+  work.sent = std::min(work.sent + piece, work.length);
+  if (work.length - work.sent < Mm(shortest_piece)) work.sent = work.length;
+  const Point& target = work.jog->target();
+  const Point to = work.from + (target - work.from) * (work.sent / work.length);
+  std::string text = "$J=G21G90G53";
+  for (const AxisDescription& axis : machine_.axes) {
+    if (target[axis.axis] == work.from[axis.axis]) continue;
+    text += fmt::format("{}{:.4f}", letter_of(axis.axis), to[axis.axis]);
+  }
+  sender_.add(text + fmt::format("F{:.3f}", std::max(0.001, work.speed.value() * seconds_per_minute)));
+}
+
+// Pieces of the way are sent as the machine goes, so that little motion is left in a board that loses its host.
+void GrblMachineSession::poll_jog() {
+  Work& work = *work_;
+  const bool is_over = now() >= work.lease_end;
+  if (is_over && !work.cancelled_at) {
+    sender_.cancel_jog();
+    work.cancelled_at = now();
+    work.stopped = true;
+  }
+  if (work.cancelled_at) {
+    const bool jogs = !sender_.report() || sender_.report()->state == "Jog" || !sender_.all_answered();
+    if (jogs && now() - *work.cancelled_at > between_cancels) {
+      sender_.cancel_jog();
+      work.cancelled_at = now();
+    }
+    // A report that came after the cancel.
+    if (!jogs && rests() && now() - *work.cancelled_at > GrblSender::between_urgent_questions) {
+      position_.place = *sender_.place();
+      end_work(Outcome::stopped);
+    }
+    return;
+  }
+  if (!(work.length > Mm(0))) return end_work(Outcome::done);
+  // One line at a time lies in the board's buffer: a cancel does not clear it there.
+  const Mm travelled(distance(work.from, live_.at()));
+  if (sender_.all_answered() && work.sent < work.length && work.sent - travelled < work.ahead) send_jog_piece();
+  if (work.sent < work.length || !rests()) return;
+  position_.place = *sender_.place();
+  end_work(Outcome::done);
+}
+
+void GrblMachineSession::poll_home() {
+  if (!rests()) return;
+  locked_ = false;
+  loses_place_ = false;
+  position_ = {.place = *sender_.place(), .trust = Trust::homed};
+  live_.rest_at(position_.place);
+  // Homing may move the zero of the work: startup lines ($N0) run after it.
+  sender_.ask_for_offsets();
+  end_work(Outcome::done);
+}
+
+// The board has forgotten what it held. It tells where that has left it.
+void GrblMachineSession::resync() {
+  const bool needs_reset = !sender_.stopped();
+  if (needs_reset) port_.send("\x18");
+  connect_again(true);
+  work_->stage = Work::Stage::resyncs;
+}
+
+void GrblMachineSession::end_resync() {
+  if (!sender_.ready()) return;
+  const bool is_locked = sender_.report()->state == "Alarm";
+  if (!prepared_ && !is_locked) return prepare();
+  if (!(is_locked ? sender_.all_answered() : rests())) return;
+  board_ = sender_.machine();
+  position_.place = sender_.place().value_or(position_.place);
+  live_.rest_at(position_.place);
+  locked_ = is_locked;
+  overrides_ = {};
+  if (is_locked) {
+    position_.trust = Trust::unknown;
+    position_.is_lost = true;
+  }
+  if (work_->drops && !work_->fault) {
+    work_->drops = false;
+    work_->lines->drop(position_.place);
+    answer_holds(Outcome::done);
+    return make_feed();
+  }
+  const Outcome outcome = work_->fault ? Outcome::failed : Outcome::stopped;
+  end_work(outcome, work_->fault);
+}
+
+void GrblMachineSession::end_work(Outcome outcome, std::optional<ActivityFault> fault) {
+  Work& work = *work_;
+  work.stage = Work::Stage::ended;
+  sender_.look_often(false);
+  const auto place = sender_.place();
+  if (place && rests()) position_.place = *place;
+  live_.rest_at(position_.place);
+  move_to(MachineEvent::end);
+  answer(work.ticket, outcome, std::move(fault));
+  answer_holds(outcome == Outcome::failed ? Outcome::failed : Outcome::done);
+}
+
+// The sender has ended because of a fault.
+void GrblMachineSession::check_fault() {
+  const auto& fault = sender_.fault();
+  if (!fault || state_ == MachineState::alarm || state_ == MachineState::fault) return;
+  if (fault->code == "grbl.alarm") return break_off(MachineEvent::stop_at_once, *fault);
+  const bool is_heard = fault->code == "grbl.error" || sender_.stops();
+  if (busy() && !work_->checker && is_heard) return check_fault_of_work(*fault);
+  if (busy() && work_->stage == Work::Stage::brakes && work_->fault) return;  // it ends with that
+  // A question that an idle board has refused.
+  if (fault->code == "grbl.error" && state_ != MachineState::offline) return connect_again(true);
+  break_off(MachineEvent::lose_board, *fault);
+}
+
+// A line that was refused or lost: the board brakes, and the activity ends.
+void GrblMachineSession::check_fault_of_work(const GrblFault& fault) {
+  if (work_->stage == Work::Stage::resyncs) return break_off(MachineEvent::lose_board, fault);
+  if (work_->fault) return;
+  work_->drops = false;
+  if (work_->program && fault.code == "grbl.error") {
+    work_->findings->add({.code = fault.code,
+                          .file = {},
+                          .place = {.line = fault.last_line, .column = 0},
+                          .message = fault.message,
+                          .expected = "",
+                          .text = ""});
+    work_->fault = ActivityFault{MachineFault::program_wrong};
+  } else {
+    const Sentence sentence = sentence_of(fault);
+    work_->fault = ActivityFault{MachineFault::board_stopped, {{"trouble", sentence.text}}, sentence};
+  }
+  if (sender_.stops() || sender_.stopped()) {
+    work_->stage = Work::Stage::brakes;
+  } else {
+    resync();
+  }
+}
+
+std::string GrblMachineSession::words_of_restart() const {
+  if (!busy() || !work_->feed || work_->program == nullptr) return {};
+  const std::uint32_t line = work_->executed.source().line;
+  if (line == 0) return {};
+  return fmt::format(
+      "; line {} of the program is the last one that was executed for sure: home the machine or set its "
+      "zero, and start at that line",
+      line);
+}
+
+Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
+  return {.code = fault.code, .text = fault.message + words_of_restart()};
+}
+
+// The board may have moved further, or lost steps.
+void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
+  const Sentence sentence = sentence_of(fault);
+  trouble_ = sentence;
+  if (state_ != MachineState::offline) {
+    position_.trust = Trust::unknown;
+    position_.is_lost = true;
+    loses_place_ = true;
+  }
+  if (busy()) {
+    const MachineFault kind =
+        event == MachineEvent::stop_at_once ? MachineFault::board_stopped : MachineFault::board_lost;
+    work_->stage = Work::Stage::ended;
+    answer(work_->ticket, Outcome::failed, ActivityFault{kind, {{"trouble", sentence.text}}, sentence});
+    answer_holds(Outcome::failed);
+  }
+  position_.place = live_.at();
+  move_to(event);
+}
+
+}  // namespace passo

@@ -1,0 +1,75 @@
+// The activity of a GrblMachineSession. Private to sender/.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "passo/activity/jog_line.hpp"
+#include "passo/activity/probe_line.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/streamed_program.hpp"
+#include "passo/sender/grbl_executed.hpp"
+#include "passo/sender/grbl_feed.hpp"
+#include "passo/sender/grbl_machine_session.hpp"
+
+namespace passo {
+
+struct GrblMachineSession::Work {
+  enum class Stage : std::uint8_t {
+    prepares,  // the board's modes are set, and its offsets are read
+    moves,
+    brakes,   // until the sender has stopped
+    resyncs,  // the board is asked again who and where it is
+    ended
+  };
+
+  // Whether this is a program, which can be held and resumed.
+  bool is_program() const { return program != nullptr || lines != nullptr; }
+  std::string words_at(std::uint32_t line) {
+    if (program != nullptr) return program->operator_messages().at(line);
+    return lines != nullptr ? lines->operator_messages().at(line) : std::string();
+  }
+
+  ActivityKind kind = ActivityKind::program;
+  Ticket ticket = 0;
+  Stage stage = Stage::prepares;
+  bool stopped = false;  // by a request
+  bool drops = false;    // the queued lines are dropped
+  std::optional<ActivityFault> fault = {};
+
+  // A program, lines of a client, or a probe move: each is a path.
+  std::optional<request::Start> start;
+  Diagnostics own_findings;
+  Diagnostics* findings = &own_findings;
+  StoredResults probe_results;
+  std::unique_ptr<GrblProgramPath> program;
+  StreamedProgram* lines = nullptr;
+  std::unique_ptr<ProbeLine> probe;
+  Watchers watchers;
+  std::unique_ptr<GrblFeed> feed;
+  GrblExecuted executed;
+  Seconds skipped{0};              // nominal time of what comes before the point where the program begins
+  std::uint64_t lines_before = 0;  // lines sent before this work
+  std::uint64_t stops = 0;
+  bool held = false;      // by a request
+  bool door = false;      // the same, as for an open door
+  bool was_held = false;  // the board has reported the hold
+  bool rest_told = false;
+  Seconds held_at{0};
+
+  std::unique_ptr<ProgramChecker> checker;
+
+  // A jog
+  std::unique_ptr<JogLine> jog;
+  Point from;
+  MmPerSecond speed{0};
+  Mm length{0};
+  Mm sent{0};   // end of the last piece
+  Mm ahead{0};  // how far pieces are sent ahead of the reported position
+  Seconds lease{0};
+  Seconds lease_end{0};
+  std::optional<Seconds> cancelled_at;
+};
+
+}  // namespace passo

@@ -1,0 +1,53 @@
+// GrblExecuted: which part of the path a Grbl machine has executed, from its answers and its reported positions.
+//
+// Such a machine does not report the line that it executes. A line that it has answered lies in its planner, or is
+// executed. The planner has few blocks, so lines before the last ones are executed for sure. Among the others, the
+// first one that leads through the reported position is taken to be executing. So the result is never ahead of the
+// machine, as long as its reports are true.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+
+#include "passo/geometry/curve.hpp"
+#include "passo/interpreter/operation.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+// Returns the distance of a point from a curve. Arcs and splines count as sixteen chords.
+double grbl_distance(const Curve& curve, const Point& place);
+
+class GrblExecuted {
+ public:
+  // Adds a piece of path, whose last line is the `lines`-th of all lines of the sender. `time`: its nominal time.
+  void add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines);
+  // `answered`: how many lines were answered; `blocks`: how many of them the machine may still hold.
+  void hear(std::uint64_t answered, std::size_t blocks, const Point& place);
+  // The machine is idle, and has answered all lines.
+  void finish();
+
+  // The line that is executed, or that was executed last. Line 0: none yet.
+  const OperationSource& source() const { return now_; }
+  // The last line that the machine may be executing.
+  std::uint32_t last_line() const { return last_line_; }
+  // The nominal time of the executed pieces.
+  Seconds time() const { return time_; }
+
+ private:
+  struct Piece {
+    Curve curve;
+    OperationSource source;
+    Seconds time{0};
+    std::uint64_t lines = 0;
+  };
+  void pass();
+
+  std::deque<Piece> pieces_;
+  OperationSource now_;
+  std::uint32_t last_line_ = 0;
+  Seconds time_{0};
+};
+
+}  // namespace passo

@@ -1,0 +1,153 @@
+// GrblMachineSession: the session of a machine whose motion a Grbl board plans. Clients use it like that of a board of
+// ours; abilities() lists what such a machine cannot do.
+//
+//   requests -> GrblFeed, jog lines, $H -> GrblSender -> GrblPort
+//
+// The board keeps its own position, and the work offsets. Programs are interpreted here, as for our boards, and sent as
+// plain lines (GrblCode). Before each program the board's modes are set, and its offsets are read.
+//
+// After a stop, a refused line and a probe alarm, the board is asked again who and where it is, before the activity
+// ends. Nothing is sent twice: what a lost connection, a restart or an alarm has interrupted ends there. A restart, a
+// lost connection and a timeout lead to the state fault, an alarm of the board to the state alarm; both end with
+// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/sender/grbl_port.hpp"
+#include "passo/sender/grbl_sender.hpp"
+#include "passo/session/live_position.hpp"
+#include "passo/session/machine_session.hpp"
+
+namespace passo {
+
+class GrblMachineSession final : public MachineSession {
+ public:
+  // A key that is released stops a jog after this time, and the board's own braking.
+  static constexpr Seconds between_looks{0.02};
+
+  // Both must outlive the session. Nothing is sent before the first poll().
+  GrblMachineSession(const MachineDescription& machine, GrblPort& port);
+  ~GrblMachineSession() override;
+
+  [[nodiscard]] Result<Ticket, Refusal> request(Request wanted) override;
+  void poll(Seconds most) override;
+  MachineStatus status() const override;
+  std::vector<MachineChange> take_changes() override;
+  MachineState state() const override { return state_; }
+  Seconds now() const override { return port_.now(); }
+  bool busy() const override;
+  bool works() const override;
+  const std::string& trouble_words() const override { return trouble_.text; }
+  std::optional<ProgramResults> program_results() const override;
+  std::optional<Refusal> closed_limit() const override { return {}; }
+  std::optional<Refusal> lost_place() const override;
+  MachineAbilities abilities() const override;
+
+  // What the board has reported about itself.
+  const GrblMachine& board() const { return board_; }
+  // Returns the board's offsets as parameters of a program: G54 to G59.3, G28, G30 and G92. `kept`: the values of what
+  // the board does not have.
+  SavedParameters offsets(const SavedParameters& kept = {}) const;
+  // Writes changed work offsets to the board (G10 L2), as soon as it is idle.
+  void store_offsets(const SavedParameters& parameters);
+
+ private:
+  struct Work;
+
+  using Answer = Result<Ticket, Refusal>;
+  Answer handle(request::Start& start);
+  Answer handle(request::Stream& stream);
+  Answer handle(request::DropLines& drop);
+  Answer handle(request::Jog& jog);
+  Answer handle(request::RenewKeepAlive& renew);
+  Answer handle(request::Home& home);
+  Answer handle(request::Probe& probe);
+  Answer handle(request::Check& check);
+  Answer handle(request::Hold& hold);
+  Answer handle(request::Resume& resume);
+  Answer handle(request::Stop& stop);
+  Answer handle(request::Override& change);
+  Answer handle(request::SwitchOutputs& wanted);
+  Answer handle(request::ChooseStops& chosen);
+  Answer handle(request::OperatorDone& done);
+  Answer handle(request::SetPosition& set);
+  Answer handle(request::ResetMachine& reset);
+  Answer handle(request::Sleep& sleep);
+  Answer handle(request::Wake& wake);
+  std::optional<Refusal> refuse(MachineEvent event) const;
+  Refusal why_not() const;
+  Answer refuse_ability(Ability ability) const;
+  Answer at_once();
+  Answer begin(MachineEvent event, std::unique_ptr<Work> work);
+
+  void exchange(Seconds most);
+  void hear(std::string_view line);
+  void hear_report();
+  void go_online();
+  void connect_again(bool on_open_line);
+  void prepare();
+  bool rests() const;
+  void unlock();
+
+  void poll_idle();
+  void poll_check();
+  void poll_work();
+  void make_feed();
+  void poll_feed();
+  void answer_question();
+  void update_holds();
+  void poll_jog();
+  void send_jog_piece();
+  void poll_home();
+  void resync();
+  void end_resync();
+  void end_program();
+  void end_work(Outcome outcome, std::optional<ActivityFault> fault = {});
+  void check_fault();
+  void check_fault_of_work(const GrblFault& fault);
+  void break_off(MachineEvent event, const GrblFault& fault);
+  Sentence sentence_of(const GrblFault& fault) const;
+  std::string words_of_restart() const;
+  void send_overrides();
+
+  void move_to(MachineEvent event);
+  void publish(MachineChange change);
+  void answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault = {});
+  void answer_holds(Outcome outcome);
+
+  const MachineDescription& machine_;
+  GrblPort& port_;
+  GrblSender sender_;
+  GrblMachine board_;  // as it has described itself last
+  MachineState state_ = MachineState::offline;
+  bool prepared_ = false;  // the board's modes are set, since the connection
+  bool locked_ = false;    // the board is in an alarm that $X or $H ends
+  bool loses_place_ = false;
+  std::optional<Seconds> broken_since_;
+  KnownPosition position_;
+  LivePosition live_;
+  std::uint64_t reports_ = 0;  // heard so far
+  std::string pins_;
+  std::string outputs_;  // letters, as the board reports them
+  std::optional<Point> probed_at_;
+  bool probe_touched_ = false;
+  std::unique_ptr<Work> work_;  // the current or the last activity
+  Overrides overrides_;
+  ChosenStops stops_;
+  Sentence trouble_;
+  std::optional<SavedParameters> to_store_;
+  std::deque<MachineChange> changes_;
+  std::vector<Ticket> waiting_holds_;
+  Ticket last_ticket_ = 0;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace passo
