@@ -123,7 +123,8 @@ void GrblFeed::write(const PathItem& item) {
 // because the machine stands where the last probe move has ended.
 void GrblFeed::write_probe(const Segment& segment) {
   const Point& end = segment.curve.end();
-  std::string text = probe_->probe_toward ? "G38.3" : "G38.5";
+  std::string text = code_.is_by_time() ? "G94" : "";
+  text += probe_->probe_toward ? "G38.3" : "G38.5";
   const Point& start = segment.curve.start();
   for (const Axis axis : all_axes) {
     if (std::abs(end[axis] - start[axis]) < 1e-9) continue;

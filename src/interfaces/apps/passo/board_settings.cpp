@@ -229,8 +229,8 @@ std::optional<std::vector<NamedSetting>> read_settings_file(const std::string& p
 bool are_good(const BoardSettingsArguments& arguments) {
   if (!names_grbl_machine(arguments.board)) {
     fail(exit_bad_program, arguments.board +
-                               ": only Grbl boards have such settings: expected grbl:DEVICE[@BAUD] or "
-                               "grbl:tcp:HOST:PORT [board.not-grbl]");
+                               ": only Grbl boards have such settings: expected grbl:DEVICE[@BAUD], "
+                               "grbl:tcp:HOST:PORT or grbl:ws://HOST [board.not-grbl]");
     return false;
   }
   for (const std::string& one : arguments.set) {

@@ -145,7 +145,7 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
       "plan the motion too, check it against every limit, and compare its time with the shortest possible");
   command.add_option("--board", arguments.board,
                      "Grbl board whose motion is predicted: grbl (an Uno with the limits of the machine file), "
-                     "grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT (with the settings that it reports)");
+                     "grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST (with the settings that it reports)");
   command.add_option("-p,--picture", arguments.picture,
                      "picture of the motion: toolpath and tolerance, speed along the path, acceleration and jerk "
                      "(FILE.svg or FILE.png)");
