@@ -23,12 +23,12 @@ std::uint32_t source_line(const PathItem& item) {
 
 }  // namespace
 
-GrblFeed::GrblFeed(Source<PathItem>& path, StoredResults& answers, const Point& zero, bool waits,
+GrblFeed::GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTarget& target, bool waits,
                    bool waits_at_optional)
     : path_(path),
       answers_(answers),
-      zero_(zero),
-      code_(zero),
+      zero_(target.zero),
+      code_(target),
       waits_(waits),
       waits_at_optional_(waits_at_optional) {}
 
