@@ -13,6 +13,8 @@ constexpr Seconds start_of_an_arduino{2};
 constexpr Seconds quiet{0.3};  // after a line end, so that the answers to what was left are over
 constexpr Seconds longest_braking{10};
 constexpr Seconds longest_drop{3};
+// A machine that is followed has answered each question so far.
+constexpr Seconds longest_silence_in_motion{1.8};
 // A machine that is idle for so long, with lines that it has not answered, has not got them.
 constexpr Seconds longest_idle{2};
 // Another sender's reports may come all the time.
@@ -20,7 +22,10 @@ constexpr Seconds longest_clearing{2};
 // A spindle is waited for in the state Idle, by grblHAL and FluidNC.
 constexpr Seconds longest_spindle_start{30};
 constexpr std::size_t longest_reply = 4096;
+constexpr Seconds between_override_bytes{0.02};
 constexpr char soft_reset = 0x18;
+constexpr std::string_view more_answers =
+    "the machine has answered more lines than it was sent: a line was doubled or broken on the way";
 constexpr std::string_view homing_line = "$H\n";
 
 std::optional<int> read_code(std::string_view text) {
@@ -80,6 +85,12 @@ std::string_view GrblSender::waits_for() const {
 
 void GrblSender::add(std::string text, std::uint32_t line, Seconds silence) {
   if (text.starts_with('M')) silence = std::max(silence, longest_spindle_start);
+  std::vector<std::string> pieces;
+  if (follower_) pieces = follower_->pieces(text);
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+    window_.add({.text = pieces[i] + '\n', .line = line, .goes_on = true});
+  }
+  if (!pieces.empty()) text = std::move(pieces.back());
   text += '\n';
   window_.add({.text = std::move(text), .line = line, .silence = silence});
 }
@@ -100,11 +111,20 @@ void GrblSender::resume() {
 }
 
 void GrblSender::override_feed(int percent) {
-  urgent_ += steps_to(percent, '\x90', '\x91');
+  if (follower_) follower_->set_override(std::clamp(percent, 10, 200) / 100.0);
+  for (const char byte : steps_to(percent, '\x90', '\x91')) override_bytes_.push_back(byte);
 }
 
 void GrblSender::override_spindle(int percent) {
-  urgent_ += steps_to(percent, '\x99', '\x9A');
+  for (const char byte : steps_to(percent, '\x99', '\x9A')) override_bytes_.push_back(byte);
+}
+
+// One by one: Grbl counts equal bytes once that come before it has looked.
+void GrblSender::send_overrides() {
+  if (override_bytes_.empty() || now_ - override_sent_ < between_override_bytes) return;
+  act(override_bytes_.front());
+  override_bytes_.pop_front();
+  override_sent_ = now_;
 }
 
 int GrblSender::override_rapids(int percent) {
@@ -176,7 +196,8 @@ GrblFault GrblSender::fault_between_lines(std::string code, std::string message)
 
 void GrblSender::check_silence() {
   const Seconds since = std::max(heard_, stage_since_);
-  if (now_ - since < longest_silence + silence_of_oldest()) return;
+  const Seconds most = follower_ && has_work() && stage_ == Stage::ready ? longest_silence_in_motion : longest_silence;
+  if (now_ - since < most + silence_of_oldest()) return;
   const char* const hint =
       greets() ? ": it is off, uses another baud rate (@BAUD), or is in an alarm that only a reset clears" : "";
   end_with(fault_between_lines(
@@ -252,7 +273,10 @@ void GrblSender::ask_for_status() {
 }
 
 void GrblSender::poll(Seconds now) {
-  now_ = now;
+  // While this program stood still, nothing could be heard.
+  if (now - polled_ > Seconds(0.5)) heard_ = std::max(heard_, now - Seconds(0.5));
+  now_ = polled_ = now;
+  send_overrides();
   switch (stage_) {
     case Stage::waking:
     case Stage::clearing:
@@ -327,7 +351,8 @@ std::string GrblSender::take_bytes(Seconds now) {
   poll(now);
   std::string bytes = std::exchange(urgent_, {});
   const bool may_send = (stage_ == Stage::asking || stage_ == Stage::ready) && !fault_;
-  return may_send ? bytes + window_.send(now, machine_.bytes) : bytes;
+  if (!may_send) return bytes;
+  return bytes + (follower_ ? send_lines(now) : window_.send(now, machine_.bytes));
 }
 
 void GrblSender::receive(std::string_view bytes, Seconds now) {
@@ -363,6 +388,7 @@ void GrblSender::hear(std::string_view line) {
   if (line == "ok") return answer({});
   if (line.starts_with(error)) return answer(without_blanks(line.substr(error.size())));
   if (line.starts_with(alarm_head)) return alarm(without_blanks(line.substr(alarm_head.size())));
+  if (follower_ && line.starts_with("[GC:") && line.ends_with(']')) hear_modes(line.substr(4, line.size() - 5));
   machine_.hear(line);
   window_.note_said(with_blanks);
   if (listener_) listener_(line);
@@ -373,6 +399,7 @@ void GrblSender::hear_report(const GrblReport& report) {
   if (greets()) machine_.hear_value_count(report.values);
   if (reports_.hear(report, now_)) progress_ = now_;
   if (report.bytes_free) window_.hear_free_bytes(*report.bytes_free);
+  follow_report(report);
 }
 
 void GrblSender::hear_greeting() {
@@ -400,11 +427,15 @@ void GrblSender::hear_greeting() {
 }
 
 void GrblSender::answer(std::optional<std::string_view> error) {
-  if (window_.oldest() == nullptr) return;  // of what another sender has left
+  if (window_.oldest() == nullptr) {  // of what another sender has left
+    if (follower_ && stage_ == Stage::ready && has_work()) fail_and_stop("grbl.lost-lines", std::string(more_answers));
+    return;
+  }
   // The same, if it comes late: the answer to $I tells the version.
   if (stage_ == Stage::asking && machine_.version.empty()) return;
   UnacknowledgedLines::Line line = *window_.take_answered();
   answered_ = progress_ = now_;
+  if (line.marks) return answer_mark();
   if (line.asks) return window_.keep_reply(std::move(line), error ? words_of_error(*error) : "");
   if (!error) {
     window_.note_held(line.line, machine_.blocks + 8);

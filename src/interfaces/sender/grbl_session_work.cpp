@@ -50,6 +50,7 @@ void GrblMachineSession::make_feed() {
                            : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines) : *work.probe;
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
+  sender_.follow(first_work_zero(board_));
   work.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
   work.feed->watch([this, &work, limits](const PathItem& item) {
@@ -104,6 +105,7 @@ void GrblMachineSession::answer_question() {
                                  .contact = probed_at_.value_or(position_.place),
                                  .rest = position_.place};
       feed.take_probe(outcome);
+      sender_.follow(first_work_zero(board_));
       if (work_->watchers.probe) work_->watchers.probe(outcome);
       return publish({.kind = MachineChange::Kind::probed, .probe = outcome});
     }

@@ -12,17 +12,32 @@ constexpr std::size_t least_buffer = 64;  // fewer free bytes are hardly a whole
 
 std::string UnacknowledgedLines::send(Seconds now, std::size_t size) {
   std::string bytes;
-  while (!waiting_.empty() && sent_bytes_ + waiting_.front().text.size() <= usable(size)) {
-    Line& next = waiting_.front();
-    next.sent = now;
-    bytes += next.text;
-    sent_bytes_ += next.text.size();
-    if (next.line != 0) last_line_ = next.line;
-    ++lines_sent_;
-    sent_.push_back(std::move(next));
-    waiting_.pop_front();
-  }
+  while (next_fitting(size) != nullptr) bytes += send_next(now);
   return bytes;
+}
+
+const UnacknowledgedLines::Line* UnacknowledgedLines::next_fitting(std::size_t size) const {
+  const bool fits = !waiting_.empty() && sent_bytes_ + waiting_.front().text.size() <= usable(size);
+  return fits ? &waiting_.front() : nullptr;
+}
+
+std::string UnacknowledgedLines::send_next(Seconds now) {
+  Line& next = waiting_.front();
+  next.sent = now;
+  std::string bytes = next.text;
+  sent_bytes_ += bytes.size();
+  if (next.line != 0) last_line_ = next.line;
+  if (!next.goes_on) ++lines_sent_;
+  sent_.push_back(std::move(next));
+  waiting_.pop_front();
+  return bytes;
+}
+
+bool UnacknowledgedLines::send_mark(const std::string& text, Seconds now, std::size_t size) {
+  if (sent_bytes_ + text.size() > usable(size)) return false;
+  sent_.push_back({.text = text, .sent = now, .marks = true});
+  sent_bytes_ += text.size();
+  return true;
 }
 
 std::optional<UnacknowledgedLines::Line> UnacknowledgedLines::take_answered() {
@@ -30,6 +45,7 @@ std::optional<UnacknowledgedLines::Line> UnacknowledgedLines::take_answered() {
   Line line = std::move(sent_.front());
   sent_.pop_front();
   sent_bytes_ -= line.text.size();
+  if (!line.goes_on && !line.marks) ++lines_answered_;
   return line;
 }
 

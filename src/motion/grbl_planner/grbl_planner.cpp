@@ -90,8 +90,8 @@ Seconds GrblPlanner::add_line(const Point& end, MmPerSecond feed, std::uint32_t 
   return Seconds(std::max(when.value(), now_));
 }
 
-Seconds GrblPlanner::add_arc(const Arc& arc, const Point& end, MmPerSecond feed, std::uint32_t source, Seconds when) {
-  const Point start = at_;
+void GrblPlanner::each_chord(const Arc& arc, const Point& start, const Point& end, Mm tolerance,
+                             const std::function<void(const Point&)>& add) {
   const double first = start[arc.first] + arc.first_center;
   const double second = start[arc.second] + arc.second_center;
   const double radius = std::hypot(arc.first_center, arc.second_center);
@@ -103,8 +103,7 @@ Seconds GrblPlanner::add_arc(const Arc& arc, const Point& end, MmPerSecond feed,
       std::atan2(from_first * to_second - from_second * to_first, from_first * to_first + from_second * to_second);
   if (arc.clockwise && turn >= -same_angle) turn -= 2 * std::numbers::pi;
   if (!arc.clockwise && turn <= same_angle) turn += 2 * std::numbers::pi;
-  const double tolerance = limits_.arc_tolerance.value();
-  const double chord = std::sqrt(std::max(0.0, tolerance * (2 * radius - tolerance)));
+  const double chord = std::sqrt(std::max(0.0, tolerance.value() * (2 * radius - tolerance.value())));
   const double chords = chord > 0 ? std::min(std::floor(std::abs(turn) / 2 * radius / chord), most_chords) : 1;
   for (double i = 1; i < chords; ++i) {
     Point place = start + (end - start) * (i / chords);
@@ -112,9 +111,16 @@ Seconds GrblPlanner::add_arc(const Arc& arc, const Point& end, MmPerSecond feed,
     const double sine = std::sin(turn * i / chords);
     place[arc.first] = first + from_first * cosine - from_second * sine;
     place[arc.second] = second + from_first * sine + from_second * cosine;
-    when = add_line(place, feed, source, when);
+    add(place);
   }
-  return add_line(end, feed, source, when);
+  add(end);
+}
+
+Seconds GrblPlanner::add_arc(const Arc& arc, const Point& end, MmPerSecond feed, std::uint32_t source, Seconds when) {
+  const Point start = at_;
+  each_chord(arc, start, end, limits_.arc_tolerance,
+             [&](const Point& place) { when = add_line(place, feed, source, when); });
+  return when;
 }
 
 Seconds GrblPlanner::wait_for_rest(Seconds dwell, Seconds when) {
@@ -134,19 +140,31 @@ void GrblPlanner::plan() {
   }
 }
 
-GrblPlanner::Profile GrblPlanner::profile() const {
-  const Block& first = blocks_.front();
+Seconds GrblPlanner::rest_at() const {
+  double time = now_;
+  double speed = speed_;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Profile part = profile(i, i == 0 ? done_of_first_ : 0, speed);
+    time += part.time();
+    speed = part.exit;
+  }
+  return Seconds(time);
+}
+
+// Of a block, whose motion has come so far at this speed.
+GrblPlanner::Profile GrblPlanner::profile(std::size_t index, double done, double speed) const {
+  const Block& first = blocks_[index];
   const double acceleration = first.motion.acceleration.value();
-  const double length = first.motion.length.value() - done_of_first_;
+  const double length = first.motion.length.value() - done;
   const double gain2 = 2 * acceleration * length;
-  const double speed2 = square(speed_);
-  const double wanted2 = blocks_.size() > 1 ? blocks_[1].entry2 : 0;
+  const double speed2 = square(speed);
+  const double wanted2 = index + 1 < blocks_.size() ? blocks_[index + 1].entry2 : 0;
   // A plan never asks for more than the brakes give; only rounding does.
   const double exit2 = std::clamp(wanted2, std::max(0.0, speed2 - gain2), speed2 + gain2);
   const double top2 = std::max({std::min(first.nominal2, (speed2 + exit2 + gain2) / 2), speed2, exit2});
   const double rest = length - (2 * top2 - speed2 - exit2) / (2 * acceleration);
   Profile profile{.top = std::sqrt(top2), .exit = std::sqrt(exit2)};
-  profile.up = (profile.top - speed_) / acceleration;
+  profile.up = (profile.top - speed) / acceleration;
   profile.down = (profile.top - profile.exit) / acceleration;
   profile.level = rest > 0 ? rest / profile.top : 0;
   return profile;

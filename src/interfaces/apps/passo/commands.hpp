@@ -77,6 +77,7 @@ struct RunArguments {
   std::uint32_t from_line = 0;       // the line at which the program is to start; 0: its first line
   std::uint32_t pass = 0;            // which pass through that line; 0: it is reached only once
   double after = 0;                  // mm along the path from that line
+  std::optional<double> ahead;       // motion that may lie in a Grbl board, s
   bool home = false;                 // homes the machine first; the program then starts from the position after
                                      // homing
   bool from_here = false;            // treats the current position as machine zero, whatever was known before

@@ -241,6 +241,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
     if (!way) return code;
     lines.begin_at(*way);
   }
+  opened->sender().follow(target.zero, Seconds(arguments.ahead.value_or(GrblSender::default_ahead.value())));
   return stream(arguments, *opened, lines, check, changes);
 }
 

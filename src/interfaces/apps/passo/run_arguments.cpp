@@ -1,5 +1,6 @@
 #include "run_arguments.hpp"
 
+#include "grbl_connection.hpp"
 #include "picture_names.hpp"
 #include "port_run.hpp"
 #include "program_input.hpp"
@@ -48,6 +49,8 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--physics is only for the simulated machine and emulated boards";
   } else if (!arguments.motors.disturbances.empty() && !arguments.motors.physics && !on_port) {
     words = "--disturb needs --physics: without it, simulated motors follow every command";
+  } else if (arguments.ahead && !names_grbl_machine(arguments.board)) {
+    words = "--ahead is only for --board grbl:; boards of Passo brake by themselves when the connection is lost";
   } else if (arguments.from_line > 0 && arguments.resume) {
     words = "--resume continues at the line where the job stopped, so it cannot be combined with --from-line";
   } else if (arguments.from_line == 0 && (arguments.pass > 0 || arguments.after > 0)) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "kit/strict_grbl.hpp"
 
@@ -22,10 +23,12 @@ struct GrblPair {
     for (const Seconds end = now + most; now < end;) {
       if (is_so()) return true;
       if (each) each();
-      machine.receive(sender.take_bytes(now));
+      const std::string bytes = sender.take_bytes(now);
+      machine.receive(between ? between(true, bytes) : bytes);
       machine.run(0.005);
       now += Seconds(0.005);
-      sender.receive(machine.take_output(), now);
+      const std::string replies = machine.take_output();
+      sender.receive(between ? between(false, replies) : replies, now);
     }
     return is_so();
   }
@@ -48,6 +51,8 @@ struct GrblPair {
   }
 
   Seconds now{0};
+  // What the line makes of the bytes to the board, or from it.
+  std::function<std::string(bool, const std::string&)> between = {};
   StrictGrbl machine;
   GrblSender sender{Seconds(0)};
 };

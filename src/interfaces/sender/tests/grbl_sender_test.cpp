@@ -129,7 +129,9 @@ TEST(GrblSender, overrides_in_grbls_steps) {
   ASSERT_TRUE(pair.greet());
   static_cast<void>(pair.sender.take_bytes(pair.now));
   const auto bytes_of = [&] {
-    std::string bytes = pair.sender.take_bytes(pair.now);
+    std::string bytes;
+    for (int i = 0; i < 200; ++i) bytes += pair.sender.take_bytes(pair.now + Seconds(i * 0.005));
+    pair.now += Seconds(1);
     std::erase(bytes, '?');
     return bytes;
   };

@@ -14,12 +14,17 @@
 // timeout: the handshake, an unacknowledged line, and a state without progress. Only a hold, an open door and a tool
 // change wait for the operator without a limit; waits_for() reports this.
 //
+// After follow(), GrblFollower compares the reports with the path, and marks ($G) in the stream are counted: the answer
+// to a mark must come when all lines before it are answered, so a line that was lost, doubled or cut is noticed. Such a
+// fault holds the machine.
+//
 // Such a machine cannot report its step counts or the line that it executes. The line of a fault is exact for error:n.
 // For an alarm it is a range of lines, because the machine's queue contains lines that it has already acknowledged.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,6 +32,7 @@
 #include <utility>
 
 #include "passo/geometry/axes.hpp"
+#include "passo/sender/grbl_follower.hpp"
 #include "passo/sender/grbl_machine.hpp"
 #include "passo/sender/grbl_reply.hpp"
 #include "passo/sender/grbl_words.hpp"
@@ -43,6 +49,7 @@ class GrblSender {
   static constexpr Seconds longest_silence{5};
   static constexpr Seconds longest_greeting{20};
   static constexpr Seconds longest_standstill{60};
+  static constexpr Seconds default_ahead{1};
 
   // Begins the handshake with the machine at this time. Nothing is sent for 2 s, because an Arduino restarts when its
   // serial port is opened.
@@ -73,6 +80,14 @@ class GrblSender {
   // Adds a line of a program, without its line end. `line`: in the program file. `silence`: how long the machine may
   // not respond because of it (homing, a dwell). Spindle delays are always allowed.
   void add(std::string text, std::uint32_t line = 0, Seconds silence = Seconds(0));
+  // Follows the motion from here on, with the settings that the machine has reported; it must be at rest. At most
+  // `ahead` of motion lies in the machine then: longer lines are sent in pieces. Reported positions are compared with
+  // the path, counts and modes with what was sent; a difference is a fault, at which the machine is held. `zero`: the
+  // work zero of the lines, in machine coordinates. A line that is none of GrblCode's ends the comparison of positions
+  // until the next call. No effect if the machine has reported no steps per unit, or no position.
+  void follow(const Point& zero, Seconds ahead = default_ahead);
+  // Returns how long the machine moves if it gets nothing more. Without follow(): 0.
+  Seconds time_in_machine() { return follower_ ? follower_->time_in_board(now_) : Seconds(0); }
   // Adds a line whose answer take_reply() returns, in the order of the questions. A rejection is no fault.
   void ask(std::string text, Seconds silence = Seconds(0));
   std::optional<GrblAnswer> take_reply() { return window_.take_reply(); }
@@ -81,7 +96,9 @@ class GrblSender {
   // Returns whether each line was sent and acknowledged.
   bool all_answered() const { return window_.all_answered(); }
   // Returns whether all lines were acknowledged and a later report shows that the machine is idle.
-  bool at_rest() const { return all_answered() && reports_.came_after(answered_) && report()->state == "Idle"; }
+  bool at_rest() const {
+    return !fault_ && all_answered() && reports_.came_after(answered_) && report()->state == "Idle";
+  }
   // Returns the size of the machine's receive buffer, as far as it is known.
   std::size_t buffer_size() const { return window_.usable(machine_.bytes); }
   // Returns the number of bytes that may be in the machine's receive buffer.
@@ -145,6 +162,14 @@ class GrblSender {
   void end_with(GrblFault fault);
   GrblFault fault_between_lines(std::string code, std::string message) const;
   GrblFault fault_of_greeting() const;
+  void fail_and_stop(std::string code, std::string message);
+  void fail_and_stop(GrblFollower::Trouble trouble);
+  std::string send_lines(Seconds now);
+  bool wants_mark() const;
+  void hear_modes(std::string_view modes);
+  void answer_mark();
+  void follow_report(const GrblReport& report);
+  void send_overrides();
   void check_silence();
   void check_lost_bytes();
   void check_standstill();
@@ -175,6 +200,17 @@ class GrblSender {
   GrblMachine machine_;
   LastGrblReport reports_;
   std::optional<GrblFault> fault_;
+
+  std::optional<GrblFollower> follower_;
+  std::deque<GrblLineModes> expected_;  // modes at each mark that is not answered yet
+  bool mark_heard_ = false;             // the modes of the oldest mark have come
+  Seconds marked_{0};                   // time of the last mark
+  std::size_t unmarked_ = 0;            // lines sent since
+  std::uint32_t sure_line_ = 0;         // the last line before the last mark that was right
+  std::deque<std::uint32_t> marked_lines_;
+  std::deque<char> override_bytes_;
+  Seconds override_sent_{-1};
+  Seconds polled_{0};
 };
 
 }  // namespace passo

@@ -31,6 +31,8 @@ class UnacknowledgedLines {
     std::uint32_t line = 0;  // line of the program; 0: none
     Seconds silence{0};      // how long the machine may not respond because of it
     Seconds sent{0};
+    bool goes_on = false;  // a piece of a line, not its last one
+    bool marks = false;    // a question of the sender itself, which counts as no line
     bool asks = false;  // its answer is wanted; a rejection is no fault
     std::vector<std::string> said = {};
   };
@@ -39,6 +41,12 @@ class UnacknowledgedLines {
   // Returns the lines that fit into the machine's receive buffer, and marks them as sent. `size`: as reported by the
   // machine.
   std::string send(Seconds now, std::size_t size);
+  // Returns the next line if it fits; null otherwise.
+  const Line* next_fitting(std::size_t size) const;
+  // Marks the next line as sent, and returns it.
+  std::string send_next(Seconds now);
+  // Sends a mark before all waiting lines. Returns whether it fits.
+  bool send_mark(const std::string& text, Seconds now, std::size_t size);
   // Removes and returns the oldest line, which was acknowledged. Empty: the response belongs to none of our lines.
   std::optional<Line> take_answered();
   // Notes what the machine says, if the oldest line asks.
@@ -48,6 +56,7 @@ class UnacknowledgedLines {
   void drop_waiting() { waiting_.clear(); }
   void drop_sent() {
     sent_.clear();
+    lines_answered_ = lines_sent_;
     sent_bytes_ = 0;
   }
 
@@ -62,7 +71,7 @@ class UnacknowledgedLines {
   const Line* oldest() const { return sent_.empty() ? nullptr : &sent_.front(); }
   std::size_t sent_bytes() const { return sent_bytes_; }
   std::uint64_t lines_sent() const { return lines_sent_; }
-  std::uint64_t lines_answered() const { return lines_sent_ - sent_.size(); }
+  std::uint64_t lines_answered() const { return lines_answered_; }
 
   // Program lines. Returns the last one sent; 0 if there was none.
   std::uint32_t last_line() const { return last_line_; }
@@ -77,6 +86,7 @@ class UnacknowledgedLines {
   std::deque<Line> sent_;
   std::size_t sent_bytes_ = 0;
   std::uint64_t lines_sent_ = 0;
+  std::uint64_t lines_answered_ = 0;
   std::size_t empty_buffer_ = std::numeric_limits<std::size_t>::max();
   std::uint32_t last_line_ = 0;
   std::deque<std::uint32_t> held_;

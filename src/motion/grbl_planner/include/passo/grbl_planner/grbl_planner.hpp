@@ -81,6 +81,10 @@ class GrblPlanner {
   // Sets a listener, which receives all phases in the order of the motion.
   void hear(std::function<void(const GrblPhase&)> listener) { listener_ = std::move(listener); }
 
+  // Calls `add` with the end of each chord of an arc.
+  static void each_chord(const Arc& arc, const Point& start, const Point& end, Mm tolerance,
+                         const std::function<void(const Point&)>& add);
+
   // The functions below take the time at which the board has read the line, and return the time at which it has
   // processed it, i.e. when it answers. Times must not decrease.
 
@@ -90,6 +94,20 @@ class GrblPlanner {
   Seconds add_arc(const Arc& arc, const Point& end, MmPerSecond feed, std::uint32_t source, Seconds when);
   // Waits until the board rests, then for `dwell`.
   Seconds wait_for_rest(Seconds dwell, Seconds when);
+
+  // The functions below serve who follows a board in time, and adds a line only when it has a free block.
+  bool full() const { return blocks_.size() >= limits_.blocks; }
+  bool empty() const { return blocks_.empty(); }
+  Seconds now() const { return Seconds(now_); }
+  // Moves until that time.
+  void run(Seconds when) { run_until(when.value()); }
+  // When the first block ends; not without a block.
+  Seconds first_end() const { return Seconds(now_ + profile().time()); }
+  // When the board rests if nothing more is added.
+  Seconds rest_at() const;
+  // The source of the block that moves, and how far along the block the motion is; not without a block.
+  std::uint32_t source() const { return blocks_.front().motion.source; }
+  Mm done_of_first() const { return Mm(done_of_first_); }
 
  private:
   struct Block {
@@ -112,7 +130,8 @@ class GrblPlanner {
   double limit_along(const Point& direction, const PerAxis<double>& limits) const;
   double junction2(const Point& direction) const;
   void plan();
-  Profile profile() const;
+  Profile profile() const { return profile(0, done_of_first_, speed_); }
+  Profile profile(std::size_t index, double done, double speed) const;
   void run_until(double when);
   void move_first(const Profile& profile, double time);
   void add_phase(double acceleration, double time);
