@@ -327,6 +327,7 @@ Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
 // The board may have moved further, or lost steps.
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
+  lent_ = false;
   trouble_ = sentence;
   if (state_ != MachineState::offline) {
     position_.trust = Trust::unknown;
