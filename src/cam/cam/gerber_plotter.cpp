@@ -101,6 +101,7 @@ void GerberPlotter::select(std::uint32_t code) {
 const PlotterAperture* GerberPlotter::aperture() {
   const auto found = apertures_.find(code_);
   if (found != apertures_.end()) return &found->second;
+  if (!undefined_.insert(code_).second) return nullptr;
   if (code_ == 0) {
     findings_.refuse(0, 0, "gerber.no-aperture", "this draws without a selected aperture",
                      "D10 or another aperture first");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -107,7 +108,8 @@ class GerberPlotter {
   GerberFindings& findings_;
   std::vector<Frame> frames_;
   std::map<std::uint32_t, PlotterAperture> apertures_;
-  std::uint32_t code_ = 0;  // number of the selected aperture; 0: none
+  std::set<std::uint32_t> undefined_;  // those that were refused
+  std::uint32_t code_ = 0;             // number of the selected aperture; 0: none
   bool is_dark_ = true;
   GerberPlacement modal_;
   DrawnPoint at_;
