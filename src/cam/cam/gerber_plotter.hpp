@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -108,8 +107,7 @@ class GerberPlotter {
   GerberFindings& findings_;
   std::vector<Frame> frames_;
   std::map<std::uint32_t, PlotterAperture> apertures_;
-  std::set<std::uint32_t> undefined_;  // those that were refused
-  std::uint32_t code_ = 0;             // number of the selected aperture; 0: none
+  std::uint32_t code_ = 0;  // number of the selected aperture; 0: none
   bool is_dark_ = true;
   GerberPlacement modal_;
   DrawnPoint at_;
