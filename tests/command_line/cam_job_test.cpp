@@ -515,6 +515,12 @@ TEST_F(CamJob, scrap_between_copies_that_comes_loose_is_reported) {
   }
   EXPECT_THAT(job("tile.svg", "no-tabs = true\n").err, Not(HasSubstr("job.loose"))) << "tiles are meant to";
   EXPECT_THAT(job("tile.svg", "").err, Not(HasSubstr("job.loose")));
+  // Two discs, which are drawn with chords of two lengths, are not put in the same place.
+  write("disc.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>"
+        "<circle cx='20' cy='20' r='20'/></svg>");
+  EXPECT_EQ(job("disc.svg", "no-tabs = true\n").err, "");
+  EXPECT_LT(record("cut")["nest"]["density"], 0.6);
   const std::string nest = " --tool 6 --depth -3.2 --nest 120,70 --quantity 2 --no-tabs -o " + path("p.ngc");
   const Outcome profile = passo("cam profile " + path("bay.svg") + nest + " --json");
   EXPECT_EQ(profile.code, 0) << profile.err;
