@@ -12,9 +12,13 @@ void add_program(CLI::App& command, ProgramArguments& arguments, const char* wha
   CLI::Option& block_delete =
       *command.add_flag("--block-delete", arguments.block_delete, "skip lines that start with /");
   command
-      .add_option("--dialect", arguments.dialect, "G-code dialect: linuxcnc or grbl (version 1.1; default: linuxcnc)")
+      .add_option(
+          "--dialect", arguments.dialect,
+          "G-code dialect: linuxcnc, grbl (version 1.1) or grblhal, which is read like linuxcnc (default: linuxcnc)")
       ->check([&block_delete](const std::string& name) -> std::string {
-        if (name != "linuxcnc" && name != "grbl") return "'" + name + "' is not a dialect: expected linuxcnc or grbl";
+        if (name != "linuxcnc" && name != "grbl" && name != "grblhal") {
+          return "'" + name + "' is not a dialect: expected linuxcnc, grbl or grblhal";
+        }
         return name == "grbl" && block_delete.count() > 0
                    ? "--block-delete does not work with --dialect grbl: Grbl executes lines that start with /"
                    : "";
