@@ -510,7 +510,7 @@ TEST_F(CamJob, scrap_between_copies_that_comes_loose_is_reported) {
   ASSERT_EQ(loose.size(), 2U);
   for (const auto& piece : loose) {
     EXPECT_EQ(piece["part"], false);
-    EXPECT_NEAR(std::min<double>(piece["width_mm"], piece["length_mm"]), 8, 0.5);
+    EXPECT_NEAR(std::min(piece["width_mm"].get<double>(), piece["length_mm"].get<double>()), 8, 0.5);
     EXPECT_NEAR(piece["area_mm2"], 68, 6);
   }
   EXPECT_THAT(job("tile.svg", "no-tabs = true\n").err, Not(HasSubstr("job.loose"))) << "tiles are meant to";
