@@ -143,16 +143,17 @@ DroppedCutter::DroppedCutter(const HeightGrid& grid, const Cutter& cutter, float
       top = std::max(top, grid.at(x, y));
     }
   }
-  if (goes_on_) keep_frame();
+  if (goes_on_ && !grid.heights.empty()) keep_frame();
 }
 
-// The tip moves as far beyond the grid as the cutter reaches, and the cutter covers as much again.
+// The tip moves as far beyond the grid as the cutter reaches, and the cutter covers as much again. Farther away than
+// the grid is wide, all heights are the same.
 void DroppedCutter::keep_frame() {
-  constexpr std::size_t some_nodes = 1'000'000;
+  constexpr std::size_t some_nodes = 4'000'000;
   const auto columns = static_cast<std::ptrdiff_t>(grid_.columns);
   const auto rows = static_cast<std::ptrdiff_t>(grid_.rows);
-  std::ptrdiff_t wide = static_cast<std::ptrdiff_t>(2 * table_.reach_x() + chunk);
-  std::ptrdiff_t high = static_cast<std::ptrdiff_t>(2 * table_.reach_y());
+  std::ptrdiff_t wide = std::min(columns - 1, static_cast<std::ptrdiff_t>(2 * table_.reach_x() + chunk));
+  std::ptrdiff_t high = std::min(rows - 1, static_cast<std::ptrdiff_t>(2 * table_.reach_y()));
   const auto nodes = [&] { return static_cast<std::size_t>(2 * high * (columns + 2 * wide) + 2 * wide * rows); };
   while (nodes() > grid_.heights.size() + some_nodes) {
     wide /= 2;
@@ -214,9 +215,15 @@ void DroppedCutter::raise(std::ptrdiff_t row, std::ptrdiff_t begin, std::ptrdiff
     done = last;
   };
   const auto raise_slowly = [&](std::ptrdiff_t last) {
-    for (; done < std::min(last, end); ++done)
-      heights[done - begin] = std::max(heights[done - begin], beside(done, row));
+    for (last = std::min(last, end); done < last;) {
+      const float height = beside(done, row);
+      const std::ptrdiff_t stop = done < 1 - columns        ? std::min(last, 1 - columns)
+                                  : done >= 2 * columns - 2 ? last
+                                                            : done + 1;
+      for (; done < stop; ++done) heights[done - begin] = std::max(heights[done - begin], height);
+    }
   };
+  row = std::clamp(row, 1 - rows, 2 * rows - 2);
   if (row >= -frame_y_ && row < rows + frame_y_) {
     raise_slowly(-frame_x_);
     if (row >= 0 && row < rows) {
