@@ -103,6 +103,32 @@ describe('a drawing', () => {
     await expect.poll(async () => (await draft()).text.split('\n').filter((line, index) => line !== before[index])).toEqual(['depth = -2.5']);
     await expect.poll(() => page.getByTestId('job-figures').count(), { timeout: 30_000 }).toBe(4);
     expect(await page.locator('.job-row').nth(0).innerText()).toContain('cut as number');
+    // The tables beside the operations.
+    const field = async (path: string, value: string): Promise<void> => {
+      await page.locator(`[data-path="${path}"]`).fill(value);
+      await page.locator(`[data-path="${path}"]`).press('Enter');
+    };
+    const text = async (): Promise<string> => (await draft()).text;
+    await page.getByText('Tools: 2').click();
+    await field('tool.1.flute_length_mm', '22');
+    await expect.poll(text).toMatch(/\[tool\.1\][^[]*flute_length_mm = 22/);
+    await page.getByRole('button', { name: 'Add tool T3' }).click();
+    await page.locator('[data-path="tool.3.shape"]').selectOption('thread mill');
+    await field('tool.3.neck_diameter_mm', '2');
+    await expect.poll(text).toMatch(/\[tool\.3\]\s*shape = "thread-mill"\s*diameter_mm = 3\s*neck_diameter_mm = 2/);
+    await page.getByText('Clamps: 2').click();
+    await field('clamp.2.height', '5.5');
+    await page.getByRole('button', { name: 'Remove clamp left clamp' }).click();
+    await expect.poll(async () => [(await text()).includes('left clamp'), (await text()).includes('height = 5.5')]).toEqual([false, true]);
+    await page.getByText('Whole job').click();
+    await field('job.clearance', '7');
+    await expect.poll(text).toContain('clearance = 7');
+    await page.getByText('Copies on sheets').click();
+    await field('nest.quantity', '2');
+    await expect.poll(text).toMatch(/\[nest\]\s*quantity = 2/);
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await expect.poll(text).not.toContain('[nest]');
+    expect((await draft()).good).toBe(true);
     expect(await violations(page)).toEqual([]);
     expect(errors).toEqual([]);
     await context.close();

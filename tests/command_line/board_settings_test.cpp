@@ -88,11 +88,14 @@ TEST_F(BoardSettings, become_a_machine_file) {
   EXPECT_EQ(passo("machine " + path("mine.toml")).code, 0);
 
   // FluidNC has its configuration in YAML.
-  const Board fluid{FirmwareFake(test::fluidnc())};
+  test::FirmwareTraits traits = test::fluidnc();
+  traits.about.emplace_back("[MSG:WARN: Low memory: 12000]");
+  const Board fluid{FirmwareFake(traits)};
   outcome = passo("machine --from " + fluid.address());
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("[axis.X]"));
   EXPECT_THAT(outcome.err, HasSubstr("axes/x/steps_per_mm"));
+  EXPECT_THAT(outcome.err, HasSubstr("the board says: WARN: Low memory: 12000"));
 
   EXPECT_EQ(passo("machine --from grbl:tcp:127.0.0.1:1").code, 1);
 }

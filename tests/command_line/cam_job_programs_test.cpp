@@ -66,6 +66,17 @@ TEST_F(CamJobPrograms, for_grbl_change_their_tool_by_hand_and_the_simulation_see
   }
 }
 
+TEST_F(CamJobPrograms, for_grblhal_are_simulated_in_their_dialect) {
+  ASSERT_EQ(passo("cam job " + two_tools("for = \"grblhal\"")).code, 0);
+  const Outcome cut = passo("simulate " + path("two.ngc") + " --tool 1=flat:3 --tool 2=flat:6 --dialect grblhal");
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  EXPECT_THAT(cut.out, HasSubstr("T2 flat end, 6 mm"));
+  EXPECT_EQ(passo("check " + path("two.ngc") + on_router + " --dialect grblhal").code, 0);
+  const Outcome other = passo("simulate " + path("two.ngc") + " --dialect mach3");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("expected linuxcnc, grbl or grblhal"));
+}
+
 TEST_F(CamJobPrograms, of_an_earlier_run_are_removed_if_the_job_does_not_make_them_any_more) {
   ASSERT_EQ(passo("cam job " + two_tools(each_tool)).code, 0);
   write("two-3-T9.ngc", "(somebody else's)\n");

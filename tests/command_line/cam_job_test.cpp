@@ -52,9 +52,9 @@ class CamJob : public passo::test::CommandLine {
 TEST_F(CamJob, every_example_cuts_its_stock_and_nothing_else) {
   const std::vector<JobExample> examples = {
       {"plate", "X0:120,Y0:80,Z-8.5:0", "--tool 1=flat:6 --tool 2=flat:5", 1},
-      {"sign", "X0:180,Y0:60,Z-12.5:0", "--tool 1=vee:60:12 --tool 2=flat:4", 1},
+      {"sign", "X-3:183,Y-3:63,Z-12.5:0", "--tool 1=vee:60:12 --tool 2=flat:4", 1},
       {"finger-box", "X0:300,Y0:170,Z-6.5:0", "--tool 1=flat:3", 1},
-      {"bracket", "X-5:95,Y-5:85,Z-10.5:0", "--tool 1=flat:8 --tool 2=flat:4 --tool 3=vee:90:8", 1},
+      {"bracket", "X-10:100,Y-10:90,Z-10.5:0", "--tool 1=flat:8 --tool 2=flat:4 --tool 3=vee:90:8", 1},
       {"clock", "X-90:90,Y-90:90,Z-8.5:0", "--tool 1=vee:60:6:0.2 --tool 2=flat:3", 1},
       {"guitar", "X-12:218,Y-12:138,Z-20.5:0", "--tool 1=flat:8 --tool 2=flat:5", 1},
       {"coaster", "X-50:50,Y-50:50,Z-8.5:0", "--tool 1=flat:4 --tool 2=ball:4", 1},
@@ -178,6 +178,17 @@ TEST_F(CamJob, a_rapid_over_a_high_clamp_is_an_error_and_a_higher_clearance_solv
   EXPECT_EQ(passo("cam job " + path("small.toml")).code, 0);
 }
 
+TEST_F(CamJob, the_advice_about_a_clamp_names_the_heights_that_are_too_low) {
+  // Above the park position, where the cutter goes at the change height.
+  const std::string clamp = "[[clamp]]\nfrom = [-5, -5]\nto = [5, 5]\nheight = 25\n";
+  const Outcome low = passo("cam job " + small_job("", clamp));
+  EXPECT_EQ(low.code, 2) << low.out;
+  EXPECT_THAT(low.err, HasSubstr("expected: a change-height above 25, the top of"));
+  std::string text = read(path("small.toml"));
+  text.insert(text.find("clearance"), "change-height = 26\n");
+  EXPECT_EQ(passo("cam job " + write("small.toml", text)).code, 0);
+}
+
 TEST_F(CamJob, a_changed_drawing_is_out_of_date_and_the_report_lists_the_differences) {
   const std::string job = small_job();
   EXPECT_EQ(passo("cam job " + job + " --check").code, 1) << "there is no program yet";
@@ -252,9 +263,39 @@ TEST_F(CamJob, a_key_without_effect_is_a_warning_unless_the_whole_job_has_it) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("small.toml:28:17: warning: 'profile pockets': spring-passes has no effect: it works "
                                   "only with finish-pass [job.no-effect]"));
-  std::string text = read(small_job());
-  text.insert(text.find("clearance"), "spring-passes = 2\n");
-  EXPECT_EQ(passo("cam job " + write("small.toml", text)).err, "");
+}
+
+TEST_F(CamJob, a_key_of_the_whole_job_is_a_warning_if_no_operation_uses_it) {
+  const auto with = [&](const std::string& keys, const std::string& more = "") {
+    std::string text = read(small_job("", more));
+    text.insert(text.find("clearance"), keys);
+    return passo("cam job " + write("small.toml", text)).err;
+  };
+  EXPECT_THAT(with("spring-passes = 2\n"), HasSubstr("small.toml:3:17: warning: job.spring-passes has no effect: it "
+                                                     "works only with finish-pass [job.no-effect]"));
+  EXPECT_THAT(with("peck = 2\n"), HasSubstr("job.peck has no effect: no operation has this option"));
+  EXPECT_EQ(with("spring-passes = 2\n",
+                 "[[operation]]\nkind = \"profile\"\ntool = 1\nlayer = \"pockets\"\nside = \"inside\"\n"
+                 "finish-pass = true\nallowance = 0.1\n"),
+            "");
+}
+
+TEST_F(CamJob, a_colour_that_is_none_is_refused_with_what_is_one) {
+  const Outcome made =
+      passo("cam job " + small_job("", "[[operation]]\nkind = \"pocket\"\ntool = 1\ncolor = \"rde\"\ndepth = -1\n"));
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("small.toml:26:9: error: 'pocket rde' cannot have this color [job.bad-value]"));
+  EXPECT_THAT(made.err, HasSubstr("a colour, e.g. red, #f00 or rgb(255, 0, 0), or a number of the palette of DXF"));
+  const std::string drawing = path("small.svg");
+  for (const char* const good : {"red", "DarkRed", "#F00", "'#ff0000'", "'rgb(255, 0, 0)'", "30"}) {
+    const Outcome read = passo("cam profile " + drawing + " --color " + good + " -o /dev/null");
+    EXPECT_THAT(read.err, Not(HasSubstr("expected a colour"))) << good;
+  }
+  for (const char* const wrong : {"rde", "'#ff00'", "257", "red,blue", "'rgb(1)'"}) {
+    const Outcome read = passo("cam drill " + drawing + " --color " + wrong + " -o /dev/null");
+    EXPECT_EQ(read.code, 2) << wrong;
+    EXPECT_THAT(read.err, HasSubstr("--color: expected a colour")) << wrong;
+  }
 }
 
 TEST_F(CamJob, an_operation_on_no_layer_has_its_number_as_its_name) {
@@ -433,10 +474,73 @@ TEST_F(CamJob, copies_lie_on_their_sheets_and_no_cut_enters_another_copy) {
     }
     EXPECT_GT(seen, 30U);
   }
+  // Where the corner of the stock is elsewhere, so are the copies.
+  write("moved.toml", read(path("small.toml")).replace(text.find("thickness"), 0, "corner = [500, 300]\n"));
+  ASSERT_EQ(passo("cam job " + path("moved.toml")).code, 0) << read(path("err"));
+  const nlohmann::json moved = record("moved")["nest"]["sheets"][0]["copies"][0];
+  EXPECT_GT(moved["x_mm"], 500 - 50);
+  EXPECT_GT(moved["y_mm"], 300 - 40);
   const std::string first = read(path("small-1.ngc"));
   ASSERT_EQ(passo("cam job " + path("small.toml")).code, 0);
   EXPECT_EQ(read(path("small-1.ngc")), first);
   EXPECT_EQ(passo("cam job " + path("small.toml") + " --check").code, 0);
+}
+
+// A part with a bay of 20 x 20 mm, whose mouth is 8 mm wide: the slot of 6 mm along its walls leaves 8 x 8 mm, and a
+// cusp in the mouth.
+TEST_F(CamJob, scrap_between_copies_that_comes_loose_is_reported) {
+  write("bay.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>"
+        "<path d='M0,0L40,0L40,16L30,16L30,10L10,10L10,30L30,30L30,24L40,24L40,40L0,40Z'/></svg>");
+  write("tile.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>"
+        "<rect width='40' height='40' rx='3'/></svg>");
+  const auto job = [&](const std::string& drawing, const char* options) {
+    return passo("cam job " + write("cut.toml", "[job]\ndrawing = \"" + drawing +
+                                                    "\"\n[stock]\nsize = [120, 70]\nthickness = 3\n[tool.1]\nshape = "
+                                                    "\"flat\"\ndiameter_mm = 6\n[nest]\nquantity = 2\n[[operation]]\n"
+                                                    "kind = \"profile\"\ntool = 1\ndepth = -3.2\n" +
+                                                    options));
+  };
+  const Outcome island = job("bay.svg", "no-tabs = true\n");
+  EXPECT_EQ(island.code, 0) << island.err;
+  EXPECT_THAT(island.err, HasSubstr("warning: 2 pieces of scrap come loose, the largest of 8"));
+  EXPECT_THAT(island.err, HasSubstr("[job.loose]"));
+  const nlohmann::json loose = record("cut")["loose"][0];
+  ASSERT_EQ(loose.size(), 2U);
+  for (const auto& piece : loose) {
+    EXPECT_EQ(piece["part"], false);
+    EXPECT_NEAR(std::min<double>(piece["width_mm"], piece["length_mm"]), 8, 0.5);
+    EXPECT_NEAR(piece["area_mm2"], 68, 6);
+  }
+  EXPECT_THAT(job("tile.svg", "no-tabs = true\n").err, Not(HasSubstr("job.loose"))) << "tiles are meant to";
+  EXPECT_THAT(job("tile.svg", "").err, Not(HasSubstr("job.loose")));
+  // Two discs, which are drawn with chords of two lengths, are not put in the same place.
+  write("disc.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>"
+        "<circle cx='20' cy='20' r='20'/></svg>");
+  EXPECT_EQ(job("disc.svg", "no-tabs = true\n").err, "");
+  EXPECT_LT(record("cut")["nest"]["density"], 0.6);
+  const std::string nest = " --tool 6 --depth -3.2 --nest 120,70 --quantity 2 --no-tabs -o " + path("p.ngc");
+  const Outcome profile = passo("cam profile " + path("bay.svg") + nest + " --json");
+  EXPECT_EQ(profile.code, 0) << profile.err;
+  EXPECT_THAT(profile.err, HasSubstr("warning: 2 pieces of scrap come loose, the largest of "));
+  EXPECT_EQ(nlohmann::json::parse(profile.out)["nest"]["sheets"][0]["loose"].size(), 2U);
+  const Outcome whole = passo("cam profile " + path("tile.svg") + nest + " --json");
+  EXPECT_THAT(whole.err, Not(HasSubstr("nest.loose")));
+  EXPECT_EQ(nlohmann::json::parse(whole.out)["nest"]["sheets"][0]["loose"].size(), 0U);
+}
+
+TEST_F(CamJob, more_sheets_than_wanted_are_refused) {
+  const std::string order = "cam profile " + checkout +
+                            "/examples/jobs/shelf-bracket.svg --layer outline --nest 450,300 "
+                            "--tool 5 --depth -9.3 --step 3.1 -o " +
+                            path("b.ngc");
+  const Outcome made = passo(order + " --quantity 20 --most-sheets 1");
+  EXPECT_EQ(made.code, 2);
+  EXPECT_THAT(made.err, HasSubstr("--most-sheets: expected at least 2 for 20 copies of each part, found 1"));
+  EXPECT_FALSE(std::filesystem::exists(path("b-1.ngc")));
+  EXPECT_EQ(passo(order + " --quantity 2 --most-sheets 1").code, 0);
 }
 
 // A key that no operation can have is not dropped in silence.

@@ -117,6 +117,7 @@ TEST_F(CamDrill, what_is_wrong_is_told_and_nothing_is_written) {
   EXPECT_EQ(drill(path("none.drl")).code, 2);
   EXPECT_EQ(drill(drill_file() + " --depth 2").code, 2);
   EXPECT_EQ(drill(drill_file() + " --clearance 0.2m").code, 2);
+  EXPECT_EQ(drill(drill_file() + " --depth +-5").code, 2) << "not -5";
   EXPECT_EQ(drill(drill_file() + " --drill 1 --tools 1").code, 2);
   EXPECT_EQ(drill(drill_file() + " -o " + drill_file()).code, 2) << "the file itself would be overwritten";
   EXPECT_FALSE(std::filesystem::exists(path("b.ngc")));
@@ -156,6 +157,32 @@ TEST_F(CamDrill, shapes_of_a_drawing_are_told_as_operations_select_them) {
   EXPECT_EQ(told["shapes"][1]["layer"], "cut");
   EXPECT_NE(passo("cam show --shapes " + drawing + " " + drawing).code, 0);
   EXPECT_NE(passo("cam show --shapes " + write("x.svg", "<svg")).code, 0);
+}
+
+TEST_F(CamDrill, shapes_of_a_dxf_drawing_have_their_colours_and_names) {
+  const std::string drawing = write(
+      "two.dxf",
+      "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nHOLES\n70\n0\n62\n3\n0\nENDTAB\n0\nENDSEC\n"
+      "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nPAD\n10\n0\n20\n0\n0\nCIRCLE\n5\n1F\n8\n0\n62\n0\n10\n0\n20\n0\n40\n1\n"
+      "0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n5\n2A\n8\nHOLES\n10\n5\n20\n5\n40\n2\n"
+      "0\nINSERT\n5\n2B\n2\nPAD\n8\nHOLES\n62\n30\n10\n20\n20\n5\n0\nENDSEC\n0\nEOF\n");
+  const Outcome shown = passo("cam show --shapes " + drawing);
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  const nlohmann::json told = nlohmann::json::parse(shown.out);
+  EXPECT_EQ(told["layers"], nlohmann::json({"HOLES"}));
+  ASSERT_EQ(told["shapes"].size(), 2U) << shown.out;
+  EXPECT_EQ(told["shapes"][0]["color"], "#00ff00") << "that of the layer";
+  EXPECT_EQ(told["shapes"][0]["names"], nlohmann::json({"2A"}));
+  EXPECT_EQ(told["shapes"][1]["layer"], "HOLES");
+  EXPECT_EQ(told["shapes"][1]["color"], "30") << "that of the INSERT";
+  EXPECT_EQ(told["shapes"][1]["names"], nlohmann::json({"1F", "2B", "PAD"}));
+  // What is told selects the shape.
+  for (const char* const by : {"--color 30", "--name 1F", "--name 2B", "--name PAD"}) {
+    const Outcome drilled = drill(drawing + " --drill 2 " + by);
+    EXPECT_EQ(drilled.code, 0) << by << drilled.err;
+    EXPECT_THAT(drilled.out, HasSubstr("X20 Y5")) << by;
+    EXPECT_THAT(drilled.out, testing::Not(HasSubstr("X5 Y5"))) << by;
+  }
 }
 
 // The operations of the API, which a test holds to their description.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "kit/command_line.hpp"
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -187,6 +188,9 @@ TEST_F(CamThread, what_does_not_fit_is_refused_with_what_does) {
       {"--thread M6 --pitch 1 --tool 4.5 --neck 3", "cannot be combined"},
       {"--thread M6 --tool 4.9 --neck 3", "--tool: expected a diameter below that of the bore, 4.91747 mm"},
       {"--thread M6 --tool 4.5 --neck 3.4", "--neck: expected at most 3.37 mm"},
+      {"--thread M6 --tool 1 --neck 0.5", "--tool: expected at least 1.14 mm, so that a neck does not touch the bore"},
+      {"--thread M20x1.5 --external --tool 1 --neck 0.5", "--tool: expected at least 1.9 mm, so that a neck"},
+      {"--thread M20x1.5 --external --tool 9 --neck 7 --hole 18", "--hole: expected more than the root of the thread"},
       {"--thread M6 --tool 4.5 --neck 3 --reach 8 --depth -9", "--depth: expected at most the reach"},
       {"--thread M6 --tool 4.5 --neck 3 --tooth-tip 0.2", "--tooth-tip: expected at most"},
       {"--thread M6 --tool 4.5 --neck 3 --depth -2000", "at most 1000 turns"}};
@@ -222,6 +226,49 @@ TEST_F(CamThread, a_job_checks_that_the_bore_is_there) {
   const Outcome wrong = passo("cam job " + write("d.toml", head + "[[operation]]\nkind = \"pocket\"\ntool = 2\n"));
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("job.wrong-tool"));
+}
+
+// A boss of 20 mm in a pocket of `width` mm, whose middle is `beside` mm to the left of the boss. The mill is 10 mm
+// wide: its teeth reach 20.5 mm from the axis.
+TEST_F(CamThread, a_job_checks_the_room_for_the_teeth_around_a_boss) {
+  const auto job = [&](double width, double beside, const char* depth, const std::string& more = "") {
+    const std::string layer = "<g inkscape:groupmode='layer' inkscape:label=";
+    write("boss.svg",
+          fmt::format("<svg xmlns='http://www.w3.org/2000/svg' "
+                      "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='80mm' height='80mm' "
+                      "viewBox='0 0 80 80'>{0}'clear'><rect x='{1}' y='10' width='{2}' height='60'/><circle cx='40' "
+                      "cy='40' r='10'/>{3}</g>{0}'boss'><circle cx='40' cy='40' r='10'/></g></svg>",
+                      layer, 40 - width / 2 - beside, width, more));
+    return passo(
+        "cam job " +
+        write("boss.toml", fmt::format("[job]\ndrawing = \"boss.svg\"\n[stock]\nsize = [80, 80]\nthickness = 20\n"
+                                       "[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\n[tool.2]\nshape = "
+                                       "\"thread-mill\"\ndiameter_mm = 10\nneck_diameter_mm = 7\n"
+                                       "[[operation]]\nkind = \"pocket\"\ntool = 1\nlayer = \"clear\"\ndepth = {}\n"
+                                       "step = 5\n[[operation]]\nkind = \"thread-mill\"\ntool = 2\nlayer = "
+                                       "\"boss\"\nthread = \"M20x1.5\"\nexternal = true\ndepth = -8\n",
+                                       depth)));
+  };
+  const Outcome good = job(42, 0, "-8.5");
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_THAT(good.out, Not(HasSubstr("the teeth reach")));
+  // The mill comes down at the right. The wall at the left is 18 mm from the axis: only the teeth meet it.
+  const Outcome near_wall = job(42, -3, "-8.5");
+  EXPECT_EQ(near_wall.code, 2) << near_wall.out;
+  EXPECT_THAT(near_wall.err, HasSubstr(" mm into the stock at X21."));
+  EXPECT_THAT(near_wall.err, HasSubstr("beside the boss at X40.00 Y40.00 [job.teeth]"));
+  EXPECT_THAT(near_wall.err, HasSubstr("cleared before, to 20.50 mm from its axis"));
+  EXPECT_THAT(near_wall.err, Not(HasSubstr("job.rapid-in-stock")));
+  // Another boss, of 4 mm, at the left.
+  const Outcome other_boss = job(60, 0, "-8.5", "<circle cx='20' cy='40' r='2'/>");
+  EXPECT_EQ(other_boss.code, 2) << other_boss.out;
+  EXPECT_THAT(other_boss.err, HasSubstr("job.teeth"));
+  const Outcome far_boss = job(60, 0, "-8.5", "<circle cx='16' cy='40' r='2'/>");
+  EXPECT_EQ(far_boss.code, 0) << far_boss.err;
+  // The floor is higher than the lowest tooth.
+  const Outcome shallow = job(42, 0, "-7.8");
+  EXPECT_EQ(shallow.code, 2) << shallow.out;
+  EXPECT_THAT(shallow.err, HasSubstr("the teeth go 0.20 mm into the stock"));
 }
 
 TEST_F(CamThread, coolant_runs_only_where_it_is_wanted) {
@@ -263,6 +310,13 @@ TEST_F(CamThread, a_chamfer_of_a_job_has_a_width_or_the_depth_of_the_tip) {
   const Outcome old = passo("cam job " + write("b.toml", head + "depth = -0.5\n") + " --json");
   ASSERT_EQ(old.code, 0) << old.err;
   EXPECT_NEAR(nlohmann::json::parse(old.out)["operations"][0]["depth_mm"], 0.5, 1e-3);
+  EXPECT_THAT(old.out, Not(HasSubstr("neither chamfer nor depth")));
+  const Outcome usual = passo("cam job " + write("e.toml", head) + " --json");
+  ASSERT_EQ(usual.code, 0) << usual.err;
+  EXPECT_NEAR(nlohmann::json::parse(usual.out)["operations"][0]["depth_mm"], 0.3, 1e-3);
+  EXPECT_THAT(usual.out,
+              HasSubstr("neither chamfer nor depth is given: the tip of the tool follows the edges at a depth "
+                        "of 0.3 mm"));
   const Outcome both = passo("cam job " + write("c.toml", head + "chamfer = 0.5\ndepth = -0.5\n"));
   EXPECT_EQ(both.code, 2);
   EXPECT_THAT(both.err, HasSubstr("the depth follows from the angle"));

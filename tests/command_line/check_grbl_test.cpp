@@ -66,7 +66,8 @@ TEST_F(CheckGrbl, refuses_what_grbl_cannot_do_and_other_boards) {
   EXPECT_THAT(thread.err, HasSubstr("grbl.cannot"));
   const Outcome other = passo("check " + program + " -m " + machines_ + "router.toml --board /dev/ttyUSB7");
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("--board of check takes grbl, grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT"));
+  EXPECT_THAT(other.err,
+              HasSubstr("--board of check takes grbl, grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST"));
 }
 
 // A row of the table in motion-mm/README.md: the time of Grbl 1.1h.

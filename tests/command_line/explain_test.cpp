@@ -112,7 +112,7 @@ TEST_F(Explain, the_dialect_of_grbl_refuses_with_its_numbers) {
 
   const Outcome unknown = passo("canon --dialect fanuc " + file);
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("expected linuxcnc or grbl"));
+  EXPECT_THAT(unknown.err, HasSubstr("expected linuxcnc, grbl or grblhal"));
   const Outcome deleting = passo("canon --dialect grbl --block-delete " + file);
   EXPECT_EQ(deleting.code, 2);
   EXPECT_THAT(deleting.err, HasSubstr("--block-delete does not work with --dialect grbl"));

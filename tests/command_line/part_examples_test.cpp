@@ -17,6 +17,7 @@ using passo::test::FlatPoint;
 using passo::test::on_router;
 using passo::test::Outcome;
 using passo::test::read;
+using passo::test::read_dxf_shapes;
 using passo::test::read_shapes;
 using enum DrawnCut::Kind;
 
@@ -32,6 +33,9 @@ struct ExamplePart {
   double thickness;
   const char* tools;  // for passo simulate
   std::vector<DrawnCut> cuts;
+  FlatPoint corner = {};                            // of the stock
+  std::optional<FlatPoint> zero = FlatPoint{0, 0};  // in the drawing; empty: its lower left corner
+  const char* ending = ".svg";
 };
 
 std::ostream& operator<<(std::ostream& out, const ExamplePart& part) {
@@ -154,7 +158,79 @@ const std::vector<ExamplePart>& parts() {
        120,
        8,
        "--tool 1=flat:6",
-       {{around, "outline", -6, 6}, {pocket, "movement", -5, 6}, {pocket, "hanger", -3, 6}, {pocket, "wire", -3, 6}}}};
+       {{around, "outline", -6, 6}, {pocket, "movement", -5, 6}, {pocket, "hanger", -3, 6}, {pocket, "wire", -3, 6}}},
+      // Letters may be carved as deep as the V-bit goes in their widest strokes.
+      {"sign",
+       186,
+       66,
+       12,
+       "--tool 1=vee:60:12 --tool 2=flat:4",
+       {{around, "outline", -11.7, 4},
+        {.kind = v_groove, .layer = "border", .z = -1},
+        {pocket, "screws", through, 4},
+        {.kind = carved, .z = -5, .low = {40, 17}, .high = {140, 43}}},
+       {-3, -3}},
+      {"finger-box",
+       300,
+       170,
+       6,
+       "--tool 1=flat:3",
+       {{around_with_bones, "sides", -5.3, 3}, {within, "finger holes", -5.7, 3}, {pocket, "grooves", -3, 3}}},
+      {"bracket",
+       110,
+       100,
+       10,
+       "--tool 1=flat:8 --tool 2=flat:4 --tool 3=vee:90:8",
+       {{.kind = face, .z = -0.3},
+        {around, "OUTLINE", -8.3, 8},
+        {pocket, "RECESS", -4, 8},
+        {pocket, "BORES", through, 8},
+        {pocket, "HOLES", through, 4},
+        {outer_chamfer, "OUTLINE", 0.8, 8},
+        {inner_chamfer, "BORES", 0.8, 8}},
+       {-10, -10},
+       FlatPoint{},
+       ".dxf"},
+      {"clock",
+       180,
+       180,
+       8,
+       "--tool 1=vee:60:6:0.2 --tool 2=flat:3",
+       {{around, "outline", -7.7, 3},
+        {.kind = v_groove, .layer = "ticks", .z = -0.8, .tip = 0.2},
+        {.kind = v_groove, .layer = "ring", .z = -0.6, .tip = 0.2},
+        {pocket, "shaft", through, 3}},
+       {-90, -90},
+       FlatPoint{90, 90}},
+      // The ripples of the relief are 80 mm wide.
+      {"coaster",
+       100,
+       100,
+       8,
+       "--tool 1=flat:4 --tool 2=ball:4",
+       {{around, "", -7.7, 4}, {.kind = carved, .z = -2, .low = {7.5, 7.5}, .high = {92.5, 92.5}}},
+       {-50, -50},
+       FlatPoint{50, 50}},
+      {"guitar",
+       230,
+       150,
+       20,
+       "--tool 1=flat:8 --tool 2=flat:5",
+       {{around, "body", -17.3, 8},
+        {pocket, "neck pocket", -12, 5},
+        {pocket, "pickups", -14, 5},
+        {pocket, "controls", -16, 8},
+        {pocket, "bridge", -15, 5}},
+       {-12, -12},
+       std::nullopt},
+      {"gear",
+       90,
+       90,
+       6,
+       "--tool 1=flat:4 --tool 2=flat:2",
+       {{around, "teeth", -5.7, 2}, {pocket, "bore", through, 4}, {pocket, "web", through, 4}},
+       {-45, -45},
+       FlatPoint{50, 50}}};
   return all;
 }
 
@@ -162,7 +238,11 @@ const std::vector<ExamplePart>& parts() {
 class LeftStock {
  public:
   LeftStock(const std::string& stl, const ExamplePart& part, double cell)
-      : cell_(cell), across_(count(part.width)), up_(count(part.length)), thickness_(part.thickness) {
+      : cell_(cell),
+        across_(count(part.width)),
+        up_(count(part.length)),
+        thickness_(part.thickness),
+        corner_(part.corner) {
     heights_.assign(across_ * up_, -1e9F);
     constexpr std::size_t head = 84;
     constexpr std::size_t triangle = 50;
@@ -178,7 +258,7 @@ class LeftStock {
   std::size_t across() const { return across_; }
   std::size_t up() const { return up_; }
   FlatPoint place(std::size_t i, std::size_t j) const {
-    return {(static_cast<double>(i) + 0.5) * cell_, (static_cast<double>(j) + 0.5) * cell_};
+    return {corner_.x + (static_cast<double>(i) + 0.5) * cell_, corner_.y + (static_cast<double>(j) + 0.5) * cell_};
   }
   // Below the stock where it is cut through.
   double height(std::size_t i, std::size_t j) const { return static_cast<double>(heights_[j * across_ + i]); }
@@ -210,8 +290,8 @@ class LeftStock {
   std::size_t count(double length) const { return static_cast<std::size_t>(std::ceil(length / cell_ - 1e-9)); }
   bool is_solid(std::size_t cell) const { return static_cast<double>(heights_[cell]) > -thickness_ + 0.01; }
   void take(const float* xyz) {
-    const double i = static_cast<double>(xyz[0]) / cell_ - 0.5;
-    const double j = static_cast<double>(xyz[1]) / cell_ - 0.5;
+    const double i = (static_cast<double>(xyz[0]) - corner_.x) / cell_ - 0.5;
+    const double j = (static_cast<double>(xyz[1]) - corner_.y) / cell_ - 0.5;
     const double column = std::round(i);
     const double row = std::round(j);
     // The rim of the solid is not at the centre of a cell.
@@ -225,6 +305,7 @@ class LeftStock {
   std::size_t across_;
   std::size_t up_;
   double thickness_;
+  FlatPoint corner_;
   std::vector<float> heights_;
 };
 
@@ -234,7 +315,13 @@ TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
   const ExamplePart& part = GetParam();
   const std::string name = part.name;
   const std::string folder = checkout + "/examples/jobs/";
-  const Outcome made = passo("cam job " + folder + name + ".toml -o " + path("p.ngc"));
+  // One program, whatever the job says.
+  std::string job = read(folder + name + ".toml");
+  if (const std::string each = "programs = \"each-tool\"\n"; job.find(each) != std::string::npos) {
+    job.erase(job.find(each), each.size());
+  }
+  std::filesystem::copy(folder, path("jobs"));
+  const Outcome made = passo("cam job " + write("jobs/" + name + ".toml", job) + " -o " + path("p.ngc"));
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   const Outcome ran = passo("run " + path("p.ngc") + on_router);
@@ -242,12 +329,20 @@ TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
 
   const double cell = part.width > 125 ? 0.5 : 0.3;
   const double tolerance = tolerance_of(cell);
-  const Outcome cut =
-      passo(fmt::format("simulate {} --cell {} --stock X0:{},Y0:{},Z{}:0 {} --stl {} --stl-step 1", path("p.ngc"), cell,
-                        part.width, part.length, -part.thickness, part.tools, path("left.stl")));
+  const Outcome cut = passo(fmt::format("simulate {} --cell {} --stock X{}:{},Y{}:{},Z{}:0 {} --stl {} --stl-step 1",
+                                        path("p.ngc"), cell, part.corner.x, part.corner.x + part.width, part.corner.y,
+                                        part.corner.y + part.length, -part.thickness, part.tools, path("left.stl")));
   ASSERT_EQ(cut.code, 0) << cut.out << cut.err;
   const LeftStock left(read(path("left.stl")), part, cell);
-  const DrawnSolid solid(read_shapes(read(folder + name + ".svg")), part.cuts, part.thickness, tolerance);
+  const std::string drawing = read(folder + name + part.ending);
+  const auto layers = std::string(part.ending) == ".dxf" ? read_dxf_shapes(drawing) : read_shapes(drawing);
+  FlatPoint zero = part.zero.value_or(FlatPoint{1e9, 1e9});
+  if (!part.zero) {
+    for (const auto& [layer, shapes] : layers) {
+      zero = {std::min(zero.x, shapes.low().x), std::min(zero.y, shapes.low().y)};
+    }
+  }
+  const DrawnSolid solid(layers, part.cuts, part.thickness, tolerance);
   std::size_t gouged = 0;
   std::size_t kept = 0;
   std::string places;
@@ -255,7 +350,7 @@ TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
   for (std::size_t j = 0; j < left.up(); ++j) {
     for (std::size_t i = 0; i < left.across(); ++i) {
       const FlatPoint at = left.place(i, j);
-      const DrawnSolid::Heights wanted = solid.at(at);
+      const DrawnSolid::Heights wanted = solid.at({at.x + zero.x, at.y + zero.y});
       if (wanted.wall < tolerance) continue;
       const double height = left.height(i, j);
       const bool is_low = height < wanted.least - tolerance;

@@ -1,17 +1,20 @@
 // DrawnSolid: what a part of examples/jobs should be, from the shapes of its drawing: an oracle for the stock that a
 // job leaves. It shares no code with the readers, the planners or the simulation.
 //
-// It knows the SVG shapes rect, circle and polygon in layers, and asks at a position how high the part is, and how far
-// the walls are. Lengths are mm, Y points up.
+// It knows the SVG shapes rect, circle, polygon, line and path (M, L, C and Z with absolute positions) and the DXF
+// entities CIRCLE and LWPOLYLINE, in layers. It tells for a position how high the part is, and how far the walls are.
+// Lengths are mm, Y points up.
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,9 +28,19 @@ struct FlatPoint {
 };
 using FlatRing = std::vector<FlatPoint>;
 
-// The closed shapes of a layer.
+// The shapes of a layer. Open ones have no inside.
 class DrawnShapes {
  public:
+  void add_line(FlatPoint a, FlatPoint b) {
+    outlines_.push_back({.ring = {a, b},
+                         .low = {std::min(a.x, b.x), std::min(a.y, b.y)},
+                         .high = {std::max(a.x, b.x), std::max(a.y, b.y)}});
+  }
+  FlatPoint low() const {
+    FlatPoint low{1e9, 1e9};
+    for (const Outline& one : outlines_) low = {std::min(low.x, one.low.x), std::min(low.y, one.low.y)};
+    return low;
+  }
   void add(FlatRing ring) {
     Outline outline{.ring = std::move(ring)};
     const std::size_t n = outline.ring.size();
@@ -107,6 +120,109 @@ class DrawnShapes {
   std::vector<Corner> corners_;
 };
 
+// "M 1,2 L3,4 C 5,6 7,8 9,10 Z", with Y downwards from `height`.
+inline FlatRing ring_of_path(const std::string& d, double height) {
+  FlatRing ring;
+  char command = 'M';
+  const char* text = d.c_str();
+  const auto point = [&] {
+    FlatPoint at;
+    int used = 0;
+    if (std::sscanf(text, " %lf,%lf%n", &at.x, &at.y, &used) == 2) text += used;
+    return FlatPoint{at.x, height - at.y};
+  };
+  while (*text != 0) {
+    if (std::isspace(static_cast<unsigned char>(*text)) != 0) {
+      ++text;
+    } else if (std::isalpha(static_cast<unsigned char>(*text)) != 0) {
+      command = *text++;
+    } else if (command == 'C') {
+      const FlatPoint a = ring.back();
+      const FlatPoint b = point();
+      const FlatPoint c = point();
+      const FlatPoint e = point();
+      constexpr int pieces = 60;
+      for (int i = 1; i <= pieces; ++i) {
+        const double t = static_cast<double>(i) / pieces;
+        const double s = 1 - t;
+        const auto mix = [&](double p, double q, double r, double u) {
+          return s * s * s * p + 3 * s * s * t * q + 3 * s * t * t * r + t * t * t * u;
+        };
+        ring.push_back({mix(a.x, b.x, c.x, e.x), mix(a.y, b.y, c.y, e.y)});
+      }
+    } else {
+      ring.push_back(point());
+    }
+  }
+  if (ring.size() > 1 && std::hypot(ring.back().x - ring.front().x, ring.back().y - ring.front().y) < 1e-6)
+    ring.pop_back();
+  return ring;
+}
+
+// From `ring.back()` to `to`, as a DXF polyline goes: the bulge is the tangent of a quarter of the angle.
+inline void add_bulge(FlatRing& ring, FlatPoint to, double bulge) {
+  const FlatPoint from = ring.back();
+  const double angle = 4 * std::atan(bulge);
+  const int pieces = std::max(1, static_cast<int>(std::abs(angle) * 180 / std::numbers::pi));
+  if (std::abs(bulge) > 1e-9) {
+    const double half = std::tan(angle / 2);
+    const FlatPoint centre{(from.x + to.x) / 2 - (to.y - from.y) / 2 / half,
+                           (from.y + to.y) / 2 + (to.x - from.x) / 2 / half};
+    for (int i = 1; i < pieces; ++i) {
+      const double turn = angle * i / pieces;
+      const double x = from.x - centre.x;
+      const double y = from.y - centre.y;
+      ring.push_back(
+          {centre.x + x * std::cos(turn) - y * std::sin(turn), centre.y + x * std::sin(turn) + y * std::cos(turn)});
+    }
+  }
+  ring.push_back(to);
+}
+
+// The layers of a DXF drawing in mm.
+inline std::map<std::string, DrawnShapes> read_dxf_shapes(const std::string& dxf) {
+  std::map<std::string, DrawnShapes> layers;
+  std::istringstream lines(dxf);
+  std::string code;
+  std::string value;
+  std::string kind;
+  std::string layer;
+  std::vector<std::pair<FlatPoint, double>> corners;  // with their bulges
+  double radius = 0;
+  const auto finish = [&] {
+    FlatRing ring;
+    if (kind == "CIRCLE" && !corners.empty()) {
+      const FlatPoint middle = corners.front().first;
+      for (int i = 0; i < 360; ++i) {
+        const double angle = i * std::numbers::pi / 180;
+        ring.push_back({middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
+      }
+    } else if (kind == "LWPOLYLINE" && !corners.empty()) {
+      ring.push_back(corners.front().first);
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        add_bulge(ring, corners[(i + 1) % corners.size()].first, corners[i].second);
+      }
+      ring.pop_back();
+    }
+    if (!ring.empty()) layers[layer].add(std::move(ring));
+    corners.clear();
+  };
+  while (std::getline(lines, code) && std::getline(lines, value)) {
+    const int group = std::atoi(code.c_str());
+    const double number = std::atof(value.c_str());
+    if (group == 0) {
+      finish();
+      kind = value;
+    }
+    if (group == 8) layer = value;
+    if (group == 10) corners.push_back({{number, 0}, 0});
+    if (group == 20 && !corners.empty()) corners.back().first.y = number;
+    if (group == 42 && !corners.empty()) corners.back().second = number;
+    if (group == 40) radius = number;
+  }
+  return layers;
+}
+
 // The layers of an SVG drawing whose units are mm.
 inline std::map<std::string, DrawnShapes> read_shapes(const std::string& svg) {
   const auto attribute = [](std::string_view element, const std::string& name) -> std::string {
@@ -152,6 +268,11 @@ inline std::map<std::string, DrawnShapes> read_shapes(const std::string& svg) {
       } else {
         ring = {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
       }
+    } else if (element.starts_with("<line")) {
+      layers[layer].add_line({number(element, "x1"), height - number(element, "y1")},
+                             {number(element, "x2"), height - number(element, "y2")});
+    } else if (element.starts_with("<path")) {
+      ring = ring_of_path(attribute(element, "d"), height);
     } else if (element.starts_with("<polygon")) {
       const std::string points = attribute(element, "points");
       const char* text = points.c_str();
@@ -172,12 +293,28 @@ inline std::map<std::string, DrawnShapes> read_shapes(const std::string& svg) {
 struct DrawnCut {
   // pocket: the inside of the shapes down to `z`. around, within: a groove as wide as the cutter, outside or inside of
   // the shapes, through the stock except at tabs. outer_chamfer, inner_chamfer: of 45 degrees, as wide as `z`, on the
-  // edges of the shapes, whose inside is the part, or a hole.
-  enum class Kind : std::uint8_t { pocket, around, within, outer_chamfer, inner_chamfer };
+  // edges of the shapes, whose inside is the part, or a hole. around_with_bones: around, with dog-bones in the corners.
+  // face: everything down to `z`. v_groove: along the edges, by a V-bit whose tip is at `z`. carved: a box in which
+  // the height may be anything down to `z`.
+  enum class Kind : std::uint8_t {
+    pocket,
+    around,
+    within,
+    outer_chamfer,
+    inner_chamfer,
+    around_with_bones,
+    face,
+    v_groove,
+    carved
+  };
   Kind kind = Kind::pocket;
   std::string layer = {};
   double z = 0;
-  double cutter = 0;  // diameter of the last cutter
+  double cutter = 0;    // diameter of the last cutter
+  double angle = 60;    // v_groove: degrees
+  double tip = 0;       // v_groove: diameter of the tip
+  FlatPoint low = {};   // carved
+  FlatPoint high = {};  // carved
 };
 
 class DrawnSolid {
@@ -194,17 +331,43 @@ class DrawnSolid {
   Heights at(FlatPoint at) const;
 
  private:
+  // Cuts without an inside. False: it is another one.
+  bool at_line(const DrawnCut& cut, FlatPoint at, Heights& heights) const;
+
   std::map<std::string, DrawnShapes> layers_;
   std::vector<DrawnCut> cuts_;
   double thickness_;
   double tolerance_;
 };
 
+inline bool DrawnSolid::at_line(const DrawnCut& cut, FlatPoint at, Heights& heights) const {
+  using enum DrawnCut::Kind;
+  if (cut.kind == face) {
+    heights.least = std::min(heights.least, cut.z);
+    heights.most = std::min(heights.most, cut.z);
+  } else if (cut.kind == carved) {
+    if (at.x > cut.low.x && at.x < cut.high.x && at.y > cut.low.y && at.y < cut.high.y) {
+      heights.least = std::min(heights.least, cut.z);
+    }
+  } else if (cut.kind == v_groove) {
+    const double steepness = 1 / std::tan(cut.angle * std::numbers::pi / 360);
+    const double wall = layers_.at(cut.layer).distance(at, 10);
+    const double bottom = cut.z + std::max(0.0, wall - cut.tip / 2) * steepness;
+    if (bottom >= 0) return true;
+    heights.least = std::min(heights.least, bottom - steepness * tolerance_);
+    heights.most = std::min(heights.most, bottom + steepness * tolerance_);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 inline DrawnSolid::Heights DrawnSolid::at(FlatPoint at) const {
   using enum DrawnCut::Kind;
   Heights heights;
   bool is_free = false;  // beside the part, where tabs and scrap are
   for (const DrawnCut& cut : cuts_) {
+    if (at_line(cut, at, heights)) continue;
     const DrawnShapes& shapes = layers_.at(cut.layer);
     const bool inside = shapes.contains(at);
     const double wall = shapes.distance(at, std::max(cut.cutter, 2.0) + 1);
@@ -220,7 +383,10 @@ inline DrawnSolid::Heights DrawnSolid::at(FlatPoint at) const {
       }
       continue;
     }
-    const bool is_groove = cut.kind == around || cut.kind == within;
+    const bool has_bones = cut.kind == around_with_bones;
+    // A bone of radius 1 reaches 1.42 from the corner along both walls.
+    if (has_bones && shapes.is_in_corner(at, 1.45 * cut.cutter / 2)) heights.least = -1e9;
+    const bool is_groove = cut.kind == around || cut.kind == within || has_bones;
     if (is_groove) {
       if (inside != (cut.kind == within)) continue;
       is_free = true;

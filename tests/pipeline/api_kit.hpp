@@ -37,7 +37,8 @@ class ApiRun {
  public:
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
                   const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
-                  const ToolTable& known_tools = {}, CamService* maker = nullptr, FirstContact* contact = nullptr)
+                  const ToolTable& known_tools = {}, CamService* maker = nullptr, FirstContact* contact = nullptr,
+                  BoardSettings* settings = nullptr)
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -54,6 +55,7 @@ class ApiRun {
                  },
              .maker = maker,
              .contact = contact,
+             .settings = settings,
              .studies = studies,
              .timer = &timer_}) {}
 

@@ -75,7 +75,8 @@ TEST_F(ApiPorts, are_opened_by_the_client_in_control_only) {
   contact.now.report = R"({"machine_file": "name = 'x'"})";
   EXPECT_EQ(run.get("/ports/open")["report"]["machine_file"], "name = 'x'");
   run.post("/ports/open", R"({"device": "/dev/serial/by-id/uno", "baud": 250000})");
-  EXPECT_EQ(contact.opened, (std::vector<std::string>{"/dev/serial/by-id/uno@115200", "/dev/serial/by-id/uno@250000"}));
+  EXPECT_EQ(contact.opened,
+            (std::vector<std::string>{"grbl:/dev/serial/by-id/uno", "grbl:/dev/serial/by-id/uno@250000"}));
 }
 
 TEST_F(ApiPorts, that_are_in_use_or_not_listed_are_not_opened) {
@@ -84,7 +85,7 @@ TEST_F(ApiPorts, that_are_in_use_or_not_listed_are_not_opened) {
   EXPECT_EQ(run.status, 409U);
   EXPECT_EQ(code_of(busy), "ports.busy");
   EXPECT_EQ(busy["error"]["sentence"]["arguments"]["users"], "cncjs (4711), ?");
-  for (const char* file : {"/etc/passwd", "/dev/ttyS0", "", "/dev/serial/by-id/../../sda"}) {
+  for (const char* file : {"/etc/passwd", "tcp:a b:1", "/dev/ttyS0", "", "/dev/serial/by-id/../../sda"}) {
     EXPECT_EQ(code_of(run.post("/ports/open", Json({{"device", file}}).dump())), "ports.unknown") << file;
   }
   for (const char* body : {"{}", R"({"device": 3})", R"({"device": "/dev/ttyACM0", "baud": -1})",
@@ -92,6 +93,14 @@ TEST_F(ApiPorts, that_are_in_use_or_not_listed_are_not_opened) {
     EXPECT_EQ(code_of(run.post("/ports/open", body)), "http.bad-body") << body;
   }
   EXPECT_TRUE(contact.opened.empty());
+}
+
+TEST_F(ApiPorts, may_be_addresses_in_the_network) {
+  run.own();
+  const Json begun = run.post("/ports/open", R"({"device": "tcp:192.168.1.20:23"})");
+  EXPECT_EQ(run.status, 202U) << begun;
+  EXPECT_EQ(begun["board"], "grbl:tcp:192.168.1.20:23");
+  EXPECT_EQ(contact.opened, (std::vector<std::string>{"grbl:tcp:192.168.1.20:23"}));
 }
 
 TEST_F(ApiPorts, wait_while_the_machine_moves) {

@@ -189,6 +189,30 @@ TEST(ApiCam, edits_a_job_file_and_keeps_all_else) {
     EXPECT_EQ(run.status, 409U) << wrong.substr(0, 40);
     EXPECT_EQ(maker.kept["plate.toml"], good) << wrong.substr(0, 40);
   }
+  for (const char* const no_text : {"7", "null", "[\"[job]\"]"}) {
+    run.post("/cam/job",
+             fmt::format(R"({{"name": "plate.toml", "stamp": {}, "text": {}}})", draft["stamp"].dump(), no_text));
+    EXPECT_EQ(run.status, 400U) << no_text;
+    EXPECT_EQ(maker.kept["plate.toml"], good) << no_text;
+  }
+  // Clamps are a list of their own; tables that are not there are begun.
+  draft =
+      edit(draft["stamp"], R"({"do": "insert", "list": "clamp", "number": 1, "values": {"from": [0, 0], "to": [1, 1],
+                                  "height": 2}}, {"do": "copy", "list": "clamp", "number": 1},
+                                 {"do": "set", "path": "clamp.2.height", "value": 3},
+                                 {"do": "set", "path": "nest.quantity", "value": 2},
+                                 {"do": "set", "path": "tool.2.shape", "value": "flat"},
+                                 {"do": "set", "path": "tool.2.diameter_mm", "value": 3})");
+  EXPECT_EQ(run.status, 200U) << draft;
+  EXPECT_EQ(draft["clamp_paths"], Json({"clamp.1", "clamp.2"}));
+  EXPECT_EQ(draft["clamps"][1]["height"], 3);
+  EXPECT_EQ(draft["nest"]["quantity"], 2);
+  EXPECT_EQ(draft["tool_tables"]["2"]["diameter_mm"], 3);
+  draft = edit(draft["stamp"], R"({"do": "remove", "list": "clamp", "number": 1})");
+  EXPECT_EQ(draft["clamp_paths"], Json::array({"clamp.1"}));
+  EXPECT_EQ(draft["clamps"][0]["height"], 3);
+  edit(draft["stamp"], R"({"do": "remove", "list": "tool", "number": 1})");
+  EXPECT_EQ(run.status, 409U);
   // A text with errors is kept, so that it can be mended.
   draft = run.post("/cam/job",
                    fmt::format(R"({{"name": "plate.toml", "stamp": {}, "text": "[job\n"}})", draft["stamp"].dump()));

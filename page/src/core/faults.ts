@@ -52,6 +52,7 @@ function heldIn(name: string, all: Record<string, string>): Sentence | null {
 // How an argument of that name is shown.
 const shown: Record<string, (value: string, all: Record<string, string>) => string> = {
   finding: (words, all) => reportWords(words, heldIn('finding', all)),
+  why: (words, all) => reportWords(words, heldIn('why', all)),
   words: shownAbort,
   state: (words) => say(`state.${words}` as Key),
   z: shownHeight,

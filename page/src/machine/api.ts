@@ -83,6 +83,15 @@ export interface Motor {
 export type Level = 'high' | 'low';
 export type PinName =
   | 'probe' | 'door' | 'emergency_stop' | 'hold' | 'start' | 'driver_enable' | 'step' | 'spindle' | 'spindle_reverse' | 'mist' | 'flood';
+export type Ability =
+  | 'exact-resume' | 'step-counts' | 'pulses' | 'adaptive-feed' | 'any-override' | 'single-block' | 'door-hold' | 'probe-state'
+  | 'jog' | 'home' | 'home-axis' | 'probe' | 'sleep' | 'set-position' | 'thread';
+export interface MachineAbility {
+  ability: Ability;
+  can: boolean;
+  why: string; // empty: it can
+  sentence: Sentence | null;
+}
 export interface Machine {
   name: string;
   version: string;
@@ -90,6 +99,7 @@ export interface Machine {
   motors: Motor[];
   pins: Record<PinName, Level> & { limits: Level[] }; // the level at which each is on
   highest_rpm: number;
+  abilities: MachineAbility[];
 }
 
 export interface Finding {

@@ -92,13 +92,25 @@ export interface PartKind {
 }
 export const partKinds = signal<readonly PartKind[]>([]);
 
+// A key of a tool of a job file.
+export interface ToolKey {
+  key: string; // "diameter_mm"
+  kind: 'text' | 'choice' | 'flag' | 'number' | 'integer';
+  shapes: string[]; // that have it; none: all
+  choices?: string[]; // the first one is the default, unless one is needed
+  range?: [number, number];
+  needed: boolean;
+}
+export const toolKeys = signal<readonly ToolKey[]>([]);
+
 // They do not change while the daemon runs.
 export async function needOperations(): Promise<void> {
   if (operations.value.length > 0) return;
   await attempt(async () => {
-    const all = await get<{ operations: CamOperation[]; part_kinds: PartKind[] }>('/cam/operations');
+    const all = await get<{ operations: CamOperation[]; part_kinds: PartKind[]; tool_keys: ToolKey[] }>('/cam/operations');
     operations.value = all.operations;
     partKinds.value = all.part_kinds;
+    toolKeys.value = all.tool_keys;
   });
 }
 

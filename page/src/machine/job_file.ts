@@ -24,16 +24,19 @@ export interface JobFile {
   findings: Finding[];
   job: Record<string, Value> | null;
   stock: Record<string, Value> | null;
+  nest: Record<string, Value> | null;
   clamps: Record<string, Value>[];
+  clamp_paths: string[]; // of these: "clamp.1", "fixture.1"
+  tool_tables: Record<string, Record<string, Value>> | null; // the job's own tools, by their numbers
   tools: JobTool[];
   operations: JobOperation[];
 }
 export type Edit =
   | { do: 'set'; path: string; value: Value }
   | { do: 'unset'; path: string }
-  | { do: 'insert'; number: number; values: Record<string, Value> }
-  | { do: 'copy' | 'remove'; number: number }
-  | { do: 'move'; number: number; to: number };
+  | { do: 'insert'; list?: string; number: number; values: Record<string, Value> }
+  | { do: 'copy' | 'remove'; list?: string; number: number }
+  | { do: 'move'; list?: string; number: number; to: number };
 
 // What the record of a job tells of an operation. Operations are in the order in which they are cut.
 export interface CutOperation {

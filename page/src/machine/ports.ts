@@ -82,11 +82,12 @@ export async function needOpened(): Promise<void> {
   });
 }
 
-export async function openPort(port: Port, baud: number): Promise<void> {
+// `device`: of the list; or "tcp:HOST:PORT".
+export async function openPort(device: string, baud?: number): Promise<void> {
   await attempt(async () => {
     await beOwner();
     keptMachine.value = null;
-    opened.value = await post<Opened>('/ports/open', { device: port.device, baud });
+    opened.value = await post<Opened>('/ports/open', baud === undefined ? { device } : { device, baud });
     await followOpened();
   });
 }

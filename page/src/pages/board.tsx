@@ -3,6 +3,7 @@ import { useEffect } from 'preact/hooks';
 import { say } from '../core/language';
 import { isLive } from '../machine/connection';
 import { isSimulated, needOpened, ports } from '../machine/ports';
+import { BoardSettings } from '../parts/board_settings';
 import { NewMachine } from '../parts/new_machine';
 import { PortList } from '../parts/port_list';
 
@@ -18,6 +19,7 @@ export function BoardPart() {
         <PortList />
       </section>
       <NewMachine />
+      <BoardSettings />
     </>
   );
 }

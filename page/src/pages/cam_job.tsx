@@ -12,6 +12,7 @@ import { Reported } from '../parts/reported';
 import { Typed } from '../parts/typed';
 import { forms, type Field } from './cam_forms';
 import { current, hovered } from './cam_job_picture';
+import { Clamps, Nest, Stock, Tools, WholeJob } from './cam_job_tables';
 import { drawingsOf, findingsOf, ownerOf, selectors, textOf, valueOf, wanted } from './cam_job_values';
 
 const kindTitle = (kind: string): string => (isKey(`job.kind.${kind}`) ? say(`job.kind.${kind}` as Key) : kind);
@@ -259,28 +260,6 @@ function OperationForm({ file, index }: { file: JobFile; index: number }) {
   );
 }
 
-function Stock({ file }: { file: JobFile }) {
-  const set = (key: string, value: Value | undefined): void => void edit(value === undefined ? { do: 'unset', path: `stock.${key}` } : { do: 'set', path: `stock.${key}`, value });
-  const row = { 'x-kind': 'place', type: 'string' };
-  const field = (key: 'size' | 'corner' | 'thickness' | 'material', title: Key, kind = row): preact.JSX.Element => (
-    <label class="form-field">
-      <span class="dim">{say(title)}</span>
-      <Typed value={textOf(file.stock?.[key])} take={(typed) => set(key, valueOf(kind, typed))} />
-    </label>
-  );
-  return (
-    <details>
-      <summary>{say('job.stock')}</summary>
-      <div class="form-fields">
-        {field('size', 'job.stock.size')}
-        {field('thickness', 'job.stock.thickness')}
-        {field('corner', 'job.stock.corner')}
-        {field('material', 'job.stock.material', { 'x-kind': 'text', type: 'string' })}
-      </div>
-    </details>
-  );
-}
-
 function JobText({ file }: { file: JobFile }) {
   const [typed, setTyped] = useState<string | null>(null);
   return (
@@ -371,7 +350,15 @@ export function JobPanels() {
             >
               {say('job.add')}
             </Button>
-            {file.editable && <Stock file={file} />}
+            {file.editable && (
+              <>
+                <WholeJob file={file} />
+                <Stock file={file} />
+                <Nest file={file} />
+                <Clamps file={file} />
+                <Tools file={file} />
+              </>
+            )}
             <JobText key={file.name} file={file} />
           </>
         )}

@@ -3,6 +3,7 @@ import type { ComponentChildren } from 'preact';
 import { say } from '../core/language';
 import { notify } from '../core/notices';
 import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
+import { whyUnable } from '../machine/abilities';
 import { whyNoJob, whyNoSetUp } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
@@ -165,7 +166,7 @@ function SetUpPanel() {
         <Button
           kind={status.value?.trust === 'homed' ? 'plain' : 'accent'}
           icon="home"
-          why={canHome ? why : say('jog.home.none')}
+          why={whyUnable('home') || (canHome ? why : say('jog.home.none'))}
           onClick={home}
         >
           {say('jog.home')}

@@ -5,6 +5,7 @@ import { language, say } from '../core/language';
 import { letterScale } from '../core/letters';
 import { confirm } from '../core/question';
 import { theme, themeColour } from '../core/theme';
+import { whyUnable } from '../machine/abilities';
 import { moveAs, whyNoJob, whyNot } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { changedAt, isOn, levelOf, pins, samples, shownFor, type Pin, type Sample } from '../machine/pins';
@@ -278,6 +279,7 @@ function Strip() {
 }
 
 export function PinsPage() {
+  const unable = whyUnable('pulses');
   return (
     <div class="pins-page">
       <div class="pins-side">
@@ -293,7 +295,7 @@ export function PinsPage() {
         </div>
         <Strip />
       </div>
-      <PulseStrip />
+      {unable === '' ? <PulseStrip /> : <p class="dim">{unable}</p>}
     </div>
   );
 }

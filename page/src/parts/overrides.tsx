@@ -1,12 +1,20 @@
 // The overrides, the spindle and the coolant.
 import { signal } from '@preact/signals';
 import { say } from '../core/language';
+import { whyUnable } from '../machine/abilities';
 import { moveAs, whyNot } from '../machine/actions';
 import type { Status } from '../machine/api';
 import { status } from '../machine/connection';
 import { Button } from './button';
 
 type Factor = 'feed' | 'rapids' | 'spindle';
+// A board that plans its own motion has bounds of its own.
+const boardBounds: Record<Factor, { least: number; most: number; step: number }> = {
+  feed: { least: 10, most: 200, step: 10 },
+  rapids: { least: 25, most: 100, step: 25 },
+  spindle: { least: 10, most: 200, step: 10 },
+};
+const boundsOf = (factor: Factor) => (whyUnable('any-override') === '' ? bounds : boardBounds)[factor];
 const bounds: Record<Factor, { least: number; most: number; step: number }> = {
   feed: { least: 0, most: 200, step: 10 },
   rapids: { least: 5, most: 100, step: 25 },
@@ -21,7 +29,7 @@ let sent: Promise<unknown> = Promise.resolve();
 const percentOf = (now: Status, factor: Factor): number => wanted.value[factor] ?? Math.round(now.overrides[factor] * 100);
 
 function set(factor: Factor, percent: number): void {
-  const { least, most } = bounds[factor];
+  const { least, most } = boundsOf(factor);
   const bounded = Math.min(most, Math.max(least, percent));
   wanted.value = { ...wanted.value, [factor]: bounded };
   clearTimeout(settle);
@@ -39,7 +47,7 @@ function Override({ factor }: { factor: Factor }) {
   if (now === null) return null;
   const name = say(`run.${factor}`);
   const percent = percentOf(now, factor);
-  const { most, step } = bounds[factor];
+  const { most, step } = boundsOf(factor);
   const why = whyNot(...anyState);
   return (
     <div class="override" role="group" aria-label={name}>
@@ -63,8 +71,9 @@ function Override({ factor }: { factor: Factor }) {
 
 // Where programs wait for a person.
 function Stop({ name, on }: { name: keyof Status['stops']; on: boolean }) {
+  const unable = name === 'single_block' ? whyUnable('single-block') : '';
   return (
-    <Button pressed={on} why={whyNot(...anyState)} onClick={() => moveAs('/stops', { [name]: !on })}>
+    <Button pressed={on} why={unable || whyNot(...anyState)} onClick={() => moveAs('/stops', { [name]: !on })}>
       {say(`run.stops.${name}`)}
     </Button>
   );

@@ -7,6 +7,7 @@ import { goTo } from '../core/route';
 import { whyNot } from '../machine/actions';
 import { idOf, nameOf, opened, openPort, ports, usersOf, watchPorts, type Port } from '../machine/ports';
 import { Button } from './button';
+import { Typed } from './typed';
 
 const rates = [9600, 57_600, 115_200, 230_400, 250_000, 460_800, 921_600, 1_000_000] as const;
 const rate = signal(115_200);
@@ -21,7 +22,25 @@ async function connect(port: Port): Promise<void> {
   });
   if (!yes) return;
   goTo('machine?part=board');
-  await openPort(port, rate.value);
+  await openPort(port.device, rate.value);
+}
+
+const address = signal('');
+
+// A machine on the network does not restart when it is connected to.
+function Network() {
+  const why = opened.value?.state === 'running' ? say('ports.reading') : whyNot('Idle', 'Alarm', 'Sleep');
+  return (
+    <div class="row">
+      <label class="form-field">
+        <span class="dim">{say('ports.network')}</span>
+        <Typed value={address.value} take={(typed) => (address.value = typed.trim())} placeholder="192.168.1.20:23" aria-label={say('ports.network')} />
+      </label>
+      <Button icon="plug" why={address.value === '' ? say('ports.network.what') : why} label={say('ports.connect.to', { device: say('ports.network') })} onClick={() => openPort(`tcp:${address.value}`)}>
+        {say('ports.connect')}
+      </Button>
+    </div>
+  );
 }
 
 function Row({ port, isBrief }: { port: Port; isBrief: boolean }) {
@@ -76,6 +95,7 @@ export function PortList({ isBrief = false }: { isBrief?: boolean }) {
           </select>
         </label>
       )}
+      {!isBrief && <Network />}
       {!known.sees_all_programs && known.ports.length > 0 && <p class="dim">{say('ports.hidden')}</p>}
     </>
   );

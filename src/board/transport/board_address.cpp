@@ -5,6 +5,7 @@
 namespace passo {
 namespace {
 
+constexpr const char* websocket_port = ":81";  // of FluidNC and grblHAL
 constexpr std::string_view expected =
     ": expected virtual, serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:BOARD or grbl:DEVICE";
 
@@ -29,7 +30,7 @@ bool read_device(std::string_view device, BoardAddress& address) {
   return !device.empty();
 }
 
-// grbl:tcp:HOST:PORT, grbl:serial:DEVICE, grbl:DEVICE
+// grbl:tcp:HOST:PORT, grbl:ws://HOST[:PORT], grbl:serial:DEVICE, grbl:DEVICE
 Result<BoardAddress, std::string> read_grbl_address(std::string_view text) {
   const std::string_view line = text.substr(5);
   BoardAddress address;
@@ -37,6 +38,14 @@ Result<BoardAddress, std::string> read_grbl_address(std::string_view text) {
     auto connection = parse_board_address(line);
     if (!connection) return refuse(text);
     address = std::move(*connection);
+  } else if (line.starts_with("ws://")) {
+    std::string host(line.substr(5));
+    if (host.ends_with('/')) host.pop_back();
+    const bool has_port = host.find(':', host.starts_with('[') ? host.find(']') : 0) != std::string::npos;
+    auto connection = parse_board_address("tcp:" + host + (has_port ? "" : websocket_port));
+    if (!connection || host.find('/') != std::string::npos) return refuse(text);
+    address = std::move(*connection);
+    address.kind = BoardAddress::Kind::websocket;
   } else {
     address.baud = grbl_baud;
     if (!read_device(line.starts_with("serial:") ? line.substr(7) : line, address)) return refuse(text);

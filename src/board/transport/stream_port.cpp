@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "passo/transport/serial_line.hpp"
+#include "passo/transport/websocket_line.hpp"
 
 namespace passo {
 namespace {
@@ -119,9 +120,11 @@ Seconds StreamPort::elapsed() const {
 }
 
 Result<std::unique_ptr<StreamPort>, std::string> open_board(const BoardAddress& address) {
-  const auto open_it = [address] {
-    return address.kind == BoardAddress::Kind::tcp ? connect_tcp(address)
-                                                   : open_serial_line(address.place, address.baud);
+  const auto open_it = [address]() -> Result<int, std::string> {
+    if (address.kind == BoardAddress::Kind::serial) return open_serial_line(address.place, address.baud);
+    Result<int, std::string> connected = connect_tcp(address);
+    const bool is_plain = !connected || address.kind == BoardAddress::Kind::tcp;
+    return is_plain ? connected : open_websocket(*connected, address.place + ":" + address.port);
   };
   const Result<int, std::string> opened = open_it();
   if (!opened) return Failure{opened.error()};

@@ -12,6 +12,16 @@
 namespace passo {
 namespace {
 
+std::int64_t passes_of(const DrillProgramOptions& options) {
+  return std::max<std::int64_t>(1, (-options.depth.count + options.mill_step.count - 1) / options.mill_step.count);
+}
+
+// A circle begins and ends at its right.
+DrawnPoint start_of(const DrillTarget& target) {
+  const DrawnPoint first = target.points.front().at;
+  return target.kind == DrillTarget::Kind::circle ? DrawnPoint{first.x + target.radius, first.y} : first;
+}
+
 class DrillProgram {
  public:
   DrillProgram(const DrillPlan& plan, const DrillProgramOptions& options)
@@ -31,7 +41,6 @@ class DrillProgram {
   }
   void begin();
   void write_tool(const DrillTool& tool, std::size_t number);
-  static DrawnPoint start_of(const DrillTarget& target);
   static bool may_stay_low(const DrillTarget& target, const DrillTarget& next);
   void drill(const DrillTarget& target, bool is_first, bool stays_low);
   void drill_by_moves(const DrillTarget& target, bool stays_low);
@@ -119,12 +128,6 @@ void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool)
   if (in_cycle) line("G80");
 }
 
-// A circle begins at its right.
-DrawnPoint DrillProgram::start_of(const DrillTarget& target) {
-  const DrawnPoint first = target.points.front().at;
-  return target.kind == DrillTarget::Kind::circle ? DrawnPoint{first.x + target.radius, first.y} : first;
-}
-
 // Whether the drill goes from one hole to the next at the feed height.
 bool DrillProgram::may_stay_low(const DrillTarget& target, const DrillTarget& next) {
   constexpr double farthest = 5e6;  // nm
@@ -164,8 +167,7 @@ void DrillProgram::drill_by_moves(const DrillTarget& target, bool stays_low) {
 }
 
 std::vector<Nanometres> DrillProgram::depths() const {
-  const auto turns =
-      std::max<std::int64_t>(1, (-options_.depth.count + options_.mill_step.count - 1) / options_.mill_step.count);
+  const std::int64_t turns = passes_of(options_);
   std::vector<Nanometres> all;
   for (std::int64_t i = 1; i <= turns; ++i) {
     all.push_back({-static_cast<std::int64_t>(std::llround(static_cast<double>(-options_.depth.count) *
@@ -236,6 +238,13 @@ void DrillProgram::arc(DrawnPoint from, DrawnPoint to, double bulge) {
 }
 
 }  // namespace
+
+DrawnPoint end_of_drilling(const DrillPlan& plan, const DrillProgramOptions& options) {
+  const DrillTarget& last = plan.tools.back().targets.back();
+  // An open slot is cut forwards and backwards in turn.
+  const bool is_open = last.kind == DrillTarget::Kind::slot && last.radius.count == 0;
+  return is_open && passes_of(options) % 2 == 1 ? last.points.back().at : start_of(last);
+}
 
 std::string write_drill_program(const DrillPlan& plan, const DrillProgramOptions& options) {
   return DrillProgram(plan, options).write();

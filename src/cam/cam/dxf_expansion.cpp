@@ -144,7 +144,8 @@ void DxfExpansion::add_all(const Entities& entities, const DxfTransform& transfo
       continue;
     }
     if (!selection_.takes(entity, own, around_)) continue;
-    const std::uint32_t drawn = builder_.layer(document_.layers[own].name);
+    const std::string told = options_.tells_shapes ? selection_.told(entity, own, around_) : "";
+    const std::uint32_t drawn = builder_.layer(document_.layers[own].name + told);
     if (entity.kind == DxfKind::polyline) {
       i = add_polyline(entities, i, transform, drawn);
     } else {

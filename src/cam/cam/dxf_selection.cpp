@@ -31,6 +31,16 @@ std::vector<std::string> words_of_colour(DxfColour colour) {
   return words;
 }
 
+// "#ff0000" rather than the number 1.
+std::string usual_word_of(DxfColour colour) {
+  const std::vector<std::string> words = words_of_colour(colour);
+  return words.size() > 1 ? words[1] : words.front();
+}
+
+std::string handle_words(const DxfEntity& entity) {
+  return entity.handle == 0 ? "" : fmt::format("\n{:X}", entity.handle);
+}
+
 }  // namespace
 
 DxfSelection::DxfSelection(const DxfDocument& document, const DxfOptions& options)
@@ -60,6 +70,13 @@ bool DxfSelection::has_name(const DxfEntity& entity, std::uint32_t layer) {
 
 DxfSelection::Around DxfSelection::inside(const DxfEntity& insert, std::uint32_t layer, const Around& around) {
   Around within{colour_of(insert, layer, around), around.is_named};
+  constexpr std::size_t longest = 1000;
+  if (options_.tells_shapes && around.names.size() < longest) {
+    const bool has_block = insert.block < document_.blocks.size();
+    std::string block = has_block ? document_.blocks[insert.block].name.substr(0, longest) : "";
+    std::ranges::replace(block, '\n', ' ');
+    within.names = around.names + handle_words(insert) + (has_block ? "\n" + block : "");
+  }
   if (names_.empty()) return within;
   const bool by_block =
       insert.block < document_.blocks.size() && is_named(capitals_of(document_.blocks[insert.block].name));
@@ -79,6 +96,10 @@ bool DxfSelection::takes(const DxfEntity& entity, std::uint32_t layer, const Aro
     return true;
   }
   return false;
+}
+
+std::string DxfSelection::told(const DxfEntity& entity, std::uint32_t layer, const Around& around) const {
+  return fmt::format("\n{}{}{}", usual_word_of(colour_of(entity, layer, around)), handle_words(entity), around.names);
 }
 
 std::vector<std::string> DxfSelection::missing() const {

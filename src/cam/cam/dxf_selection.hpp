@@ -25,10 +25,13 @@ class DxfSelection {
   struct Around {
     DxfColour colour = dxf_usual_colour;
     bool is_named = false;
+    std::string names = {};  // with DxfOptions::tells_shapes, each after a line break
   };
   // `layer`: of the entity. Returns what an INSERT hands on to its block.
   Around inside(const DxfEntity& insert, std::uint32_t layer, const Around& around);
   bool takes(const DxfEntity& entity, std::uint32_t layer, const Around& around);
+  // What DxfOptions::tells_shapes adds to the name of a layer.
+  std::string told(const DxfEntity& entity, std::uint32_t layer, const Around& around) const;
   // Returns a note for each colour and name that was not found.
   std::vector<std::string> missing() const;
 

@@ -35,6 +35,12 @@ class GerberFindings {
                       .text = std::string(text_.line_of(of, at))});
     return false;
   }
+  // Refuses the command, unless an earlier one was refused for the same reason.
+  bool refuse_once(const char* code, const std::string& message, std::string expected) {
+    const auto is_same = [&](const Diagnostic& one) { return one.file == file_ && one.message == message; };
+    const std::vector<Diagnostic>& all = diagnostics_.all();
+    return std::any_of(all.begin(), all.end(), is_same) ? false : refuse(0, 0, code, message, std::move(expected));
+  }
   // Adds a note, unless the same note exists already.
   void note(std::string words) {
     if (std::find(notes_.begin(), notes_.end(), words) == notes_.end()) notes_.push_back(std::move(words));

@@ -102,11 +102,11 @@ const PlotterAperture* GerberPlotter::aperture() {
   const auto found = apertures_.find(code_);
   if (found != apertures_.end()) return &found->second;
   if (code_ == 0) {
-    findings_.refuse(0, 0, "gerber.no-aperture", "this draws without a selected aperture",
-                     "D10 or another aperture first");
+    findings_.refuse_once("gerber.no-aperture", "this draws without a selected aperture",
+                          "D10 or another aperture first");
   } else {
-    findings_.refuse(
-        0, 0, "gerber.no-aperture", fmt::format("aperture D{} is not defined", code_),
+    findings_.refuse_once(
+        "gerber.no-aperture", fmt::format("aperture D{} is not defined", code_),
         apertures_.empty()
             ? "a definition such as %ADD10C,0.5*%; RS-274-D, with apertures in a separate file, is not supported"
             : "an aperture defined before by %AD...");

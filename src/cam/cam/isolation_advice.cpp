@@ -10,6 +10,7 @@ constexpr Nanometres room_of_cut{6'000};  // that a cutter needs beyond its widt
 struct IsolationTrial {
   std::size_t cutter;
   Nanometres loss;
+  Nanometres least_trace;
 };
 
 // The allowed loss with which a cutter fits into a gap, in steps of 5 um.
@@ -20,9 +21,11 @@ Nanometres loss_for(Nanometres gap, Nanometres width) {
 }
 
 // What could suffice for the narrowest gap: a finer cutter first, then a larger loss.
-std::vector<IsolationTrial> trials_for(Nanometres gap, const std::vector<IsolationCutter>& finer, Nanometres loss,
-                                       Nanometres most_loss) {
+std::vector<IsolationTrial> trials_for(Nanometres gap, const std::vector<IsolationCutter>& finer,
+                                       const IsolationOptions& now, Nanometres most_loss) {
   constexpr std::size_t most_trials = 4;
+  constexpr Nanometres thin_trace{75'000};
+  const Nanometres loss = now.allowed_loss;
   std::vector<IsolationTrial> trials;
   for (const Nanometres allowed : {loss, most_loss}) {
     for (std::size_t i = 0; i < finer.size() && trials.size() < most_trials; ++i) {
@@ -31,12 +34,14 @@ std::vector<IsolationTrial> trials_for(Nanometres gap, const std::vector<Isolati
       const Nanometres used = std::max(needed, loss);
       const bool is_known = std::ranges::any_of(
           trials, [&](const IsolationTrial& trial) { return trial.cutter == i && trial.loss == used; });
-      if (!is_known) trials.push_back({i, used});
+      if (!is_known) trials.push_back({i, used, now.least_trace});
     }
     if (most_loss <= loss) break;
   }
   // A gap that is narrower than that stays; others may come apart.
-  if (trials.empty() && !finer.empty()) trials.push_back({finer.size() - 1, std::max(loss, most_loss)});
+  if (finer.empty()) return trials;
+  if (trials.empty()) trials.push_back({finer.size() - 1, most_loss, now.least_trace});
+  if (now.least_trace > thin_trace && most_loss.count > 0) trials.push_back({finer.size() - 1, most_loss, thin_trace});
   return trials;
 }
 
@@ -48,10 +53,11 @@ std::optional<IsolationAdvice> advise_isolation(const Region& copper, const std:
   if (joined.gaps.empty()) return std::nullopt;
   std::optional<IsolationAdvice> best;
   for (const IsolationTrial& trial :
-       trials_for(joined.gaps.front().width, finer, now.allowed_loss, std::max(most_loss, now.allowed_loss))) {
+       trials_for(joined.gaps.front().width, finer, now, std::max(most_loss, now.allowed_loss))) {
     IsolationOptions options = now;
     *std::ranges::min_element(options.cutters, {}, &IsolationCutter::width) = finer[trial.cutter];
     options.allowed_loss = trial.loss;
+    options.least_trace = trial.least_trace;
     Diagnostics none;
     const IsolationPlan plan = plan_isolation(copper, options, none);
     if (none.any_error()) return best;
@@ -59,7 +65,7 @@ std::optional<IsolationAdvice> advise_isolation(const Region& copper, const std:
     if (proof.damage_mm2 > 0 || !proof.broken.empty()) continue;
     const JoinedNets left = find_joined_nets(copper, known, plan.mill, proof, finer[trial.cutter].width);
     if (left.joined < (best ? best->joined : joined.joined))
-      best = IsolationAdvice{trial.cutter, trial.loss, left.joined, proof.lost_mm2, proof.deepest};
+      best = IsolationAdvice{trial.cutter, trial.loss, trial.least_trace, left.joined, proof.lost_mm2, proof.deepest};
     if (left.joined == 0) break;
   }
   return best;

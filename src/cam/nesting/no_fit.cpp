@@ -120,18 +120,23 @@ Polygons outer_rings(Polygons rings) {
   return rings;
 }
 
-// Whether direction d lies in the turn from a to b, counterclockwise, a included and b not.
-bool is_between(const Spot& d, const Spot& a, const Spot& b) {
+// Whether direction d lies in the turn from a to b, counterclockwise. One end is included.
+enum class IncludedEnd : std::uint8_t { first, last };
+bool is_between(const Spot& d, const Spot& a, const Spot& b, IncludedEnd included) {
   const auto dot = [](const Spot& p, const Spot& q) { return p.X * q.X + p.Y * q.Y; };
   const auto is_same = [&](const Spot& p, const Spot& q) { return cross(p, q) == 0 && dot(p, q) > 0; };
-  if (is_same(d, b)) return false;
-  if (is_same(d, a)) return true;
+  const bool is_first = included == IncludedEnd::first;
+  if (is_same(d, is_first ? b : a)) return false;
+  if (is_same(d, is_first ? a : b)) return true;
   return cross(a, d) > 0 && cross(d, b) > 0;
 }
 
 // The convolution of two counterclockwise rings: a vertex of one and an edge of the other whose direction lies in the
 // turn of the vertex. An edge counts backwards where the ring turns to the right. The edges form closed loops; their
 // winding number is not zero exactly where the rings, one of them moved, overlap.
+//
+// Parallel edges are paired as if ring b were turned by a little to the left. Otherwise each of them would have to come
+// after the other one, and the loops would not close.
 class Convolution {
  public:
   Convolution(const Path& a, const Path& b) : a_(a), b_(b) {
@@ -162,12 +167,15 @@ class Convolution {
 void Convolution::pair_up(bool moves_b) {
   const std::vector<Spot>& edges = moves_b ? along_b_ : along_a_;
   const std::vector<Spot>& turns = moves_b ? along_a_ : along_b_;
+  const IncludedEnd end_of_turn = moves_b ? IncludedEnd::first : IncludedEnd::last;
   for (std::size_t v = 0; v < turns.size(); ++v) {
     const Spot& before = turns[(v + turns.size() - 1) % turns.size()];
     const Spot& after = turns[v];
     const bool is_left = cross(before, after) >= 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      if (!(is_left ? is_between(edges[e], before, after) : is_between(edges[e], after, before))) continue;
+      const Spot& first = is_left ? before : after;
+      const Spot& last = is_left ? after : before;
+      if (!is_between(edges[e], first, last, end_of_turn)) continue;
       const std::size_t end = (e + 1) % edges.size();
       std::size_t from = moves_b ? node(v, e) : node(e, v);
       std::size_t to = moves_b ? node(v, end) : node(end, v);
@@ -275,6 +283,7 @@ Polygons no_fit_polygon(const Polygons& resting, const Polygons& moving) {
       constexpr std::size_t most_quadrangles = 10'000;
       if (loops.empty() && a.size() * b.size() > most_quadrangles) {
         loops = Convolution(convex_hull(a), convex_hull(b)).loops();
+        if (loops.empty()) loops = Convolution(box_of(a), box_of(b)).loops();
       } else if (loops.empty()) {
         ClipperLib::MinkowskiSum(a, b, loops, true);
         loops.push_back(moved({a}, b.front()).front());

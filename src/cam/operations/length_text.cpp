@@ -30,7 +30,10 @@ std::optional<double> take_number(std::string_view& text) {
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     return value;
   };
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;
+  }
   const std::optional<double> value = take();
   if (!value || !text.starts_with('/')) return value;
   text.remove_prefix(1);

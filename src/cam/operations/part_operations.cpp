@@ -34,7 +34,7 @@ std::vector<CamOption> finish_rows(CamFinishArguments& a) {
 // A job file has a table for this.
 std::vector<CamOption> nest_rows(CamNestArguments& a) {
   using enum CamKind;
-  const CamTraits of_nest{.matters_to = cli, .is_of_job = true};
+  const CamTraits of_nest{.matters_to = experts, .is_of_job = true};
   return {
       {"nest", &a.nest, length,
        "W,H: nest the parts of the drawing on sheets of this size, with a program for each sheet", of_nest},
@@ -42,7 +42,7 @@ std::vector<CamOption> nest_rows(CamNestArguments& a) {
        &a.quantity,
        number,
        "nesting: copies of each part",
-       {.range = CamRange{1, 1000}, .matters_to = cli, .is_of_job = true}},
+       {.range = CamRange{1, 1000}, .matters_to = experts, .is_of_job = true}},
       {"gap", &a.gap, length,
        "nesting: gap between two parts (default: as far as two cuts reach, or one without tabs, and 1 mm)", of_nest},
       {"nest-margin", &a.nest_margin, length,
@@ -51,7 +51,12 @@ std::vector<CamOption> nest_rows(CamNestArguments& a) {
        &a.rotations,
        number,
        "nesting: permitted rotations, equally spaced: 1 as drawn, 2 also half a turn (grain), 4 quarter turns",
-       {.range = CamRange{1, 72}, .matters_to = cli, .is_of_job = true}},
+       {.range = CamRange{1, 72}, .matters_to = experts, .is_of_job = true}},
+      {"most-sheets",
+       &a.most_sheets,
+       number,
+       "nesting: refuse to write programs for more sheets than this",
+       {.range = CamRange{1, 1000}, .matters_to = cli, .is_of_job = true}},
   };
 }
 

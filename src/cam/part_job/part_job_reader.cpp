@@ -26,6 +26,15 @@ constexpr std::array<std::string_view, 6> job_tables = {"job", "stock", "nest", 
 
 }  // namespace
 
+std::vector<ToolKey> keys_of_part_tools() {
+  std::vector<ToolKey> keys = tool_keys();
+  for (const NumberKey& key : {feed_key, plunge_key, speed_key}) {
+    keys.push_back({.name = key.name, .least = key.least, .most = key.most});
+  }
+  keys.back().kind = ToolKey::Kind::whole_number;
+  return keys;
+}
+
 void PartJobReader::read() {
   TableReader top(document_.root, "", {}, reporter_);
   for (const std::string_view name : job_tables) top.know(name);
@@ -198,6 +207,7 @@ void PartJobReader::read_job(const TomlEntry& entry) {
     if (!known.contains(option.key) || option.key == "units" || option.key == "tools") continue;
     reader.know(option.key);
     defaults_.entries.push_back(option);
+    job_.defaults.push_back({option.key, option.value.place, true});
   }
   reader.finish(document_.complete, {});
 }

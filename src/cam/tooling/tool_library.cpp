@@ -197,6 +197,40 @@ CuttingTool read_cutting_tool(TableReader& reader, const TomlReporter& reporter,
   return read_tool(reader, reporter, is_complete);
 }
 
+std::vector<ToolKey> tool_keys() {
+  using Shapes = std::vector<CuttingShape>;
+  using enum CuttingShape;
+  const auto number = [](const NumberKey& key, Shapes shapes = {}, bool is_needed = false) {
+    return ToolKey{
+        .name = key.name, .shapes = std::move(shapes), .least = key.least, .most = key.most, .is_needed = is_needed};
+  };
+  const auto whole = [&](const NumberKey& key, Shapes shapes = {}) {
+    ToolKey row = number(key, std::move(shapes));
+    row.kind = ToolKey::Kind::whole_number;
+    return row;
+  };
+  std::vector<std::string_view> shapes;
+  for (const CuttingShape shape : all_shapes) shapes.push_back(name_of(shape));
+  return {{.name = name_key, .kind = ToolKey::Kind::text},
+          {.name = shape_key, .kind = ToolKey::Kind::choice, .choices = std::move(shapes), .is_needed = true},
+          number(diameter_key, {}, true),
+          number(corner_key, {bull}, true),
+          number(angle_key, {vee, taper, drill}),
+          number(tip_key, {vee, taper}),
+          number(neck_key, {thread_mill}, true),
+          number(reach_key, {thread_mill}),
+          number(tooth_tip_key, {thread_mill}),
+          whole(teeth_key, {thread_mill}),
+          number(tooth_pitch_key, {thread_mill}),
+          whole(flutes_key),
+          number(flute_key),
+          number(stick_out_key),
+          number(holder_key),
+          {.name = "centre_cutting", .kind = ToolKey::Kind::flag},
+          {.name = "material", .kind = ToolKey::Kind::choice, .choices = {"carbide", "hss"}},
+          number(rpm_key)};
+}
+
 std::optional<ToolLibrary> ToolLibrary::parse(std::string_view text, const std::string& file,
                                               Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -97,6 +97,10 @@ WebAnswer no_room() {
   return error_answer(507, "programs.no-room", "there are too many programs: delete some first");
 }
 
+WebAnswer no_settings() {
+  return error_answer(404, "settings.none", "this server reads no settings of boards");
+}
+
 WebAnswer no_studies() {
   return error_answer(404, "study.none", "this server runs no studies");
 }

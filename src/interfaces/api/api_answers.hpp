@@ -37,6 +37,7 @@ WebAnswer no_maker();
 WebAnswer no_place();
 WebAnswer no_ports();
 WebAnswer no_room();
+WebAnswer no_settings();
 WebAnswer no_studies();
 // 507: writing failed because the disk is full, or for another reason. `what`: "the job"; `finer`: "job".
 WebAnswer unwritten(std::string_view what, std::string_view finer, std::string why);

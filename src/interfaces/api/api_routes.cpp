@@ -9,6 +9,7 @@
 #include "owner_api.hpp"
 #include "ports_api.hpp"
 #include "programs_api.hpp"
+#include "settings_api.hpp"
 #include "studies_api.hpp"
 
 namespace passo {
@@ -33,6 +34,10 @@ constexpr ApiRoute routes[] = {
     {"GET", "/pulses", "getPulses", anybody, none, &MachineApi::pulses},
     {"GET", "/status", "getStatus", anybody, none, &MachineApi::status},
     {"GET", "/stream", "openStream", anybody, none, &MachineApi::stream},
+
+    {"GET", "/board/settings", "getBoardSettings", anybody, none, &SettingsApi::get, Needs::settings},
+    {"POST", "/board/settings", "useBoardSettings", owner, json, &SettingsApi::begin},
+    {"GET", "/board/settings/file", "getBoardSettingsFile", anybody, none, &SettingsApi::file, Needs::settings},
 
     {"GET", "/cam", "getCam", anybody, none, &CamApi::get, Needs::maker},
     {"POST", "/cam", "beginCam", anybody, json, &CamApi::begin},

@@ -142,7 +142,8 @@ WebAnswer CamApi::get(const ApiCall&) {
 WebAnswer CamApi::operations(const ApiCall&) {
   Json all = Json::array();
   for (const CamOperation& operation : cam_operations()) all.push_back(schema_of(operation));
-  return json_answer(200, {{"operations", std::move(all)}, {"part_kinds", part_kinds_json()}});
+  return json_answer(
+      200, {{"operations", std::move(all)}, {"part_kinds", part_kinds_json()}, {"tool_keys", tool_keys_json()}});
 }
 
 WebAnswer CamApi::picture(const ApiCall& call) {

@@ -66,6 +66,8 @@ WebAnswer CamApi::edit_job_file(const ApiCall& call) {
   const auto name = text_member(said, "name");
   const auto stamp = text_member(said, "stamp");
   if (!name || !stamp) return bad_body("expected \"name\", and the \"stamp\" of the job file that is changed");
+  if (said.contains("text") && !said["text"].is_string())
+    return bad_body("\"text\": expected the text of the job file");
   if (shared_.options.maker == nullptr) return no_maker();
   CamService& maker = *shared_.options.maker;
   const auto before = is_kept(maker, *name) ? maker.content(*name, longest_job_text) : std::nullopt;

@@ -1,6 +1,7 @@
 #include "part_job_draft.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "api_json.hpp"
@@ -131,6 +132,12 @@ class Editor {
   std::size_t number(const char* key) const {
     return edit_.contains(key) && edit_[key].is_number_unsigned() ? edit_[key].get<std::size_t>() : 0;
   }
+  // That of operations, if the edit does not name another one.
+  std::string list() const {
+    const Json named = edit_.is_object() ? edit_.value("list", Json(operation_list)) : Json();
+    const std::string name = named.is_string() ? named.get<std::string>() : "";
+    return name == operation_list || name == "clamp" || name == "fixture" ? name : "";
+  }
   static std::string done(const Status<TomlTextError>& status) { return status ? "" : status.error().message; }
 
   TomlText& text_;
@@ -147,7 +154,7 @@ std::string Editor::insert() {
     if (words.empty()) return fmt::format("{}: expected a number, a text, true, false, or a list of them", key);
     keys.push_back({key, words});
   }
-  return done(text_.insert_table(operation_list, number("number"), keys));
+  return done(text_.insert_table(list(), number("number"), keys));
 }
 
 std::string Editor::apply() {
@@ -159,10 +166,11 @@ std::string Editor::apply() {
     return done(text_.set_words(path(), words));
   }
   if (what == "unset") return done(text_.remove(path()));
+  if (list().empty()) return "\"list\": expected operation, clamp or fixture";
   if (what == "insert") return insert();
-  if (what == "copy") return done(text_.copy_table(operation_list, number("number")));
-  if (what == "move") return done(text_.move_table(operation_list, number("number"), number("to")));
-  if (what == "remove") return done(text_.remove_table(operation_list, number("number")));
+  if (what == "copy") return done(text_.copy_table(list(), number("number")));
+  if (what == "move") return done(text_.move_table(list(), number("number"), number("to")));
+  if (what == "remove") return done(text_.remove_table(list(), number("number")));
   return "\"do\": expected set, unset, insert, copy, move or remove";
 }
 
@@ -183,7 +191,10 @@ Json draft_of_job(const std::string& text, const DraftPlace& place) {
                 {"findings", Json::array()},
                 {"job", nullptr},
                 {"stock", nullptr},
+                {"nest", nullptr},
                 {"clamps", Json::array()},
+                {"clamp_paths", Json::array()},
+                {"tool_tables", nullptr},
                 {"tools", Json::array()},
                 {"operations", Json::array()}};
   Diagnostics syntax(most_sorted_errors);
@@ -196,11 +207,16 @@ Json draft_of_job(const std::string& text, const DraftPlace& place) {
   draft["editable"] = is_fit && document.complete;
   draft["job"] = table_of(document.root, "job");
   draft["stock"] = table_of(document.root, "stock");
-  draft["clamps"] = Json::array();
+  draft["nest"] = table_of(document.root, "nest");
+  draft["tool_tables"] = table_of(document.root, "tool");
   for (const char* const list : {"clamp", "fixture"}) {
     const Json clamps = table_of(document.root, list);
+    std::size_t number = 0;
     for (const Json& clamp : clamps.is_array() ? clamps : Json::array()) {
-      if (clamp.is_object()) draft["clamps"].push_back(clamp);
+      ++number;
+      if (!clamp.is_object()) continue;
+      draft["clamps"].push_back(clamp);
+      draft["clamp_paths"].push_back(fmt::format("{}.{}", list, number));
     }
   }
   draft["operations"] = operations_json(document.root);
@@ -234,6 +250,23 @@ Result<std::string, std::string> edited_job(const std::string& text, const Json&
   // A new value may be too long for a line. The text could then not be edited again.
   if (const std::string why = unfit_for_parser(toml->text()); !why.empty()) return Failure{why};
   return toml->text();
+}
+
+Json tool_keys_json() {
+  constexpr std::array<const char*, 5> kinds = {"text", "choice", "flag", "number", "integer"};
+  Json all = Json::array();
+  for (const ToolKey& key : keys_of_part_tools()) {
+    Json shapes = Json::array();
+    for (const CuttingShape shape : key.shapes) shapes.push_back(std::string(name_of(shape)));
+    Json row = {{"key", std::string(key.name)},
+                {"kind", kinds[static_cast<std::size_t>(key.kind)]},
+                {"shapes", std::move(shapes)},
+                {"needed", key.is_needed}};
+    if (!key.choices.empty()) row["choices"] = std::vector<std::string>(key.choices.begin(), key.choices.end());
+    if (key.most > 0) row["range"] = {key.least, key.most};
+    all.push_back(std::move(row));
+  }
+  return all;
 }
 
 Json part_kinds_json() {

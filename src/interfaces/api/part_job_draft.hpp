@@ -23,7 +23,8 @@ struct DraftPlace {
   std::vector<std::string> files;  // those that were sent
 };
 
-// {"name", "stamp", "text", "editable", "good", "findings", "job", "stock", "clamps", "tools", "operations"}.
+// {"name", "stamp", "text", "editable", "good", "findings", "job", "stock", "nest", "clamps",
+// "clamp_paths", "tool_tables", "tools", "operations"}.
 Json draft_of_job(const std::string& text, const DraftPlace& place);
 
 // Identifies a text, so that an edit of another one is refused.
@@ -31,10 +32,13 @@ std::string stamp_of_job(std::string_view text);
 
 // Applies edits in their order: {"do": "set", "path": "operation.2.depth", "value": -4}, {"do": "unset", "path"},
 // {"do": "insert", "number", "values": {}}, {"do": "copy", "number"}, {"do": "move", "number", "to"},
-// {"do": "remove", "number"}. The error: why none was applied.
+// {"do": "remove", "number"}. The last four are about operations, or about the "list" clamp or fixture. The error: why
+// none was applied.
 Result<std::string, std::string> edited_job(const std::string& text, const Json& edits);
 
 // The kinds of operations with the keys that each has.
 Json part_kinds_json();
+// The keys of a tool, for forms.
+Json tool_keys_json();
 
 }  // namespace passo

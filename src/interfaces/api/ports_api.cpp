@@ -11,6 +11,8 @@ namespace passo {
 namespace {
 
 constexpr std::size_t longest_machine_name = 80;  // of a machine file
+constexpr std::size_t longest_address = 200;
+constexpr unsigned usual_grbl_baud = 115'200;
 
 const char* name_of(ContactResult::State state) {
   switch (state) {
@@ -51,6 +53,11 @@ bool has_members_of(const Json& said, std::string_view one, std::string_view oth
     if (name != one && name != other) return false;
   }
   return true;
+}
+
+bool is_network_address(const std::string& text) {
+  return text.starts_with("tcp:") && text.size() <= longest_address &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7F; });
 }
 
 bool is_file_name(const std::string& name) {
@@ -103,30 +110,38 @@ WebAnswer PortsApi::opened(const ApiCall&) {
   return state_answer(200);
 }
 
+WebAnswer PortsApi::open_board(const std::string& device, const std::string& board) {
+  if (contact().begin(device, board)) return state_answer(202);
+  return error_answer(409, "ports.reading", "a board is being read: wait for its end");
+}
+
 WebAnswer PortsApi::open(const ApiCall& call) {
   const Json said = call.members();
   const Json device = said.value("device", Json());
-  const Json baud = said.value("baud", Json(115'200U));
+  const Json baud = said.value("baud", Json(usual_grbl_baud));
   if (!has_members_of(said, "device", "baud") || !device.is_string() || !baud.is_number_unsigned() || baud < 1200 ||
       baud > 4'000'000) {
-    return bad_body("expected \"device\", a port of GET /ports, and \"baud\", 1200 to 4000000");
+    return bad_body(
+        "expected \"device\", a port of GET /ports or tcp:HOST:PORT, and \"baud\", 1200 to 4000000, of a port");
   }
   if (shared_.options.contact == nullptr) return no_ports();
   if (auto refused = refuse_while_moving()) return std::move(*refused);
-  const Json port = port_named(contact().ports(), device.get<std::string>());
+  const auto name = device.get<std::string>();
+  if (is_network_address(name)) return open_board(name, "grbl:" + name);
+  const Json port = port_named(contact().ports(), name);
   if (port.is_null()) {
     return error_answer(404, "ports.unknown", "there is no such serial port: it may have been unplugged");
   }
   if (!port["users"].empty()) {
     const std::string users = users_of(port);
-    return error_answer(
-        409, "ports.busy",
-        Sentence{.code = "ports.busy", .arguments = {{"users", users}}, .text = "the port is in use by " + users});
+    return error_answer(409, "ports.busy",
+                        Sentence{.code = "ports.busy",
+                                 .arguments = {{"users", users}},
+                                 .text = "the port is in use by " + users});
   }
-  if (!contact().begin(port["lasting_name"].get<std::string>(), baud.get<unsigned>())) {
-    return error_answer(409, "ports.reading", "a port is being read: wait for its end");
-  }
-  return state_answer(202);
+  const auto lasting = port["lasting_name"].get<std::string>();
+  const auto rate = baud.get<unsigned>();
+  return open_board(lasting, fmt::format("grbl:{}{}", lasting, rate == usual_grbl_baud ? "" : fmt::format("@{}", rate)));
 }
 
 WebAnswer PortsApi::keep_machine(const ApiCall& call) {

@@ -21,6 +21,7 @@ class PortsApi {
   WebAnswer keep_machine(const ApiCall& call);
 
  private:
+  WebAnswer open_board(const std::string& device, const std::string& board);
   FirstContact& contact() const { return *shared_.options.contact; }
   std::optional<WebAnswer> refuse_while_moving() const;
   WebAnswer state_answer(unsigned status) const;

@@ -11,6 +11,7 @@
 #include "owner_api.hpp"
 #include "ports_api.hpp"
 #include "programs_api.hpp"
+#include "settings_api.hpp"
 #include "studies_api.hpp"
 #include <fmt/format.h>
 
@@ -34,6 +35,7 @@ std::optional<WebAnswer> what_lacks(Needs needs, const ApiOptions& options) {
   if (needs == Needs::history && options.history == nullptr) return no_history();
   if (needs == Needs::maker && options.maker == nullptr) return no_maker();
   if (needs == Needs::ports && options.contact == nullptr) return no_ports();
+  if (needs == Needs::settings && options.settings == nullptr) return no_settings();
   if (needs == Needs::studies && options.studies == nullptr) return no_studies();
   return {};
 }
@@ -108,6 +110,7 @@ class WebApi::Parts {
   OwnerApi owner_api{shared, jobs};
   PortsApi ports_api{shared, jobs};
   ProgramsApi programs_api{shared, jobs};
+  SettingsApi settings_api{shared, jobs};
   StudiesApi studies_api{shared};
 
  private:
@@ -133,6 +136,7 @@ class WebApi::Parts {
   WebAnswer ask(AnswerOf<OwnerApi> handler, const ApiCall& call) { return (owner_api.*handler)(call); }
   WebAnswer ask(AnswerOf<PortsApi> handler, const ApiCall& call) { return (ports_api.*handler)(call); }
   WebAnswer ask(AnswerOf<ProgramsApi> handler, const ApiCall& call) { return (programs_api.*handler)(call); }
+  WebAnswer ask(AnswerOf<SettingsApi> handler, const ApiCall& call) { return (settings_api.*handler)(call); }
   WebAnswer ask(AnswerOf<StudiesApi> handler, const ApiCall& call) { return (studies_api.*handler)(call); }
 
   Seconds keeps_again_{0};  // what could not be written is tried again then

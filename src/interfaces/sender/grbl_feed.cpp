@@ -23,9 +23,14 @@ std::uint32_t source_line(const PathItem& item) {
 
 }  // namespace
 
-GrblFeed::GrblFeed(Source<PathItem>& path, StoredResults& answers, const Point& zero, bool waits,
+GrblFeed::GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTarget& target, bool waits,
                    bool waits_at_optional)
-    : path_(path), answers_(answers), zero_(zero), code_(zero), waits_(waits), waits_at_optional_(waits_at_optional) {}
+    : path_(path),
+      answers_(answers),
+      zero_(target.zero),
+      code_(target),
+      waits_(waits),
+      waits_at_optional_(waits_at_optional) {}
 
 void GrblFeed::begin_at(const ResumePoint& point, const std::vector<PathItem>& lead_in) {
   for (const PathItem& item : lead_in) write(item);
@@ -118,7 +123,8 @@ void GrblFeed::write(const PathItem& item) {
 // because the machine stands where the last probe move has ended.
 void GrblFeed::write_probe(const Segment& segment) {
   const Point& end = segment.curve.end();
-  std::string text = probe_->probe_toward ? "G38.3" : "G38.5";
+  std::string text = code_.is_by_time() ? "G94" : "";
+  text += probe_->probe_toward ? "G38.3" : "G38.5";
   const Point& start = segment.curve.start();
   for (const Axis axis : all_axes) {
     if (std::abs(end[axis] - start[axis]) < 1e-9) continue;

@@ -10,6 +10,7 @@ namespace passo {
 namespace {
 
 constexpr std::size_t most_alarms = 256;
+constexpr std::size_t most_messages = 50;
 constexpr std::size_t blocks_of_a_mega = 30;  // at least; an Uno has 15
 
 bool is_system(std::string_view name) {
@@ -80,6 +81,8 @@ void GrblMachine::hear(std::string_view line) {
     hear_options(value);
   } else if (name == "NEWOPT") {
     new_options = value;
+  } else if (name == "MSG") {
+    if (messages_.size() < most_messages) messages_.emplace_back(value);
   } else if (name == "KINEMATICS") {
     kinematics = value;
   } else if (name == "AXS") {

@@ -59,6 +59,7 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
   sender_.listen([this](std::string_view line) { hear(line); });
   prepared_ = false;
+  lent_ = false;
   reports_ = 0;
 }
 
@@ -67,7 +68,7 @@ bool GrblMachineSession::busy() const {
 }
 
 bool GrblMachineSession::works() const {
-  return busy() || state_ == MachineState::offline || to_store_.has_value() || !sender_.all_answered();
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered();
 }
 
 // All lines are answered, and the board has reported since that it is idle.
@@ -187,7 +188,7 @@ void GrblMachineSession::poll_idle() {
   } else if (state_ == MachineState::door && report->state == "Idle") {
     move_to(MachineEvent::close_door);
   }
-  if (!to_store_ || state_ != MachineState::idle || locked_ || !rests()) return;
+  if (!to_store_ || lent_ || state_ != MachineState::idle || locked_ || !rests()) return;
   const SavedParameters wanted = *std::exchange(to_store_, {});
   const SavedParameters present = offsets();
   bool is_changed = false;
@@ -234,6 +235,19 @@ SavedParameters GrblMachineSession::offsets(const SavedParameters& kept) const {
 
 void GrblMachineSession::store_offsets(const SavedParameters& parameters) {
   to_store_ = parameters;
+}
+
+// A board in an alarm tells and takes settings, too.
+GrblSender* GrblMachineSession::lend_sender() {
+  if (lent_ || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
+  lent_ = true;
+  return &sender_;
+}
+
+void GrblMachineSession::take_sender_back() {
+  if (!std::exchange(lent_, false)) return;
+  board_ = sender_.machine();
+  ++version_;
 }
 
 std::optional<Refusal> GrblMachineSession::lost_place() const {

@@ -21,10 +21,6 @@ Failure<Refusal> refused(RefusalReason reason) {
   return Failure{Refusal{reason}};
 }
 
-Failure<Refusal> refused_because(std::string why) {
-  return Failure{Refusal{RefusalReason::board_cannot, {{"why", std::move(why)}}}};
-}
-
 bool all_finite(const Point& point) {
   return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
 }
@@ -68,10 +64,12 @@ MachineAbilities GrblMachineSession::abilities() const {
 GrblMachineSession::Answer GrblMachineSession::refuse_ability(Ability ability) const {
   const MachineAbilities all = abilities();
   const Sentence* const why = all.why_not(ability);
-  return refused_because(why != nullptr ? why->text : std::string());
+  if (why == nullptr) return refused(RefusalReason::board_cannot);
+  return Failure{Refusal{RefusalReason::board_cannot, {{"why", why->text}, {"why.code", why->code}}}};
 }
 
 Result<Ticket, Refusal> GrblMachineSession::request(Request wanted) {
+  if (lent_) return refused(RefusalReason::busy);
   return std::visit([this](auto& one) { return handle(one); }, wanted);
 }
 

@@ -44,7 +44,6 @@ void GrblMachineSession::poll_work() {
 void GrblMachineSession::make_feed() {
   Work& work = *work_;
   board_ = sender_.machine();
-  const Point zero = first_work_zero(board_);
   StoredResults& results = work.program            ? work.program->answers()
                            : work.lines != nullptr ? work.lines->answers()
                                                    : work.probe_results;
@@ -52,8 +51,8 @@ void GrblMachineSession::make_feed() {
                            : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines)
                                                    : *work.probe;
   const bool waits = !work.start || work.start->waits_for_operator;
-  work.feed = std::make_unique<GrblFeed>(path, results, zero, waits, stops_.optional_stop);
-  sender_.follow(zero);
+  work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
+  sender_.follow(first_work_zero(board_));
   work.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
   work.feed->watch([this, &work, limits](const PathItem& item) {
@@ -328,6 +327,7 @@ Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
 // The board may have moved further, or lost steps.
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
+  lent_ = false;
   trouble_ = sentence;
   if (state_ != MachineState::offline) {
     position_.trust = Trust::unknown;

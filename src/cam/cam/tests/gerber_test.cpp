@@ -242,6 +242,9 @@ TEST(Gerber, what_is_wrong_is_told_with_its_place) {
   const ReadGerber early = read_mm("D12*\nX0Y0D03*\n");
   EXPECT_EQ(gerber_code(early), "gerber.no-aperture");
   EXPECT_EQ(early.found.all().front().place, (SourceLocation{4, 1, 7}));
+  const ReadGerber separate = read_mm("D12*\nX0Y0D03*\nX1D03*\nX2D01*\nD13*\nX3D03*\nD12*\nX4D03*\n");
+  EXPECT_EQ(separate.found.all().size(), 2U) << "RS-274-D: one error for each aperture";
+  EXPECT_THAT(std::string(separate.found.all().front().expected), testing::HasSubstr("RS-274-D"));
   const ReadGerber digits = read_mm("%ADD10C,1*%D10*\nX0\nY1-2D03*\n");
   EXPECT_EQ(gerber_code(digits), "gerber.bad-number");
   EXPECT_EQ(digits.found.all().front().place, (SourceLocation{5, 1, 4})) << "a command on two lines";

@@ -213,6 +213,25 @@ TEST(IsolationAdvice, is_tried) {
   EXPECT_EQ(isolated(copper, options).proof.joined, 0U);
 }
 
+TEST(IsolationAdvice, thins_traces_only_where_nothing_else_parts_all_nets) {
+  // To part them, each must lose 0.0355 mm of its 0.15 mm.
+  const auto trace = [](double y) { return swept({{spot(0, y), spot(4, y)}}, wide(0.075)); };
+  const Region copper = united(trace(0), trace(0.185));
+  IsolationOptions options = with({0.1});
+  options.allowed_loss = wide(0.03);
+  const auto [plan, proof] = isolated(copper, options);
+  const JoinedNets joined = find_joined_nets(copper, {}, plan.mill, proof, wide(0.1));
+  ASSERT_EQ(joined.joined, 2U);
+  const auto advice = advise_isolation(copper, {}, options, joined, {{wide(0.1), ""}}, wide(0.05));
+  ASSERT_TRUE(advice);
+  EXPECT_EQ(advice->joined, 0U);
+  EXPECT_EQ(advice->least_trace, wide(0.075));
+  options.allowed_loss = advice->allowed_loss;
+  EXPECT_EQ(isolated(copper, options).proof.joined, 2U) << "with the width that traces keep by default";
+  options.least_trace = advice->least_trace;
+  EXPECT_EQ(isolated(copper, options).proof.joined, 0U);
+}
+
 // The board of the examples, with the cutter and the loss that the report advises: its narrowest gap is 0.018 mm.
 TEST(NarrowGaps, every_net_of_the_example_board_comes_apart) {
   Diagnostics findings;

@@ -168,6 +168,32 @@ TEST(Nesting, what_does_not_fit_on_one_sheet_goes_on_the_next) {
   EXPECT_EQ(nest->sheets.size(), 3);
 }
 
+// A circle drawn twice, with chords of two lengths: the corners of both, so it is not convex. After a quarter turn its
+// edges are parallel to those before.
+TEST(Nesting, shapes_with_parallel_edges_keep_their_distance) {
+  for (const auto& [first, second] : {std::pair(100, 149), std::pair(60, 44), std::pair(100, 100), std::pair(4, 4)}) {
+    std::vector<double> angles;
+    for (int i = 0; i < first; ++i) angles.push_back(2 * std::numbers::pi * i / first);
+    for (int i = 0; first != second && i < second; ++i) angles.push_back(2 * std::numbers::pi * i / second);
+    std::ranges::sort(angles);
+    angles.erase(std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < 1e-6; }),
+                 angles.end());
+    DrawnRing ring;
+    for (const double angle : angles) {
+      // Every second corner lies a little inside.
+      const double radius = first == second || ring.size() % 2 == 0 ? 20 : 19.99;
+      ring.push_back(at_mm(radius * std::cos(angle), radius * std::sin(angle)));
+    }
+    const std::vector<NestShape> shapes = {{.name = "disc", .outlines = {ring}, .quantity = 6}};
+    const NestOptions options{
+        .sheet = at_mm(150, 110), .gap = to_nanometres(Mm(7)), .margin = to_nanometres(Mm(7)), .rounds = 60};
+    const auto nest = nest_on_sheets(shapes, options, {});
+    ASSERT_TRUE(nest.has_value());
+    EXPECT_EQ(expect_apart(shapes, options, *nest), 6) << first << " and " << second;
+    EXPECT_LT(nest->density(), 0.85);
+  }
+}
+
 TEST(Nesting, clamps_stay_free) {
   const std::vector<NestShape> shapes = {{.name = "L", .outlines = {l_ring(40, 15)}, .quantity = 12}};
   const NestOptions options{.sheet = at_mm(300, 200),

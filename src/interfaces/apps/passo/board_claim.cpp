@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // A serial line may be named by a link and at any rate; it is one line all the same.
 std::string usual_name(const BoardAddress& address) {
-  if (address.kind == BoardAddress::Kind::tcp) {
+  if (address.kind == BoardAddress::Kind::tcp || address.kind == BoardAddress::Kind::websocket) {
     return "tcp:" + (address.place == "localhost" ? "127.0.0.1" : address.place) + ":" + address.port;
   }
   std::error_code none;

@@ -67,8 +67,9 @@ void add_board_monitor_options(CLI::App& command, BoardMonitorArguments& argumen
 
 void add_board_settings_options(CLI::App& command, BoardSettingsArguments& arguments) {
   command
-      .add_option("BOARD", arguments.board,
-                  "address: grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT; opening a serial port resets an Arduino")
+      .add_option(
+          "BOARD", arguments.board,
+          "address: grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST; opening a serial port resets an Arduino")
       ->required();
   command.add_option("NAME", arguments.names, "show only these settings, with their meaning, e.g. 110 or '$110'");
   CLI::Option* const set =

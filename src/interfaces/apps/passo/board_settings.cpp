@@ -12,6 +12,7 @@
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
+#include "setting_words.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -68,25 +69,6 @@ std::string details_of(const FirmwareSetting& setting) {
   if (setting.needs_restart) add("takes effect when the board has restarted");
   if (setting.read_only) add("in the board's YAML file; cannot be written by its number");
   return text;
-}
-
-ordered_json to_json(const FirmwareSetting& setting) {
-  ordered_json json = {{"name", setting.name},         {"value", setting.value}, {"title", setting.title},
-                       {"unit", setting.unit},         {"group", setting.group}, {"meaning", setting.meaning},
-                       {"kind", name_of(setting.kind)}};
-  json["least"] = setting.least ? ordered_json(*setting.least) : ordered_json();
-  json["most"] = setting.most ? ordered_json(*setting.most) : ordered_json();
-  json["zero_too"] = setting.zero_too;
-  json["choices"] = setting.choices;
-  json["needs_restart"] = setting.needs_restart;
-  json["read_only"] = setting.read_only;
-  return json;
-}
-
-ordered_json to_json(const SettingChange& change) {
-  return {{"name", change.name},   {"before", change.before},           {"wanted", change.wanted},
-          {"value", change.after}, {"written", change.trouble.empty()}, {"trouble", change.trouble},
-          {"also", change.also}};
 }
 
 // What the command does with one board.
@@ -189,7 +171,7 @@ int SettingsRun::print(const std::vector<NamedSetting>& file) {
   if (!arguments_.compare.empty()) {
     json["differences"] = ordered_json::array();
     for (const SettingDifference& one : different) {
-      json["differences"].push_back({{"name", one.name}, {"file", one.in_file}, {"board", one.on_board}});
+      json["differences"].push_back(to_json(one));
       const auto shown = [](const std::string& value) { return value.empty() ? std::string("-") : value; };
       text += fmt::format("{}: {} in the file, {} on the board\n", one.name, shown(one.in_file), shown(one.on_board));
     }
@@ -229,8 +211,8 @@ std::optional<std::vector<NamedSetting>> read_settings_file(const std::string& p
 bool are_good(const BoardSettingsArguments& arguments) {
   if (!names_grbl_machine(arguments.board)) {
     fail(exit_bad_program, arguments.board +
-                               ": only Grbl boards have such settings: expected grbl:DEVICE[@BAUD] or "
-                               "grbl:tcp:HOST:PORT [board.not-grbl]");
+                               ": only Grbl boards have such settings: expected grbl:DEVICE[@BAUD], "
+                               "grbl:tcp:HOST:PORT or grbl:ws://HOST [board.not-grbl]");
     return false;
   }
   for (const std::string& one : arguments.set) {

@@ -17,6 +17,10 @@ constexpr const char* all_drills = "all";
 constexpr std::initializer_list<CuttingShape> drilling_shapes = {CuttingShape::drill, CuttingShape::flat,
                                                                  CuttingShape::bull, CuttingShape::vee};
 
+// The tool of a rack that fits a hole best must make straight walls.
+constexpr std::initializer_list<CuttingShape> rack_shapes = {CuttingShape::drill, CuttingShape::flat,
+                                                             CuttingShape::bull};
+
 // "1, T3" is "1" and "T3".
 std::vector<std::string> items_of(std::string_view list) {
   std::vector<std::string> items;
@@ -67,7 +71,7 @@ int take_rack(ToolShelf& shelf, CamDrillArguments& a, const IsGiven& is_given) {
     }
   } else {
     for (const std::string& item : items_of(a.tools)) {
-      const CuttingTool* const tool = shelf.find("--tools", item, {CuttingShape::drill, CuttingShape::flat});
+      const CuttingTool* const tool = shelf.find("--tools", item, rack_shapes);
       if (shelf.code() != exit_done) return shelf.code();
       if (tool != nullptr) {
         add_drill(shelf, *tool, a, is_given);

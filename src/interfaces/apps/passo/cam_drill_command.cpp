@@ -234,7 +234,7 @@ int cam_drill(const CamDrillArguments& arguments, const WorkProgress& progress, 
       made->tools.push_back(fmt::format("{} {:.4g} mm", tool.is_mill ? "mill" : "drill", to_mm(tool.diameter).value()));
     }
     made->summary = words;
-    made->last = plan.tools.back().targets.back().points.front().at;
+    made->last = end_of_drilling(plan, program);
   } else if (arguments.json) {
     say_summary(json_of(plan), arguments);
   } else if (!arguments.output.empty() && arguments.output != "-") {

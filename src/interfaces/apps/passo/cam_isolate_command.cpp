@@ -239,6 +239,8 @@ std::string advice_words(const CamIsolateArguments& arguments, const PlacedCoppe
   if (advice->allowed_loss != options.allowed_loss) {
     said += fmt::format("{}--allow-loss {:g}mm", said.empty() ? "" : " ", to_mm(advice->allowed_loss).value());
   }
+  if (advice->least_trace != options.least_trace)
+    said += fmt::format("{}--least-trace {:g}mm", said.empty() ? "" : " ", to_mm(advice->least_trace).value());
   return fmt::format("{} was tried: {} ({})", said,
                      advice->joined == 0 ? "all nets are apart"
                                          : fmt::format("{} still joined", counted(advice->joined, "net") +

@@ -1,5 +1,6 @@
 #include "cam_job.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -7,6 +8,8 @@
 #include "named_files.hpp"
 #include "picture_names.hpp"
 #include "progress_display.hpp"
+
+#include "passo/cam/drawn_colour.hpp"
 
 namespace passo {
 
@@ -39,6 +42,15 @@ int write_picture(const std::string& path, const std::string& title, const MillS
   return write_picture(path, title, [&](const PictureOptions& options, OutputFile& file) {
     return draw_mill_plan(scene, options, file);
   });
+}
+
+void refuse_wrong_colours(const std::vector<std::string>& colors, LengthArguments& lengths) {
+  const auto wrong = std::ranges::find_if_not(colors, [](const std::string& one) { return is_drawn_colour(one); });
+  if (wrong == colors.end()) return;
+  lengths.refuse(
+      fmt::format("--color: expected a colour, e.g. red, #f00 or rgb(255, 0, 0), or a number of the palette "
+                  "of DXF, found '{}'",
+                  *wrong));
 }
 
 ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths) {

@@ -17,6 +17,8 @@
 
 namespace passo {
 
+void refuse_wrong_colours(const std::vector<std::string>& colors, LengthArguments& lengths);
+
 // `Arguments`: a struct with `scale`, `input` and `layers`.
 template <class Arguments>
 DxfOptions dxf_options_of(const Arguments& arguments, double unit_mm, LengthArguments& lengths) {
@@ -29,6 +31,7 @@ DxfOptions dxf_options_of(const Arguments& arguments, double unit_mm, LengthArgu
     options.unit = Mm(scale * (arguments.input.empty() ? unit_mm : *mm_of_unit(arguments.input)));
   }
   options.layers = arguments.layers;
+  if constexpr (requires { arguments.colors; }) refuse_wrong_colours(arguments.colors, lengths);
   return options;
 }
 

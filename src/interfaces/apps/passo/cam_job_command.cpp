@@ -8,6 +8,7 @@
 #include "cam_profile_nest.hpp"
 #include "cam_program.hpp"
 #include "cam_tools.hpp"
+#include "loose_pieces.hpp"
 #include "named_files.hpp"
 #include "part_job_nest.hpp"
 #include "part_job_operation.hpp"
@@ -32,10 +33,12 @@ struct JobRun {
   std::string text;  // of the job file
   std::string output = {};
   std::string fingerprint = {};
+  PartJobZero zero = {};
   std::vector<OrderedOperation> order = {};
   std::vector<MadeOperation> made = {};  // as in PartJob::operations
   std::optional<NestedJob> nested = {};
   std::vector<TrialProgram> programs = {};
+  std::vector<std::vector<LoosePiece>> loose = {};  // on each sheet
 
   std::size_t sheets() const { return nested ? nested->nest.sheets.size() : 1; }
 };
@@ -140,13 +143,36 @@ Trial all_of_trials(const std::vector<Trial>& trials) {
   return all;
 }
 
-std::vector<Trial> try_sheets(const JobRun& run, Diagnostics& findings) {
+// Without tabs, parts and the scrap in their holes are meant to come loose.
+void find_loose_pieces(JobRun& run, const HeightField& left, std::size_t sheet, Diagnostics& findings) {
+  const Region parts = run.nested ? run.nested->outlines_on(sheet, *run.job.stock) : outline_of_part(run.job, run.zero);
+  std::vector<LoosePiece> pieces = pieces_cut_free(left, parts);
+  const bool has_no_tabs = std::ranges::any_of(run.job.operations, [](const PartOperation& operation) {
+    const auto* const profile = std::get_if<CamProfileArguments>(&operation.arguments);
+    return profile != nullptr && profile->no_tabs;
+  });
+  if (has_no_tabs) std::erase_if(pieces, &LoosePiece::is_part);
+  if (!pieces.empty()) {
+    Diagnostic finding = of_file("job.loose", run.job.file, describe(pieces, run.sheets() > 1 ? sheet + 1 : 0),
+                                 "tabs, a larger nest.gap, or tape or a vacuum below the stock");
+    finding.severity = Severity::warning;
+    findings.add(std::move(finding));
+  }
+  run.loose.push_back(std::move(pieces));
+}
+
+std::vector<Trial> try_sheets(JobRun& run, Diagnostics& findings) {
   std::vector<Trial> trials;
   for (std::size_t sheet = 0; sheet < run.sheets(); ++sheet) {
     std::vector<TrialProgram> programs;
     std::ranges::copy_if(run.programs, std::back_inserter(programs),
                          [&](const TrialProgram& program) { return program.sheet == sheet; });
     trials.push_back(try_programs(run.job, programs, findings));
+    // A field for each of many sheets would need much memory.
+    if (std::optional<HeightField>& left = trials.back().field; left) {
+      if (run.job.stock) find_loose_pieces(run, *left, sheet, findings);
+      left.reset();
+    }
   }
   return trials;
 }
@@ -155,6 +181,7 @@ std::vector<Trial> try_sheets(const JobRun& run, Diagnostics& findings) {
 bool make_operations(JobRun& run, Diagnostics& findings, const WorkProgress& progress) {
   const std::optional<PartJobZero> zero = find_zero(run.job, findings);
   if (!zero) return false;
+  run.zero = *zero;
   TemporaryFolder folder;
   if (!folder.make()) {
     findings.add(of_file("job.operation", run.job.file, "a temporary folder cannot be created", "space in TMPDIR"));
@@ -402,6 +429,7 @@ int make_job(JobRun& run, const WorkProgress& progress) {
     findings.add(run.job.finding("job.two-tools", operation.place, fmt::format("'{}' needs two tools", operation.title),
                                  "programs = \"one\""));
   }
+  warn_of_idle_defaults(run.job, findings);
   const bool is_made = make_operations(run, findings, progress);
   if (!is_made || findings.any_error()) {
     show(findings, run.job.file);
@@ -433,7 +461,8 @@ int make_job(JobRun& run, const WorkProgress& progress) {
     run.made[i].notes.insert(run.made[i].notes.end(), notes.begin(), notes.end());
   }
   nlohmann::ordered_json record = record_of({run.job, run.order, run.made, trial, run.programs, run.fingerprint});
-  if (run.nested) record["nest"] = nest_json(run.nested->nest, run.nested->options);
+  if (run.nested) record["nest"] = nest_json(run.nested->nest, run.nested->options, corner_of(*run.job.stock));
+  for (const auto& pieces : run.loose) record["loose"].push_back(loose_json(pieces));
   const std::vector<std::string> changes = before ? changes_of(*before, record) : std::vector<std::string>();
   const std::string text = record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (const auto written = write_all(run, text); !written) return fail(exit_failed, written.error().message);

@@ -24,7 +24,8 @@ DrawnBox box_of(const Drawing& drawing) {
   return bounds(Region{rows}).value_or(DrawnBox{});
 }
 
-// What is drawn lies on the material.
+}  // namespace
+
 void check_sheet(const DrawnBox& sheet, const DrawnBox& box, const std::string& file, Diagnostics& findings) {
   const bool fits = box.least.x >= sheet.least.x && box.least.y >= sheet.least.y && box.most.x <= sheet.most.x &&
                     box.most.y <= sheet.most.y;
@@ -37,8 +38,6 @@ void check_sheet(const DrawnBox& sheet, const DrawnBox& box, const std::string& 
           to_mm(sheet.most.x).value(), to_mm(sheet.most.y).value()),
       "--zero lower-left, another --scale, or a larger --sheet"));
 }
-
-}  // namespace
 
 std::optional<Drawing> read_drawings(const CamMillArguments& arguments, const MillJob& job) {
   Diagnostics findings;

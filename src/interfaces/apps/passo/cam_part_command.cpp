@@ -7,6 +7,7 @@
 #include "cam_program.hpp"
 #include "cam_tools.hpp"
 #include "chamfer_cut.hpp"
+#include "loose_pieces.hpp"
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
@@ -248,14 +249,43 @@ std::optional<CutProfile> cut_profile(const CamProfileArguments& arguments, cons
   return made;
 }
 
+// Islands of scrap between the slots, and parts that have lost their tabs. Without tabs, parts are meant to come loose.
+std::vector<LoosePiece> loose_pieces_of(const CutProfile& cut, const ProfileOptions& options,
+                                        const NestedDrawing& nested, std::size_t sheet) {
+  if (nested.nest.sheets[sheet].placements.size() < 2) return {};
+  std::vector<LoosePiece> pieces =
+      pieces_cut_free(cut.plan.outline.mill, options.cut.depth, DrawnBox{{}, nested.options.sheet}, cut.plan.face);
+  if (options.cut.tabs == 0) std::erase_if(pieces, &LoosePiece::is_part);
+  return pieces;
+}
+
+void warn_of_loose_pieces(const std::vector<std::vector<LoosePiece>>& sheets, const std::string& file) {
+  Diagnostics findings;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    if (sheets[i].empty()) continue;
+    Diagnostic finding = of_file("nest.loose", file, describe(sheets[i], sheets.size() > 1 ? i + 1 : 0),
+                                 "a larger --gap, or tape or a vacuum below the sheet");
+    finding.severity = Severity::warning;
+    findings.add(std::move(finding));
+  }
+  show(findings);
+}
+
 // A program for each sheet; all are planned before the first is written.
 int cut_sheets(const CamProfileArguments& arguments, MillJob& job, const ProfileOptions& options,
                const NestedDrawing& nested, const WorkProgress& progress) {
   const std::size_t sheets = nested.sheets.size();
+  if (sheets > arguments.most_sheets) {
+    return fail(exit_bad_program,
+                fmt::format("--most-sheets: expected at least {} for {} of each part, found {}; or "
+                            "fewer copies or a larger --nest",
+                            sheets, counted(arguments.quantity, "copy", "copies"), arguments.most_sheets));
+  }
   if (sheets > 1 && (arguments.output.empty() || arguments.output == "-")) {
     return fail(exit_bad_program, fmt::format("{} sheets have a program each; --output must name a file", sheets));
   }
   std::vector<CutProfile> cuts;
+  std::vector<std::vector<LoosePiece>> loose;
   std::vector<CamProfileArguments> orders(sheets, arguments);
   for (std::size_t i = 0; i < sheets; ++i) {
     orders[i].output = sheet_file(arguments.output, i, sheets);
@@ -263,14 +293,17 @@ int cut_sheets(const CamProfileArguments& arguments, MillJob& job, const Profile
     if (sheets > 1 && !outputs_are_good(orders[i], "")) return exit_bad_program;
     auto cut = cut_profile(arguments, nested.sheets[i], options);
     if (!cut) return exit_bad_program;
+    loose.push_back(loose_pieces_of(*cut, options, nested, i));
     cuts.push_back(std::move(*cut));
   }
+  warn_of_loose_pieces(loose, listed(arguments.files));
   nlohmann::ordered_json all = cuts.front().json;
   if (sheets > 1) {
     all = {{"programs", nlohmann::ordered_json::array()}};
     for (const CutProfile& cut : cuts) all["programs"].push_back(cut.json);
   }
-  all["nest"] = nest_json(nested.nest, nested.options);
+  all["nest"] = nest_json(nested.nest, nested.options, {});
+  for (std::size_t i = 0; i < sheets; ++i) all["nest"]["sheets"][i]["loose"] = loose_json(loose[i]);
   job.sheet = DrawnBox{{}, nested.options.sheet};
   for (std::size_t i = 0; i < sheets; ++i) {
     const CutProfile& cut = cuts[i];

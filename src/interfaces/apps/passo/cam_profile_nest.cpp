@@ -148,15 +148,15 @@ std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t
       to_mm(nest.sheets.back().used).value());
 }
 
-nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options) {
+nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options, DrawnPoint corner) {
   nlohmann::ordered_json sheets = nlohmann::ordered_json::array();
   for (const NestSheet& sheet : nest.sheets) {
     nlohmann::ordered_json copies = nlohmann::ordered_json::array();
     for (const NestPlacement& placement : sheet.placements) {
       copies.push_back({{"part", placement.shape + 1},
                         {"degrees", placement.degrees},
-                        {"x_mm", to_mm(placement.offset.x).value()},
-                        {"y_mm", to_mm(placement.offset.y).value()}});
+                        {"x_mm", to_mm(placement.offset.x + corner.x).value()},
+                        {"y_mm", to_mm(placement.offset.y + corner.y).value()}});
     }
     sheets.push_back({{"used_mm", to_mm(sheet.used).value()}, {"copies", copies}});
   }

@@ -40,7 +40,8 @@ void warn_of_cut_tabs(const Nest& nest, const NestOptions& options, const Outlin
 
 // `parts`: number of different parts.
 std::string nest_words(const Nest& nest, const NestOptions& options, std::size_t parts);
-nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options);
+// `corner`: the lower left corner of the sheets. The copies have the coordinates of the program.
+nlohmann::ordered_json nest_json(const Nest& nest, const NestOptions& options, DrawnPoint corner);
 // plate-2.ngc of plate.ngc, if there are several sheets.
 std::string sheet_file(const std::string& file, std::size_t sheet, std::size_t sheets);
 

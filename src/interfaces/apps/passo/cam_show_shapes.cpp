@@ -56,7 +56,8 @@ void ShapeList::extend(DrawnPoint least, DrawnPoint most) {
   box_->second = {std::max(box_->second.x, most.x), std::max(box_->second.y, most.y)};
 }
 
-// The name of a layer may have the colour and the names of the shape after it (SvgOptions::tells_shapes).
+// The name of a layer may have the colour and the names of the shape after it (tells_shapes of SvgOptions and
+// DxfOptions).
 void ShapeList::add(Json shape, std::uint32_t layer, std::uint32_t line) {
   std::istringstream lines(layer < drawing_.layers.size() ? drawing_.layers[layer] : "");
   std::string name;
@@ -112,6 +113,7 @@ int cam_show_shapes(const CamShowArguments& arguments) {
   if (arguments.files.size() != 1) return fail(exit_bad_program, "--shapes: expected one drawing");
   DrawingFileOptions reading;
   reading.svg.tells_shapes = true;
+  reading.dxf.tells_shapes = true;
   Diagnostics findings;
   const Drawing drawing = read_drawing(arguments.files.front(), reading, findings);
   show(findings);

@@ -79,6 +79,10 @@ void check_room(const CamThreadArguments& arguments, const ThreadJob& job, Lengt
     lengths.refuse(fmt::format("--hole: expected less than the major diameter, {}, found '{}'",
                                thread_mm(plan.size.major), arguments.hole));
   }
+  if (plan.is_external && job.hole <= plan.size.root()) {
+    lengths.refuse(fmt::format("--hole: expected more than the root of the thread, {}, found '{}'",
+                               thread_mm(plan.size.root()), arguments.hole));
+  }
   if (neck >= plan.cutter) lengths.refuse("--neck: expected less than the diameter of --tool");
   if (!plan.is_external && cutter + 2 * least_room_nm > std::min(hole, static_cast<double>(plan.size.minor().count))) {
     lengths.refuse(fmt::format("--tool: expected a diameter below that of the bore, {}, found '{}'",
@@ -86,11 +90,17 @@ void check_room(const CamThreadArguments& arguments, const ThreadJob& job, Lengt
   }
   // On both sides: the height of the teeth must be more than the depth of the thread.
   const double most_neck = plan.is_external ? cutter + root - hole : hole - major + cutter;
-  if (static_cast<double>(neck.count) + 2 * least_room_nm > most_neck) {
+  if (const double hundredths = std::floor((most_neck - 2 * least_room_nm) / 10'000); hundredths < 1) {
+    const double least_cutter = std::ceil((cutter - most_neck + 2 * least_room_nm) / 10'000) / 100 + 0.01;
     lengths.refuse(
-        fmt::format("--neck: expected at most {:.4g} mm, so that the neck does not touch the {} of {}, found '{}'",
-                    std::floor((most_neck - 2 * least_room_nm) / 10'000) / 100, plan.is_external ? "boss" : "bore",
-                    thread_mm(job.hole), arguments.neck));
+        fmt::format("--tool: expected at least {:.4g} mm, so that a neck does not touch the {} of {}, found "
+                    "'{}'",
+                    least_cutter, plan.is_external ? "boss" : "bore", thread_mm(job.hole), arguments.tool));
+  } else if (static_cast<double>(neck.count) + 2 * least_room_nm > most_neck) {
+    lengths.refuse(
+        fmt::format("--neck: expected at most {:.4g} mm, so that the neck does not touch the {} of {}, found "
+                    "'{}'",
+                    hundredths / 100, plan.is_external ? "boss" : "bore", thread_mm(job.hole), arguments.neck));
   }
   const std::optional<Nanometres> reach = lengths.perhaps("--reach", arguments.reach);
   if (reach && reach->count < -plan.depth.count) {

@@ -46,7 +46,8 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
     return board;
   }
   if (!names_grbl_machine(name)) {
-    code = fail(exit_bad_program, name + ": --board of check takes grbl, grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT");
+    code = fail(exit_bad_program,
+                name + ": --board of check takes grbl, grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST");
     return std::nullopt;
   }
   const auto address = parse_board_address(name);

@@ -63,6 +63,10 @@ void GrblConnection::poll(Seconds most) {
   if (!port_->run(most)) return;
   const auto came = port_->replies();
   sender_.receive({reinterpret_cast<const char*>(came.data()), came.size()}, now());
+  for (const std::string& message : sender_.take_messages()) {
+    const bool is_trouble = message.starts_with("ERR") || message.starts_with("WARN");  // of FluidNC
+    if (is_trouble) note(fmt::format("{}: the board says: {}", board_, message));
+  }
 }
 
 bool GrblConnection::poll_until_rest(const std::function<void()>& watch) {

@@ -45,6 +45,7 @@ std::optional<JogWords> read_words(const std::vector<std::string>& texts, const 
       ++endless;
       continue;
     }
+    if (value.starts_with("+-")) return std::nullopt;
     if (value.starts_with('+')) value.remove_prefix(1);
     double& way = words.way[*axis];
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), way);

@@ -113,7 +113,8 @@ void add_machine_options(CLI::App& command, MachineArguments& arguments) {
           .add_option("--from", arguments.from,
                       "configuration file of another controller, from which to make a machine file: the answer of "
                       "Grbl, grblHAL or FluidNC to $$, FluidNC's YAML, LinuxCNC's ini or a profile of Mach3 (XML). Or "
-                      "a Grbl board itself: grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT; opening a serial port resets an "
+                      "a Grbl board itself: grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST; opening a serial "
+                      "port resets an "
                       "Arduino")
           ->excludes(machine);
   command

@@ -164,11 +164,11 @@ std::vector<std::size_t> order_of_copies(const NestSheet& sheet, const Region& o
   return order;
 }
 
+}  // namespace
+
 DrawnPoint corner_of(const PartStock& stock) {
   return {to_nanometres(Mm(stock.x)), to_nanometres(Mm(stock.y))};
 }
-
-}  // namespace
 
 Region NestedJob::outlines_on(std::size_t sheet, const PartStock& stock) const {
   Region all;

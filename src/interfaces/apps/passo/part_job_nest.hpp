@@ -21,6 +21,9 @@ struct NestedJob {
   Nanometres offcut_of(std::size_t sheet, const PartStock& stock) const;
 };
 
+// The lower left corner of the stock.
+DrawnPoint corner_of(const PartStock& stock);
+
 // `made`: as in PartJob::operations. Errors "job.nest-…" are in `findings`; then there is nothing.
 std::optional<NestedJob> nest_job(const PartJob& job, const std::vector<MadeOperation>& made, const PartJobZero& zero,
                                   Diagnostics& findings, const WorkProgress& progress);

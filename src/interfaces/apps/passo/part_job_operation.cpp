@@ -193,26 +193,40 @@ Diagnostic finding_of(const PartJob& job, const PartOperation& operation, const 
   return job.finding("job.operation", operation.place, fmt::format("'{}': {}", operation.title, failure), "");
 }
 
-// Keys of the operation itself; those of [job] are for all operations that need them.
+std::vector<IdleOption> idle_keys_of(const PartOperation& operation) {
+  const IsGiven is_given = [&](const char* option) { return operation.has(option + 2); };
+  return std::visit([&](const auto& arguments) { return idle_options_of(arguments, is_given); }, operation.arguments);
+}
+
+void warn_of_idle_key(const PartJob& job, const SourceLocation& place, std::string message, Diagnostics& findings) {
+  Diagnostic finding = job.finding("job.no-effect", place, std::move(message), "");
+  finding.severity = Severity::warning;
+  findings.add(std::move(finding));
+}
+
+// Keys of the operation itself; for those of [job], see warn_of_idle_defaults().
 void warn_of_idle_keys(const PartJob& job, const PartOperation& operation, Diagnostics& findings) {
-  const IsGiven is_given = [&](const char* option) {
-    const auto key = std::ranges::find(operation.keys, std::string_view(option + 2), &PartKey::name);
-    return key != operation.keys.end() && !key->is_of_job;
-  };
-  const auto idle =
-      std::visit([&](const auto& arguments) { return idle_options_of(arguments, is_given); }, operation.arguments);
-  for (const IdleOption& option : idle) {
-    Diagnostic finding =
-        job.finding("job.no-effect", place_of_key(operation, option.name),
-                    fmt::format("'{}': {} has no effect: {}", operation.title, option.name, option.why), "");
-    finding.severity = Severity::warning;
-    findings.add(std::move(finding));
+  for (const IdleOption& option : idle_keys_of(operation)) {
+    const auto key = std::ranges::find(operation.keys, option.name, &PartKey::name);
+    if (key == operation.keys.end() || key->is_of_job) continue;
+    warn_of_idle_key(job, key->place,
+                     fmt::format("'{}': {} has no effect: {}", operation.title, option.name, option.why), findings);
   }
 }
 
-// A job selects layers and states which circles are bores, so notes about board drawings do not apply.
+// A job selects layers and states which circles are bores, so notes about board drawings do not apply. It checks the
+// room around bosses itself.
 bool is_news(const std::string& note) {
-  return note.find("on other layers") == std::string::npos && note.find("the scale may be off") == std::string::npos;
+  return note.find("on other layers") == std::string::npos && note.find("the scale may be off") == std::string::npos &&
+         note.find("must be cleared to this radius") == std::string::npos;
+}
+
+// Without a width, the tip of a chamfer's tool follows the edge, also at a depth that nobody has given.
+void note_usual_depth(const PartOperation& operation, std::vector<std::string>& notes) {
+  const bool is_along_edge =
+      operation.kind == PartKind::chamfer && std::holds_alternative<CamEngraveArguments>(operation.arguments);
+  if (!is_along_edge || operation.has("depth")) return;
+  notes.emplace_back("neither chamfer nor depth is given: the tip of the tool follows the edges at a depth of 0.3 mm");
 }
 
 }  // namespace
@@ -283,11 +297,30 @@ Region outline_of_part(const PartJob& job, const PartJobZero& zero) {
   return filled(std::move(outside.rings));
 }
 
+void warn_of_idle_defaults(const PartJob& job, Diagnostics& findings) {
+  for (const PartKey& given : job.defaults) {
+    std::string why = "no operation has this option and leaves it to the job";
+    const bool works = std::ranges::any_of(job.operations, [&](const PartOperation& operation) {
+      const auto key = std::ranges::find(operation.keys, given.name, &PartKey::name);
+      if (key == operation.keys.end() || !key->is_of_job) return false;
+      const std::vector<IdleOption> idle = idle_keys_of(operation);
+      const auto found = std::ranges::find(idle, given.name, &IdleOption::name);
+      if (found == idle.end()) return true;
+      why = found->why;
+      return false;
+    });
+    if (!works) {
+      warn_of_idle_key(job, given.place, fmt::format("job.{} has no effect: {}", given.name, why), findings);
+    }
+  }
+}
+
 std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperation& operation, const PartJobZero& zero,
                                             const std::string& folder, Diagnostics& findings,
                                             const WorkProgress& progress) {
   MadeOperation made;
   warn_of_idle_keys(job, operation, findings);
+  note_usual_depth(operation, made.notes);
   OperationRun run(job, operation, zero, folder);
   KeptMessages messages;
   const int code = run.run(progress);

@@ -34,6 +34,9 @@ std::optional<PartJobZero> find_zero(const PartJob& job, Diagnostics& findings);
 // is of the whole stock. Empty: there are none.
 Region outline_of_part(const PartJob& job, const PartJobZero& zero);
 
+// Warns about the options in [job] that have an effect in no operation.
+void warn_of_idle_defaults(const PartJob& job, Diagnostics& findings);
+
 // Nothing: there are errors in `findings`. `folder`: for files that are only needed while the operation runs.
 std::optional<MadeOperation> make_operation(const PartJob& job, const PartOperation& operation, const PartJobZero& zero,
                                             const std::string& folder, Diagnostics& findings,

@@ -7,10 +7,13 @@
 #include <thread>
 #include <utility>
 
+#include "part_job_teeth.hpp"
+#include "part_job_tool_use.hpp"
 #include <fmt/format.h>
 
 #include "passo/cutting/stock_job.hpp"
 #include "passo/diagnostics/file_bytes.hpp"
+#include "passo/operations/length_text.hpp"
 
 namespace passo {
 namespace {
@@ -33,6 +36,25 @@ std::string place_words(const Vector3& place) {
   return fmt::format("X{:.2f} Y{:.2f} Z{:.2f}", place.x, place.y, place.z);
 }
 
+bool is_around_boss(const PartOperation& operation) {
+  const auto* const thread = std::get_if<CamThreadArguments>(&operation.arguments);
+  return thread != nullptr && thread->external;
+}
+
+// "a clearance above 25, the top of 'jaw', or a clamp elsewhere", for a rapid that goes `deep` mm into the clamp.
+std::string way_over(const PartJob& job, const PartOperation& operation, const PartClamp& clamp, double deep) {
+  constexpr double rounding = 0.01;
+  const double unit = *mm_of_unit(job.units);
+  const auto height = [&](const char* option) {
+    const Result<Mm, std::string> read = parse_length(option, option_text(operation, option), unit);
+    return read ? read->value() : 0.0;
+  };
+  const bool is_change = clamp.height - deep > height("change-height") - rounding;
+  const char* const option = is_change ? "change-height" : "clearance";
+  if (height(option) > clamp.height) return "a clamp elsewhere";
+  return fmt::format("a {} above {:g}, the top of '{}', or a clamp elsewhere", option, clamp.height / unit, clamp.name);
+}
+
 class ProgramTrial {
  public:
   ProgramTrial(const PartJob& job, const TrialProgram& program, Trial& trial, Diagnostics& findings)
@@ -46,6 +68,8 @@ class ProgramTrial {
   void judge(const MoveCut& cut, const PartOperation& operation);
   void judge_depth(const Vector3& low, const Vector3& high, std::uint32_t line, std::size_t tool);
   void report_below();
+  void collect_teeth(StockCutter& cutter, const TipMove& move, const StockMove& kind);
+  void judge_teeth();
   bool clamps_are_small();
   void report(const char* code, const MoveCut& cut, const PartOperation& operation, const std::string& what,
               std::string expected);
@@ -68,6 +92,7 @@ class ProgramTrial {
   };
   std::map<std::pair<std::size_t, std::size_t>, Below> deepest_;  // by operation and tool
   std::map<std::string, std::size_t> reported_;                   // what was reported of an operation
+  TeethWay teeth_;                                                // the feeds around a boss, up to now
   std::size_t points_ = 0;
   bool is_somewhere_ = false;  // the program has moved to a position in X and Y; before, the tool may be anywhere
 };
@@ -126,8 +151,7 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
            fmt::format("{} goes {:.2f} mm into '{}' at {}", move, cut.clamp, clamp != nullptr ? clamp->name : "a clamp",
                        place_words(cut.clamp_place)),
            clamp == nullptr ? "no clamp in the way"
-           : cut.move.rapid ? fmt::format("a clearance above {:g}, the top of '{}', or a clamp elsewhere",
-                                          clamp->height, clamp->name)
+           : cut.move.rapid ? way_over(job_, operation, *clamp, cut.clamp)
                             : fmt::format("'{}' farther away from the cut", clamp->name));
   }
   if (cut.move.rapid && cut.depth > least_depth) {
@@ -139,7 +163,8 @@ void ProgramTrial::judge(const MoveCut& cut, const PartOperation& operation) {
   if (tool.neck_radius > Mm(0) && !cut.move.rapid && cut.depth > least_depth) {
     report("job.neck", cut, operation,
            fmt::format("the neck goes {:.2f} mm into the stock at {}", cut.depth, place_words(cut.place)),
-           "an operation before it that makes the bore, wide and deep enough");
+           is_around_boss(operation) ? "an operation before it that clears the stock around the boss, deep enough"
+                                     : "an operation before it that makes the bore, wide and deep enough");
   }
   if (cut.holder > least_depth) {
     report("job.holder", cut, operation,
@@ -188,6 +213,27 @@ void ProgramTrial::record(const MoveCut& cut) {
     }
   }
   judge(cut, job_.operations[index]);
+}
+
+// The feeds around a boss. The stock must be as it is before them.
+void ProgramTrial::collect_teeth(StockCutter& cutter, const TipMove& move, const StockMove& kind) {
+  if (!is_around_boss(job_.operations[operation_at(kind.line)])) return;
+  if (teeth_.empty()) cutter.finish();
+  teeth_.add(move.segment->curve, Vector3::of(move.zero), kind.line, kind.tool, tools_[kind.tool]);
+}
+
+void ProgramTrial::judge_teeth() {
+  if (teeth_.empty()) return;
+  const std::size_t tool = teeth_.tool();
+  const auto hit = teeth_.take_hit(*trial_.field, tools_[tool]);
+  if (!hit) return;
+  report(
+      "job.teeth", MoveCut{.move = {.line = hit->line, .tool = tool}}, job_.operations[operation_at(hit->line)],
+      fmt::format("the teeth go {:.2f} mm into the stock at {}, beside the boss at X{:.2f} Y{:.2f}", hit->depth,
+                  place_words(hit->place), hit->axis.x, hit->axis.y),
+      fmt::format("the stock around the boss cleared before, to {:.2f} mm from its axis and as deep as the thread, or "
+                  "a thread mill of smaller diameter",
+                  hit->reach));
 }
 
 // Adds a feed to the picture.
@@ -263,13 +309,16 @@ void ProgramTrial::run() {
     const Box box = move.segment->curve.extents();
     judge_depth(Vector3::of(box.low) - zero, Vector3::of(box.high) - zero, kind.line, kind.tool);
     draw(move.segment->curve, zero, kind.line);
+    collect_teeth(cutter, move, kind);
     cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
   };
   hooks.rapid = [this](const TipMove& move, const StockMove&) {
+    judge_teeth();
     draw_rapid(move.segment->curve, Vector3::of(move.zero));
   };
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, 64U);
   cut_stock(stock_job, wanted, look, tools_, threads, *trial_.field, hooks);
+  judge_teeth();
   report_below();
 }
 

@@ -37,7 +37,7 @@ struct TrialProgram {
 
 struct Trial {
   std::vector<TriedOperation> operations = {};  // as in PartJob::operations
-  std::optional<HeightField> field = {};        // what is left; empty: nothing was cut
+  std::optional<HeightField> field = {};        // what is left; empty: nothing was cut, or it was let go
   std::vector<DrawnRing> rapids = {};           // lines in X and Y, for the picture
   double stock_mm3 = 0;                         // before the first operation
 };
@@ -45,8 +45,8 @@ struct Trial {
 // Rapids at this speed, where no machine is known.
 inline constexpr double usual_rapid_mm_min = 3000;
 
-// Errors are in `findings`: those of the interpreter, and "job.clamp", "job.rapid-in-stock", "job.neck", "job.holder"
-// and "job.below".
+// Errors are in `findings`: those of the interpreter, and "job.clamp", "job.rapid-in-stock", "job.neck", "job.teeth",
+// "job.holder" and "job.below".
 Trial try_programs(const PartJob& job, const std::vector<TrialProgram>& programs, Diagnostics& findings);
 
 }  // namespace passo

@@ -12,9 +12,13 @@ void add_program(CLI::App& command, ProgramArguments& arguments, const char* wha
   CLI::Option& block_delete =
       *command.add_flag("--block-delete", arguments.block_delete, "skip lines that start with /");
   command
-      .add_option("--dialect", arguments.dialect, "G-code dialect: linuxcnc or grbl (version 1.1; default: linuxcnc)")
+      .add_option(
+          "--dialect", arguments.dialect,
+          "G-code dialect: linuxcnc, grbl (version 1.1) or grblhal, which is read like linuxcnc (default: linuxcnc)")
       ->check([&block_delete](const std::string& name) -> std::string {
-        if (name != "linuxcnc" && name != "grbl") return "'" + name + "' is not a dialect: expected linuxcnc or grbl";
+        if (name != "linuxcnc" && name != "grbl" && name != "grblhal") {
+          return "'" + name + "' is not a dialect: expected linuxcnc, grbl or grblhal";
+        }
         return name == "grbl" && block_delete.count() > 0
                    ? "--block-delete does not work with --dialect grbl: Grbl executes lines that start with /"
                    : "";
@@ -145,7 +149,7 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
       "plan the motion too, check it against every limit, and compare its time with the shortest possible");
   command.add_option("--board", arguments.board,
                      "Grbl board whose motion is predicted: grbl (an Uno with the limits of the machine file), "
-                     "grbl:DEVICE[@BAUD] or grbl:tcp:HOST:PORT (with the settings that it reports)");
+                     "grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST (with the settings that it reports)");
   command.add_option("-p,--picture", arguments.picture,
                      "picture of the motion: toolpath and tolerance, speed along the path, acceleration and jerk "
                      "(FILE.svg or FILE.png)");

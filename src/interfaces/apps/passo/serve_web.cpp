@@ -32,8 +32,17 @@ double seconds_since_1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
+// What the server offers beside the machine.
+struct ServedServices {
+  FirstContact& contact;
+  BoardSettings& settings;
+  CamService& maker;
+  Studies& studies;
+  MotionTimer& timer;
+};
+
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       FirstContact& contact, CamService& maker, Studies& studies, MotionTimer& timer,
+                       const ServedServices& services,
                        std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
@@ -51,10 +60,11 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
-  options.contact = &contact;
-  options.maker = &maker;
-  options.studies = &studies;
-  options.timer = &timer;
+  options.contact = &services.contact;
+  options.settings = &services.settings;
+  options.maker = &services.maker;
+  options.studies = &services.studies;
+  options.timer = &services.timer;
   if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
 }
@@ -89,8 +99,8 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       contact_(arguments),
       timer_(machine),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs, contact_,
-                       maker_, studies_, timer_, [this](const SavedParameters& parameters, const ToolTable& tools) {
+           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
+                       {contact_, settings_, maker_, studies_, timer_}, [this](const SavedParameters& parameters, const ToolTable& tools) {
                          return keep(parameters, tools);
                        })) {}
 
@@ -141,6 +151,7 @@ Seconds ServedWeb::most_wait(Seconds most) const {
 void ServedWeb::poll() {
   server_->poll();
   api_.poll();
+  settings_.poll();
   if (server_->watchers() > 0) publish();
 }
 
@@ -173,6 +184,7 @@ void ServedWeb::share_offsets(GrblController& grbl) {
 void ServedWeb::follow_offsets(GrblMachineSession& board) {
   api_.apply_offsets(board.offsets(api_.parameters()));
   board_ = &board;
+  settings_.use(board);
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {

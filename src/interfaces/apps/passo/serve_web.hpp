@@ -13,6 +13,7 @@
 #include "served_journal.hpp"
 #include "served_maker.hpp"
 #include "served_offsets.hpp"
+#include "served_settings.hpp"
 #include "served_studies.hpp"
 #include "served_timer.hpp"
 
@@ -75,6 +76,7 @@ class ServedWeb {
   GrblMachineSession* board_ = nullptr;     // a board that keeps the offsets
   std::string host_;
   ServedContact contact_;
+  ServedSettings settings_{contact_};
   ServedMaker maker_;
   ServedStudies studies_;
   ServedTimer timer_;

@@ -11,7 +11,6 @@
 #include <sys/wait.h>
 
 #include "passo/report/output_file.hpp"
-#include "passo/transport/board_address.hpp"
 #include "passo/transport/serial_ports.hpp"
 
 namespace passo {
@@ -42,10 +41,9 @@ std::string ServedContact::ports() {
   return list_;
 }
 
-bool ServedContact::begin(const std::string& device, unsigned baud) {
+bool ServedContact::begin(const std::string& device, const std::string& board) {
   if (process_.runs()) return false;
-  result_ = {.device = device};
-  result_.board = baud == grbl_baud ? "grbl:" + device : fmt::format("grbl:{}@{}", device, baud);
+  result_ = {.device = device, .board = board};
   folder_.remove();
   if (!folder_.make()) return false;
   if (!process_.begin(folder_.name(), {"passo", "machine", "--from", result_.board, "--json"})) return false;

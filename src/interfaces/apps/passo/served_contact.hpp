@@ -23,7 +23,7 @@ class ServedContact final : public FirstContact {
 
   const std::string& board() const override { return arguments_.board; }
   std::string ports() override;
-  bool begin(const std::string& device, unsigned baud) override;
+  bool begin(const std::string& device, const std::string& board) override;
   const ContactResult& result() override;
   bool keeps(const std::string& name) const override;
   Result<KeptMachine, std::string> keep(const std::string& name, const std::string& text) override;

@@ -156,6 +156,8 @@ bool ServedMaker::begin(const CamOrder& order) {
     words.insert(words.end(), {"--output", made_.front(), "--picture", picture_file(order.job)});
     if (!order.machine.empty() && !add_file("--limits", board_machine, order.machine)) return failed();
     if (order.job == part_job) words.emplace_back("--only-folder");
+    // Only one program is returned.
+    if (order.job == "profile") words.emplace_back("--most-sheets=1");
   }
   words.emplace_back("--");
   words.insert(words.end(), order.files.begin(), order.files.end());

@@ -105,6 +105,15 @@ TEST(GrblFirmware, the_answers_to_questions_come_in_their_order) {
   EXPECT_FALSE(pair.sender.fault());
 }
 
+TEST(GrblFirmware, messages_of_the_board_are_kept_until_they_are_taken) {
+  FakePair pair(test::fluidnc());
+  ASSERT_TRUE(pair.greet());
+  EXPECT_THAT(pair.sender.take_messages(), ElementsAre(" Machine: Foam"));
+  for (int i = 0; i < 100; ++i) pair.sender.receive("[MSG:WARN: low memory]\r\n", pair.now);
+  EXPECT_EQ(pair.sender.take_messages().size(), 50U);
+  EXPECT_TRUE(pair.sender.take_messages().empty());
+}
+
 TEST(GrblFirmware, values_in_inches_are_converted_as_each_firmware_means_them) {
   const auto at = [](const char* firmware) {
     GrblMachine machine;

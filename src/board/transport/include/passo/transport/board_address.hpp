@@ -5,6 +5,7 @@
 //   serial:/dev/ttyUSB0@115200    at another baud rate
 //   sim:uno                       that board's firmware on an emulated chip, in this process
 //   grbl:/dev/ttyUSB0             a machine with Grbl 1.1, at 115,200 baud; also @BAUD and grbl:tcp:HOST:PORT
+//   grbl:ws://HOST:PORT           the same through a WebSocket; without a port, 81
 //   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; IPv6 addresses in brackets: [::1]
 #pragma once
 
@@ -19,10 +20,10 @@ inline constexpr unsigned usual_baud = 500'000;
 inline constexpr unsigned grbl_baud = 115'200;
 
 struct BoardAddress {
-  enum class Kind : unsigned char { virtual_machine, serial, tcp, emulated };
+  enum class Kind : unsigned char { virtual_machine, serial, tcp, emulated, websocket };
   Kind kind = Kind::virtual_machine;
   std::string place;           // device, host, or emulated board
-  std::string port;            // tcp
+  std::string port;            // tcp, websocket
   unsigned baud = usual_baud;  // serial
   bool speaks_grbl = false;    // the other end is a machine that accepts G-code, not a board
 

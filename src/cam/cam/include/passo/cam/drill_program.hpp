@@ -47,6 +47,9 @@ struct DrillProgramOptions {
   SafeChange change = {};
 };
 
+// Returns where the last target of the plan, which has one, ends.
+DrawnPoint end_of_drilling(const DrillPlan& plan, const DrillProgramOptions& options);
+
 // Returns the program text.
 std::string write_drill_program(const DrillPlan& plan, const DrillProgramOptions& options);
 

@@ -36,6 +36,9 @@ struct DxfOptions {
   // The circles are holes of a circuit board: the inner circle of a DONUT is read, and a note warns about a drawing
   // that seems to be ten times too large or too small.
   bool is_for_drilling = false;
+  // As SvgOptions::tells_shapes. A colour of the palette without a number of its own is its number, e.g. "30"; the
+  // names are the handle of the entity, and the handles and blocks of the INSERTs around it.
+  bool tells_shapes = false;
 };
 
 // Reports errors in `diagnostics`; the drawing then contains what was read before the error.

@@ -165,6 +165,7 @@ struct CamNestArguments {
   std::string gap;             // between two parts; empty: what the cutter needs, and 1 mm
   std::string nest_margin;     // at the edge of the sheet; empty: as `gap`
   std::uint32_t rotations = 4;
+  std::uint32_t most_sheets = 1000;  // more are refused
 };
 
 struct CamProfileArguments : CamOutlineArguments, CamFinishArguments, CamNestArguments {

@@ -138,6 +138,7 @@ struct PartJob {
   std::string library = {};  // the tool library; empty: none
   std::map<std::int32_t, PartTool> tools = {};
   std::vector<PartOperation> operations = {};
+  std::vector<PartKey> defaults = {};   // the options in [job] for all operations that have them
   std::vector<std::string> lines = {};  // of the file, for findings
 
   // A finding about a position in the file.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passo/part_job/part_job.hpp"
+#include "passo/tooling/tool_library.hpp"
 
 namespace passo {
 
@@ -18,5 +19,8 @@ struct PartKindKeys {
 };
 
 std::vector<PartKindKeys> keys_of_part_kinds();
+
+// The keys of a tool of a job file: those of a library, and its feed rates and speed.
+std::vector<ToolKey> keys_of_part_tools();
 
 }  // namespace passo

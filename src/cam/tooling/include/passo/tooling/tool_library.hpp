@@ -61,6 +61,19 @@ class ToolLibrary {
 // checks flaw_of(shape_of()), which is meaningless after errors. `is_complete`: the whole file could be read.
 CuttingTool read_cutting_tool(TableReader& reader, const TomlReporter& reporter, bool is_complete);
 
+// A key of a tool, for forms.
+struct ToolKey {
+  enum class Kind : std::uint8_t { text, choice, flag, number, whole_number };
+  std::string_view name;
+  Kind kind = Kind::number;
+  std::vector<CuttingShape> shapes = {};       // that have it; empty: all
+  std::vector<std::string_view> choices = {};  // the first one is the default, unless the key is needed
+  double least = 0;                            // of a number
+  double most = 0;
+  bool is_needed = false;  // by one of the shapes
+};
+std::vector<ToolKey> tool_keys();
+
 // Parses "3" or "T3". Empty: neither.
 std::optional<std::int32_t> parse_tool_number(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "passo/api/board_settings.hpp"
 #include "passo/api/cam_service.hpp"
 #include "passo/api/first_contact.hpp"
 #include "passo/api/motion_times.hpp"
@@ -48,6 +49,8 @@ struct ApiOptions {
   CamService* maker = nullptr;
   // Lists and opens serial ports; must outlive the API. Null: not available.
   FirstContact* contact = nullptr;
+  // Reads and writes the settings of a Grbl board; must outlive the API. Null: not available.
+  BoardSettings* settings = nullptr;
   // Runs longer analyses; must outlive the API. Null: not available.
   Studies* studies = nullptr;
   // Computes the duration of programs; must outlive the API. Null: not available, so the remaining time is unknown.

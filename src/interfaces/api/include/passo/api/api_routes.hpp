@@ -18,6 +18,7 @@ class MachineFileApi;
 class OwnerApi;
 class PortsApi;
 class ProgramsApi;
+class SettingsApi;
 class StudiesApi;
 struct ApiCall;
 struct WebAnswer;
@@ -25,12 +26,13 @@ struct WebAnswer;
 template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
 using ApiHandler = std::variant<AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>, AnswerOf<MachineFileApi>,
-                                AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>, AnswerOf<StudiesApi>>;
+                                AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>, AnswerOf<SettingsApi>,
+                                AnswerOf<StudiesApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
 // A service that a server may lack; the request then gets 404.
-enum class Needs : std::uint8_t { nothing, history, maker, ports, studies };
+enum class Needs : std::uint8_t { nothing, history, maker, ports, settings, studies };
 
 struct ApiRoute {
   std::string_view method;

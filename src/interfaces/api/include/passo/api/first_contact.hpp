@@ -15,7 +15,7 @@ namespace passo {
 struct ContactResult {
   enum class State : std::uint8_t { none, running, done, failed };
   State state = State::none;
-  std::string device = {};  // the port
+  std::string device = {};  // the port, or the address in the network
   std::string board = {};   // its address for --board
   std::string words = {};   // messages, including the reason for a failure
   std::string report = {};  // the machine file made from the settings, as JSON, as `passo machine --from` prints it
@@ -34,9 +34,9 @@ class FirstContact {
   // The ports, as JSON: {"ports": […], "sees_all_programs": true}, as in `passo board list --json`. Opens none. Takes
   // some milliseconds.
   virtual std::string ports() = 0;
-  // Opens a port of the list, which restarts an Arduino, and reads the machine. Returns false if a port is being read,
-  // or if the process cannot be started.
-  virtual bool begin(const std::string& device, unsigned baud) = 0;
+  // Connects to a board, and reads the machine. Opening a port restarts an Arduino. `board`: its address for --board.
+  // Returns false if a board is being read, or if the process cannot be started.
+  virtual bool begin(const std::string& device, const std::string& board) = 0;
   // Returns the current state. Can be called often: it is cheap if nothing has changed.
   virtual const ContactResult& result() = 0;
   // Returns true if there is a machine file of that name.

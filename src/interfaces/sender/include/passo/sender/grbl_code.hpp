@@ -42,8 +42,11 @@ class GrblCode {
     code_ = -1;
     plane_ = -1;
     feed_ = -1;
+    by_time_ = false;
     sure_ = {};
   }
+  // Returns whether the last line was in inverse time (G93).
+  bool is_by_time() const { return by_time_; }
 
  private:
   using Place = PerAxis<std::int64_t>;

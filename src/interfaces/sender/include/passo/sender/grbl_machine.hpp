@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "passo/geometry/axes.hpp"
@@ -33,6 +34,8 @@ struct GrblMachine {
   void hear_greeting(std::string_view line);
   // Processes the number of values in a report: a board that does not tell its axes has as many.
   void hear_value_count(std::size_t count);
+  // Returns what it has said in [MSG:…] since the last call, at most 50 messages: "WARN: …", "ERR: …" of FluidNC.
+  std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
   // Returns what to ask, once, after the firmware has told its version. The board may reject these lines.
   std::vector<std::string> take_questions();
 
@@ -64,6 +67,7 @@ struct GrblMachine {
   bool has_told_axes_ = false;
   bool was_asked_ = false;
   std::size_t told_bytes_ = 0;  // 0: not told yet
+  std::vector<std::string> messages_;
 };
 
 // Returns the zero of G54 including G92, machine coordinates, mm and degrees.

@@ -59,6 +59,14 @@ class GrblMachineSession final : public MachineSession {
   // Writes changed work offsets to the board (G10 L2), as soon as it is idle.
   void store_offsets(const SavedParameters& parameters);
 
+  // Lends the sender to a reader of the board's settings, which moves nothing. The owner goes on polling the session.
+  // Meanwhile every request is refused. Null: the machine is not at rest.
+  GrblSender* lend_sender();
+  // False if it has not been lent, or if the connection or the board's state was lost in the meantime.
+  bool is_sender_lent() const { return lent_; }
+  // The settings may be others now: the session takes over what the board has told.
+  void take_sender_back();
+
  private:
   struct Work;
 
@@ -131,6 +139,7 @@ class GrblMachineSession final : public MachineSession {
   bool prepared_ = false;  // the board's modes are set, since the connection
   bool locked_ = false;    // the board is in an alarm that $X or $H ends
   bool loses_place_ = false;
+  bool lent_ = false;    // the sender, for the settings
   std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;

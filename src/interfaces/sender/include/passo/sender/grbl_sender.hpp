@@ -30,6 +30,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "passo/geometry/axes.hpp"
 #include "passo/sender/grbl_follower.hpp"
@@ -65,6 +66,8 @@ class GrblSender {
   // report().
   bool ready() const { return stage_ == Stage::ready; }
   const GrblMachine& machine() const { return machine_; }
+  // Returns the machine's messages since the last call: see GrblMachine::take_messages().
+  std::vector<std::string> take_messages() { return machine_.take_messages(); }
   // Returns the last status report. Empty: none was received.
   const std::optional<GrblReport>& report() const { return reports_.last(); }
   // Returns the machine position, mm. Empty: not known yet.
