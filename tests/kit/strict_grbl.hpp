@@ -162,7 +162,9 @@ class StrictGrbl {
     int number = 0;
   };
 
-  bool is(std::string_view name) const { return state.substr(0, state.find(':')) == name; }
+  bool is(std::string_view name) const {
+    return state.starts_with(name) && (state.size() == name.size() || state[name.size()] == ':');
+  }
   bool may_move() const { return is("Run") || is("Jog") || state == "Hold:1" || state == "Door:2"; }
   bool suspended() const { return is("Hold") || is("Door") || is("Sleep") || cancels_jog_; }
   std::size_t blocks() const { return limits_.blocks; }

@@ -45,6 +45,49 @@ TEST(GrblFollow, at_most_a_second_of_motion_lies_in_the_machine) {
   }
 }
 
+GrblLimits fast_router() {
+  GrblLimits limits;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.steps_per_mm[axis] = 250;
+    limits.velocity[axis] = MmPerSecond(100);
+    limits.acceleration[axis] = MmPerSecond2(500);
+  }
+  return limits;
+}
+
+TEST(GrblFollow, pieces_of_a_line_end_exactly_where_it_ends) {
+  GrblFollower follower(fast_router(), {}, {}, Seconds(1));
+  EXPECT_THAT(follower.pieces("G1F600X1Y0Z0"), testing::ElementsAre("G1F600X1Y0Z0")) << "0.1 s";
+  EXPECT_THAT(follower.pieces("X6"), testing::ElementsAre("X3.5", "X6")) << "0.5 s";
+  // Half a circle of 2.5 mm at 10 mm/s: 0.785 s. Each piece has the centre from its own start.
+  const std::vector<std::string> arc = follower.pieces("G2X11Y0Z0I2.5J0");
+  ASSERT_EQ(arc.size(), 4U);
+  GrblLineReader reader({}, {});
+  reader.read("G1F600X6Y0Z0");
+  for (const std::string& piece : arc) {
+    const GrblLineMotion motion = reader.read(piece);
+    ASSERT_TRUE(motion.arc) << piece;
+    EXPECT_NEAR(std::hypot(motion.arc->first_center, motion.arc->second_center), 2.5, 2e-4) << piece;
+  }
+  EXPECT_EQ(reader.place()[Axis::x], 11);
+  EXPECT_EQ(reader.place()[Axis::y], 0);
+}
+
+TEST(GrblFollow, modes_are_compared_with_those_that_were_sent) {
+  GrblFollower follower(fast_router(), {}, {}, Seconds(1));
+  follower.sent("M3S1000", 1, Seconds(0));
+  follower.sent("G1F600X1Y0Z0", 2, Seconds(0));
+  const auto differs = [&](const char* modes) {
+    const auto trouble = follower.check_modes(modes, follower.modes(), false);
+    return trouble ? trouble->message : "";
+  };
+  EXPECT_EQ(differs("G1 G54 G17 G21 G90 G94 M3 M9 T0 F600 S1000"), "");
+  EXPECT_THAT(differs("G0 G54 G17 G21 G90 G94 M3 M9 T0 F600 S1000"), testing::HasSubstr("it is in G0 instead of G1"));
+  EXPECT_THAT(differs("G1 G54 G17 G21 G90 G94 M3 M9 T0 F60 S1000"), testing::HasSubstr("F60 instead of F600"));
+  EXPECT_THAT(differs("G1 G54 G17 G21 G90 G94 M5 M9 T0 F600 S1000"), testing::HasSubstr("M5 instead of M3"));
+  EXPECT_THAT(differs("G1 G54 G17 G21 G90 G94 M3 M9 T0 F600 S100"), testing::HasSubstr("S100 instead of S1000"));
+}
+
 // The programs of ../shared/peers/motion-mm, which need nothing that GrblCode would write otherwise.
 TEST(GrblFollow, costs_no_time) {
   const std::string folder = PASSO_SOURCE_DIR "/../shared/peers/motion-mm";
