@@ -313,7 +313,7 @@ class StrictGrbl {
     now_ = time;
     if (may_move()) motion_.advance(passed);
     x = motion_.place()[Axis::x];
-    if (dwell_left_ > 0 && !suspended()) dwell_left_ = std::max(0.0, dwell_left_ - passed);
+    if (dwell_left_ > 0 && !suspended()) dwell_left_ = dwell_left_ - passed < 1e-9 ? 0 : dwell_left_ - passed;
     if (probes_ && motion_.moves() && !touched_ && probe && probe(motion_.place()) == probes_for_touch_) touch();
     for (std::string& line : motion_.take_done()) end_line(std::move(line));
     settle();

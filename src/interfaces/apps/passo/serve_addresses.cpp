@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "grbl_connection.hpp"
 #include "program_input.hpp"
 #include "served_status.hpp"
 #include <fmt/format.h>
@@ -118,11 +117,6 @@ int check_serve(const ServeArguments& arguments, const std::string& machine_name
   if (!arguments.http.empty() && !web_place(arguments, code)) return code;
   if (!arguments.mqtt.empty() && !ServedStatus::check(arguments, code)) return code;
   if (const auto board = parse_board_address(arguments.board); !board) return fail(exit_bad_program, board.error());
-  if (names_grbl_machine(arguments.board)) {
-    return fail(exit_bad_program,
-                "--board grbl: passo serve cannot use a machine with Grbl, because senders connect to it directly; use "
-                "passo run or passo home [board.grbl]");
-  }
   if (!arguments.data.empty() && !can_keep_data(arguments.data)) {
     return fail(exit_failed, fmt::format("--data {}: the folder is not writable [serve.data]", arguments.data));
   }

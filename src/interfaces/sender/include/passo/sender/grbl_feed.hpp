@@ -38,10 +38,9 @@ class GrblFeed {
   };
   using Watcher = std::function<void(const PathItem&)>;
 
-  // `path` and `answers` must outlive the feed. `target`: as for GrblCode. `waits`: it waits at stops and tool changes;
+  // `path` and `answers` must outlive the feed. `target`: the board. `waits`: it waits at stops and tool changes;
   // `waits_at_optional`: also at M1.
-  GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTarget& target, bool waits,
-           bool waits_at_optional);
+  GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTarget& target, bool waits, bool waits_at_optional);
 
   // Skips the path before that point. The lead-in comes first.
   void begin_at(const ResumePoint& point, const std::vector<PathItem>& lead_in);
@@ -81,7 +80,7 @@ class GrblFeed {
 
   Source<PathItem>& path_;
   StoredResults& answers_;
-  Point zero_;
+  Point zero_;  // machine coordinates
   GrblCode code_;
   Watcher watcher_;
   Watcher skipped_watcher_;
