@@ -156,9 +156,9 @@ void GrblMachineSession::go_online() {
   board_ = sender_.machine();
   const auto place = sender_.place();
   if (!place) {
-    return break_off(
-        MachineEvent::lose_board,
-        {.code = "grbl.no-place", .message = "the machine's status reports have no position; $10=1 adds it"});
+    return break_off(MachineEvent::lose_board,
+                     {.code = "grbl.no-place",
+                      .message = "the machine's status reports have no position; $10=1 adds it"});
   }
   position_.place = *place;
   live_.rest_at(*place);

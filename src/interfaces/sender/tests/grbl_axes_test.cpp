@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/sender/grbl_forecast.hpp"
+#include "passo/sender/grbl_machine_session.hpp"
 #include "passo/sender/grbl_program.hpp"
 
 namespace passo {
@@ -20,6 +21,26 @@ struct PlayedLine {
   double duration = 0;
   std::map<char, double> end;
   std::size_t moves = 0;
+};
+
+// The line to a fake, whose time passes while somebody waits.
+class FirmwareFakePort final : public GrblPort {
+ public:
+  explicit FirmwareFakePort(test::FirmwareFake& board) : board_(board) {}
+  Seconds now() const override { return now_; }
+  void send(std::string_view bytes) override { board_.receive(bytes); }
+  std::string receive(Seconds most) override {
+    const Seconds step = std::min(most, Seconds(0.005));
+    board_.run(step.value());
+    now_ += step;
+    return board_.take_output();
+  }
+  bool is_broken() const override { return false; }
+  bool open_again() override { return false; }
+
+ private:
+  test::FirmwareFake& board_;
+  Seconds now_{0};
 };
 
 class GrblAxes : public testing::Test {
@@ -158,6 +179,31 @@ TEST_F(GrblAxes, a_core_xy_moves_as_fast_as_the_program_says) {
     EXPECT_EQ(lines.at(5).moves, 1U);
     if (is_core_xy) EXPECT_NEAR(lines.at(6).duration, 5 * std::numbers::pi / 10, 2e-3) << "chords";
   }
+}
+
+TEST_F(GrblAxes, a_session_moves_all_axes_of_its_board) {
+  const MachineDescription machine = rotary();
+  test::FirmwareFake board(test::grblhal("XYZA"));
+  board.restart();
+  FirmwareFakePort port(board);
+  GrblMachineSession session(machine, port);
+  const auto play_until = [&](MachineState state) {
+    for (const Seconds end = session.now() + Seconds(60); session.now() < end && session.state() != state;) {
+      session.poll(Seconds(0.02));
+      static_cast<void>(session.take_changes());
+    }
+    return session.state() == state;
+  };
+  ASSERT_TRUE(play_until(MachineState::idle));
+  request::Start start{.program = ProgramReader::from_text("part.ngc", "G21 G90\nG1 X10 A90 F600\nM2\n"),
+                       .options = {}};
+  ASSERT_TRUE(session.request(std::move(start)));
+  ASSERT_EQ(session.state(), MachineState::run);
+  ASSERT_TRUE(play_until(MachineState::idle));
+  ASSERT_FALSE(board.moves().empty());
+  EXPECT_EQ(board.moves().back().end.at('A'), 90);
+  EXPECT_NEAR(board.moves().back().duration, 1, 1e-3);
+  EXPECT_NEAR(session.status().position.place[Axis::a], 90, 1e-3);
 }
 
 TEST_F(GrblAxes, an_axis_that_the_board_does_not_have_is_an_error_at_its_line) {
