@@ -155,9 +155,9 @@ void GrblMachineSession::go_online() {
   board_ = sender_.machine();
   const auto place = sender_.place();
   if (!place) {
-    return break_off(MachineEvent::lose_board,
-                     {.code = "grbl.no-place",
-                      .message = "the machine's status reports have no position; $10=1 adds it"});
+    return break_off(
+        MachineEvent::lose_board,
+        {.code = "grbl.no-place", .message = "the machine's status reports have no position; $10=1 adds it"});
   }
   position_.place = *place;
   live_.rest_at(*place);
@@ -240,6 +240,16 @@ std::optional<Refusal> GrblMachineSession::lost_place() const {
   if (position_.trust != Trust::unknown || state_ == MachineState::offline) return {};
   const bool homes = abilities().can(Ability::home);
   return Refusal{homes ? RefusalReason::unknown_so_home : RefusalReason::unknown_so_jog};
+}
+
+std::function<Status<std::string>(const PathItem&)> GrblMachineSession::path_judge() const {
+  return [code = std::make_shared<GrblCode>(GrblTarget::of(board_))](const PathItem& item) -> Status<std::string> {
+    const auto* action = std::get_if<Action>(&item);
+    const bool is_probe =
+        action != nullptr && (action->kind == Action::Kind::probe_begin || action->kind == Action::Kind::probe_end);
+    std::vector<std::string> lines;
+    return is_probe ? Status<std::string>(Unit{}) : code->write(item, lines);
+  };
 }
 
 std::optional<MachineSession::ProgramResults> GrblMachineSession::program_results() const {

@@ -44,16 +44,18 @@ void GrblMachineSession::poll_work() {
 void GrblMachineSession::make_feed() {
   Work& work = *work_;
   board_ = sender_.machine();
-  StoredResults& results = work.program ? work.program->answers()
-                           : work.lines != nullptr ? work.lines->answers() : work.probe_results;
-  Source<PathItem>& path = work.program ? static_cast<Source<PathItem>&>(*work.program)
-                           : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines) : *work.probe;
+  StoredResults& results = work.program            ? work.program->answers()
+                           : work.lines != nullptr ? work.lines->answers()
+                                                   : work.probe_results;
+  Source<PathItem>& path = work.program            ? static_cast<Source<PathItem>&>(*work.program)
+                           : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines)
+                                                   : *work.probe;
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
   sender_.follow(first_work_zero(board_));
   work.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
-  work.feed->watch([this, &work, limits](const PathItem& item) {
+  work.feed->watch([&work, limits](const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
       work.executed.add(segment->curve, segment->source, nominal_time_of(item, limits),
                         work.lines_before + work.feed->lines_written());
@@ -312,9 +314,10 @@ std::string GrblMachineSession::words_of_restart() const {
   if (!busy() || !work_->feed || work_->program == nullptr) return {};
   const std::uint32_t line = work_->executed.source().line;
   if (line == 0) return {};
-  return fmt::format("; line {} of the program is the last one that was executed for sure: home the machine or set its "
-                     "zero, and start at that line",
-                     line);
+  return fmt::format(
+      "; line {} of the program is the last one that was executed for sure: home the machine or set its "
+      "zero, and start at that line",
+      line);
 }
 
 Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {

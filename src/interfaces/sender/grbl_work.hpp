@@ -49,7 +49,7 @@ struct GrblMachineSession::Work {
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
   GrblExecuted executed;
-  Seconds skipped{0};             // nominal time of what comes before the point where the program begins
+  Seconds skipped{0};              // nominal time of what comes before the point where the program begins
   std::uint64_t lines_before = 0;  // lines sent before this work
   std::uint64_t stops = 0;
   bool held = false;      // by a request

@@ -142,10 +142,10 @@ struct ServedThings {
   const std::string& text;  // of the machine file
   const MachineDescription& machine;
   ServedMachine served;
-  std::string words = {};                     // the board
-  ServedJournal* journal = nullptr;           // null: an interrupted job cannot be resumed
-  MachineConnection* simulated = nullptr;     // a machine in this process
-  GrblMachineSession* grbl_board = nullptr;   // a board that keeps the work offsets
+  std::string words = {};                    // the board
+  ServedJournal* journal = nullptr;          // null: an interrupted job cannot be resumed
+  MachineConnection* simulated = nullptr;    // a machine in this process
+  GrblMachineSession* grbl_board = nullptr;  // a board that keeps the work offsets
 };
 
 // Serves until a signal is received. The machine is ready.
@@ -166,9 +166,12 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
   }
   MachineControl owner;
   std::unique_ptr<ServedWeb> web;
-  const ServedJobs jobs{.journal = things.journal,
-                        .machine_file = stamp_of_text(arguments.machine, things.text),
-                        .machine_access = access_to(arguments.machine)};
+  ServedJobs jobs{.journal = things.journal,
+                  .machine_file = stamp_of_text(arguments.machine, things.text),
+                  .machine_access = access_to(arguments.machine)};
+  if (things.grbl_board != nullptr) {
+    jobs.path_judge = [board = things.grbl_board] { return board->path_judge(); };
+  }
   if (!arguments.http.empty()) {
     web = ServedWeb::open(arguments, machine, session, owner, jobs, code);
     if (!web) return code;

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,9 @@ class GrblMachineSession final : public MachineSession {
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
+  // Returns a function that judges the path items of one program, in order: the error is a clause that says what the
+  // board cannot do.
+  std::function<Status<std::string>(const PathItem&)> path_judge() const;
   // Returns the board's offsets as parameters of a program: G54 to G59.3, G28, G30 and G92. `kept`: the values of what
   // the board does not have.
   SavedParameters offsets(const SavedParameters& kept = {}) const;
