@@ -1,5 +1,5 @@
-// Faults on the line to Grbl 1.1h on the emulated Uno, one in each trial, with the steps counted at its pins: each fault
-// is noticed, or the steps are those of the program. PASSO_RUNS=1000 runs 1,000 trials (about an hour).
+// Faults on the line to Grbl 1.1h on the emulated Uno, one in each trial, with the steps counted at its pins: each
+// fault is noticed, or the steps are those of the program. PASSO_RUNS=1000 runs 1,000 trials (about an hour).
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -135,8 +135,7 @@ Outcome try_fault(FollowedUno& uno, test::Mischief mischief, bool to_board, std:
   };
   std::size_t next = 0;
   const bool ends = uno.play(
-      Seconds(60),
-      [&] { return (next == contour.lines.size() && uno.sender->at_rest()) || uno.sender->stopped(); },
+      Seconds(60), [&] { return (next == contour.lines.size() && uno.sender->at_rest()) || uno.sender->stopped(); },
       [&] {
         for (; uno.sender->wants_lines() && next < contour.lines.size() && !uno.sender->fault(); ++next) {
           uno.sender->add(contour.lines[next], static_cast<std::uint32_t>(next + 1));

@@ -104,10 +104,10 @@ class GrblBoardMotion {
     if (!moves_) return;
     if (limits_.block_time > 0) return advance_block(time);
     const Phase now = phase();
-    time = std::min(time, now.duration);
+    const bool ends = time >= now.duration - shortest;
+    if (ends) time = now.duration;
     done_ += (speed_ + now.acceleration * time / 2) * time;
     speed_ = std::max(0.0, speed_ + now.acceleration * time);
-    const bool ends = time >= now.duration - shortest;
     if (ends) speed_ = now.end_speed;
     if (brakes_ && speed_ <= 0) {
       moves_ = brakes_ = false;

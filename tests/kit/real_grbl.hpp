@@ -74,7 +74,7 @@ class RealTalker final : public GrblTalker {
     return listen(lines, std::chrono::seconds(bytes == "?" ? 1 : 3));
   }
   std::string listen(std::size_t lines, std::chrono::milliseconds most) const {
-    constexpr auto quiet = std::chrono::milliseconds(40);
+    constexpr auto quiet = std::chrono::milliseconds(20);
     std::string said;
     std::array<char, 4096> buffer{};
     auto silent_since = std::chrono::steady_clock::now();

@@ -13,7 +13,7 @@
 namespace passo {
 namespace {
 
-constexpr double report_resolution = 0.01;     // mm: reports have three decimals
+constexpr double report_resolution = 0.01;   // mm: reports have three decimals
 constexpr double steps_beside_the_path = 2;  // of each motor
 constexpr int most_strikes = 2;
 constexpr double kept_behind = 0.5;      // mm of the path behind the known position
@@ -56,12 +56,8 @@ std::string words_without(const std::string& text, std::string_view letters) {
 }  // namespace
 
 GrblFollower::GrblFollower(const GrblLimits& limits, const Point& start, const Point& zero, Seconds ahead)
-    : limits_(limits),
-      ahead_(ahead),
-      added_reader_(start, zero),
-      sent_reader_(start, zero),
-      model_(limits, start),
-      sent_from_(start) {
+    : limits_(limits), ahead_(ahead), added_reader_(start, zero), sent_reader_(start, zero), model_(limits, start) {
+  path_.end = start;
   double squares = 0;
   for (const double per_mm : limits.steps_per_mm.values) squares += per_mm > 0 ? 1 / (per_mm * per_mm) : 0;
   tolerance_ = report_resolution + limits.arc_tolerance.value() + steps_beside_the_path * std::sqrt(squares);
@@ -175,12 +171,12 @@ bool GrblFollower::may_send(std::string_view text, Seconds now) {
   const double time = duration_of(line);
   const double in_board = time_in_board(now).value();
   if (in_board <= 0) return true;
-  if (in_board * factor_ <= braking_time(line) + time + response) return true;
-  if (in_board + time / factor_ > ahead_.value()) return false;
+  if (in_board * clock_.factor <= braking_time(line) + time + response) return true;
+  if (in_board + time / clock_.factor > ahead_.value()) return false;
   // What waits for a block is counted at full speed, so the end is added.
   const double with_line =
-      waits_in_buffer() ? remaining() + debt_ + time + braking_time(line) : time_with(line) + debt_;
-  return with_line / factor_ <= ahead_.value();
+      waits_in_buffer() ? remaining() + clock_.debt + time + braking_time(line) : time_with(line) + clock_.debt;
+  return with_line / clock_.factor <= ahead_.value();
 }
 
 // How long the board moves with a further line. Most of the lines are not near the limit.
@@ -194,16 +190,16 @@ double GrblFollower::time_with(const GrblLineMotion& line) const {
   } else {
     add(line.end);
   }
-  return model.rest_at().value() - clock_;
+  return model.rest_at().value() - clock_.time;
 }
 
 Seconds GrblFollower::time_in_board(Seconds now) {
   advance(now);
-  return Seconds((remaining() + debt_) / factor_);
+  return Seconds((remaining() + clock_.debt) / clock_.factor);
 }
 
 double GrblFollower::remaining() const {
-  double time = std::max(model_.rest_at().value(), rests_until_) - clock_;
+  double time = std::max(model_.rest_at().value(), rests_until_) - clock_.time;
   if (time < 0) time = 0;
   for (const Waiting& one : waiting_) time += one.time + one.dwell.value();
   return time;
@@ -227,48 +223,48 @@ void GrblFollower::sent(std::string_view text, std::uint32_t line, Seconds now) 
       }
       break;
   }
-  run_model(clock_);
+  run_model(clock_.time);
 }
 
 void GrblFollower::add_leg(const Point& end, MmPerSecond feed, std::uint32_t line) {
-  const Point from = sent_from_;
-  Leg leg{.from = from, .to = end, .begin = path_length_, .length = length_of(end - from), .line = line};
+  const Point from = path_.end;
+  Leg leg{.from = from, .to = end, .begin = path_.length, .length = length_of(end - from), .line = line};
   leg.speed = speed_of(from, end, feed);
-  path_length_ += leg.length;
+  path_.length += leg.length;
   waiting_.push_back({.end = end,
                       .feed = feed,
-                      .leg = first_leg_ + static_cast<std::uint32_t>(legs_.size()),
+                      .leg = path_.first + static_cast<std::uint32_t>(path_.legs.size()),
                       .time = leg.length / leg.speed});
-  legs_.push_back(leg);
-  sent_from_ = end;
+  path_.legs.push_back(leg);
+  path_.end = end;
 }
 
 void GrblFollower::advance(Seconds now) {
-  if (last_ < Seconds(0)) last_ = now;
-  double passed = std::max(0.0, (now - last_).value()) * factor_;
-  last_ = std::max(last_, now);
-  if (paused_) return;
-  const double waits = std::min(passed, debt_);
-  debt_ -= waits;
-  run_model(clock_ + passed - waits);
+  if (clock_.set < Seconds(0)) clock_.set = now;
+  double passed = std::max(0.0, (now - clock_.set).value()) * clock_.factor;
+  clock_.set = std::max(clock_.set, now);
+  if (clock_.paused) return;
+  const double waits = std::min(passed, clock_.debt);
+  clock_.debt -= waits;
+  run_model(clock_.time + passed - waits);
 }
 
 // The model takes what waits as the board does: a line when there is a free block, a rest when nothing moves.
 void GrblFollower::run_model(double until) {
-  clock_ = std::max(clock_, until);
+  clock_.time = std::max(clock_.time, until);
   for (;;) {
     if (waiting_.empty()) break;
     const Waiting& next = waiting_.front();
     if (next.rests) {
       const double rest = std::max(model_.rest_at().value(), rests_until_) + next.dwell.value();
-      if (rest > clock_) break;
+      if (rest > clock_.time) break;
       model_.wait_for_rest(Seconds(0), Seconds(rest));
       rests_until_ = rest;
     } else {
-      if (rests_until_ > clock_) break;
+      if (rests_until_ > clock_.time) break;
       if (model_.full()) {
         const Seconds end = model_.first_end();
-        if (end.value() > clock_) break;
+        if (end.value() > clock_.time) break;
         model_.run(end);
         continue;
       }
@@ -276,25 +272,25 @@ void GrblFollower::run_model(double until) {
     }
     waiting_.pop_front();
   }
-  model_.run(Seconds(clock_));
+  model_.run(Seconds(clock_.time));
 }
 
 double GrblFollower::model_place() const {
   if (!model_.empty()) {
-    const std::uint32_t index = model_.source() - first_leg_;
-    if (index < legs_.size()) return legs_[index].begin + model_.done_of_first().value();
-    return known_;
+    const std::uint32_t index = model_.source() - path_.first;
+    if (index < path_.legs.size()) return path_.legs[index].begin + model_.done_of_first().value();
+    return path_.known;
   }
   for (const Waiting& one : waiting_) {
-    if (!one.rests && one.leg - first_leg_ < legs_.size()) return legs_[one.leg - first_leg_].begin;
+    if (!one.rests && one.leg - path_.first < path_.legs.size()) return path_.legs[one.leg - path_.first].begin;
   }
-  return path_length_;
+  return path_.length;
 }
 
 // The place along the path that is nearest to the expected one, of all that are within the tolerance.
 std::optional<double> GrblFollower::nearest_on_path(const Point& place, double expected) const {
   std::optional<double> best;
-  for (const Leg& leg : legs_) {
+  for (const Leg& leg : path_.legs) {
     const Point way = leg.to - leg.from;
     double along = leg.length > 0 ? dot(place - leg.from, way) / leg.length : 0;
     along = std::clamp(along, 0.0, leg.length);
@@ -310,30 +306,30 @@ std::optional<double> GrblFollower::nearest_on_path(const Point& place, double e
 
 // The model's clock follows the board.
 void GrblFollower::correct(double along, bool rests) {
-  known_ = std::max(known_, along);
+  path_.known = std::max(path_.known, along);
   const double model = model_place();
   double speed = smallest_speed;
-  for (const Leg& leg : legs_) {
+  for (const Leg& leg : path_.legs) {
     if (leg.begin <= along) speed = leg.speed;
   }
-  paused_ = rests && (!model_.empty() || !waiting_.empty());
+  clock_.paused = rests && (!model_.empty() || !waiting_.empty());
   if (along < model) {
-    debt_ = std::min((model - along) / speed, 1.0);
+    clock_.debt = std::min((model - along) / speed, 1.0);
   } else {
-    debt_ = 0;
-    run_model(clock_ + std::min((along - model) / speed, 1.0));
+    clock_.debt = 0;
+    run_model(clock_.time + std::min((along - model) / speed, 1.0));
   }
-  while (legs_.size() > 1 && legs_.front().begin + legs_.front().length < known_ - kept_behind) {
-    legs_.pop_front();
-    ++first_leg_;
+  while (path_.legs.size() > 1 && path_.legs.front().begin + path_.legs.front().length < path_.known - kept_behind) {
+    path_.legs.pop_front();
+    ++path_.first;
   }
 }
 
 std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool rests, bool ends, Seconds now) {
   advance(now);
-  if (lost_ || legs_.empty()) return {};
+  if (lost_ || path_.legs.empty()) return {};
   ends = ends && ends_in_rest_;
-  const Leg& last = legs_.back();
+  const Leg& last = path_.legs.back();
   const double beside_end = length_of(place - last.to);
   if (const auto along = nearest_on_path(place, model_place()); along && (!ends || beside_end <= tolerance_)) {
     strikes_ = 0;
@@ -344,7 +340,7 @@ std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool
   std::string words = ends ? "it has stopped" : "it is";
   double nearest = beside_end;
   if (!ends) {
-    for (const Leg& leg : legs_) {
+    for (const Leg& leg : path_.legs) {
       const Point way = leg.to - leg.from;
       const double along = leg.length > 0 ? std::clamp(dot(place - leg.from, way) / leg.length, 0.0, leg.length) : 0;
       const Point foot = leg.length > 0 ? leg.from + way * (along / leg.length) : leg.from;
@@ -361,8 +357,8 @@ std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool
 }
 
 std::uint32_t GrblFollower::first_line() const {
-  for (const Leg& leg : legs_) {
-    if (leg.line != 0 && leg.begin + leg.length >= known_) return leg.line;
+  for (const Leg& leg : path_.legs) {
+    if (leg.line != 0 && leg.begin + leg.length >= path_.known) return leg.line;
   }
   return last_line_;
 }

@@ -1,12 +1,9 @@
 #include "passo/sender/grbl_forecast.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
-#include <utility>
+
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
@@ -20,25 +17,7 @@ constexpr int steps_per_mm = 100;
 constexpr int velocity = 110;
 constexpr int acceleration = 120;
 
-// The axes of a plane, in the order that makes counterclockwise positive.
-std::pair<Axis, Axis> axes_of_plane(int plane) {
-  if (plane == 18) return {Axis::z, Axis::x};
-  if (plane == 19) return {Axis::y, Axis::z};
-  return {Axis::x, Axis::y};
-}
-
 }  // namespace
-
-// The words of a line.
-struct GrblForecast::Words {
-  enum class Kind : std::uint8_t { modes, move, rest };
-  Kind kind = Kind::modes;
-  std::optional<GrblPlanner::Arc> arc = {};
-  Point end = {};
-  MmPerSecond feed{0};
-  Seconds dwell{0};
-  std::uint32_t source = 0;
-};
 
 GrblLimits limits_of(const GrblMachine& machine) {
   const auto setting = [&](int number, double fallback) {
@@ -60,70 +39,27 @@ GrblLimits limits_of(const GrblMachine& machine) {
 }
 
 GrblForecast::GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const GrblTarget& target)
-    : line_(line), target_(target), at_(start), hindered_(limits, start), unhindered_(limits, start) {}
+    : line_(line), target_(target), reader_(start, target.zero), hindered_(limits, start), unhindered_(limits, start) {}
 
 void GrblForecast::add(std::string_view text, std::uint32_t source) {
-  Words words{.end = at_, .source = source};
-  PerAxis<double> center;
-  bool has_axis = false;
-  const char* next = text.data();
-  const char* const end = next + text.size();
-  while (next < end) {
-    const char letter = *next++;
-    double value = 0;
-    const auto [after, error] = std::from_chars(next, end, value);
-    if (error != std::errc()) break;
-    next = after;
-    const auto axis = axis_of(letter);
-    if (axis) {
-      words.end[*axis] = target_.zero[*axis] + value;
-      has_axis = true;
-    } else if (letter >= 'I' && letter <= 'K') {
-      center.values[static_cast<std::size_t>(letter - 'I')] = value;
-    } else if (letter == 'F') {
-      feed_ = value / 60;
-    } else if (letter == 'P') {
-      words.dwell = Seconds(value);
-    } else if (letter == 'M' || (letter == 'G' && value == 4)) {
-      words.kind = Words::Kind::rest;
-    } else if (letter == 'G' && value <= 3) {
-      motion_ = static_cast<int>(value);
-    } else if (letter == 'G' && value >= 17 && value <= 19) {
-      plane_ = static_cast<int>(value);
-    } else if (letter == 'G' && (value == 93 || value == 94)) {
-      by_time_ = value == 93;
-    }
-  }
-  if (has_axis) words.kind = Words::Kind::move;
-  const Point way = words.end - at_;
-  double length2 = 0;
-  for (const double part : way.values) length2 += part * part;
-  double feed = by_time_ ? feed_ * std::sqrt(length2) : feed_;
+  GrblLineMotion line = reader_.read(text);
+  const Point way = line.end - line.start;
+  const double length = length_of(way);
   // An arc on such a board is in the XY plane, and steep at most in short helices.
-  if (target_.measures_motors && !by_time_ && length2 > 0) {
-    feed *= motion_ >= 2 ? std::numbers::sqrt2 / 2 : std::sqrt(length2) / target_.way(way);
+  if (target_.measures_motors && !reader_.modes().by_time && length > 0) {
+    line.feed = line.feed * (line.arc ? std::numbers::sqrt2 / 2 : length / target_.way(way));
   }
-  words.feed = MmPerSecond(motion_ == 0 ? std::numeric_limits<double>::infinity() : feed);
-  if (has_axis && motion_ >= 2) {
-    const auto [first, second] = axes_of_plane(plane_);
-    words.arc = {.first = first,
-                 .second = second,
-                 .first_center = center[first],
-                 .second_center = center[second],
-                 .clockwise = motion_ == 2};
-  }
-  const double answered = run(hindered_, words, Seconds(arrival(text.size() + 1))).value();
+  const double answered = run(hindered_, line, source, Seconds(arrival(text.size() + 1))).value();
   unanswered_.back().answered = answered_ = answered;
-  answered_unhindered_ = run(unhindered_, words, Seconds(answered_unhindered_)).value();
-  weigh(text.size() + 1, std::sqrt(length2), source);
-  at_ = words.end;
+  answered_unhindered_ = run(unhindered_, line, source, Seconds(answered_unhindered_)).value();
+  weigh(text.size() + 1, length, source);
 }
 
-Seconds GrblForecast::run(GrblPlanner& planner, const Words& words, Seconds when) const {
-  if (words.kind == Words::Kind::rest) return planner.wait_for_rest(words.dwell, when);
-  if (words.kind == Words::Kind::modes) return when;
-  if (words.arc) return planner.add_arc(*words.arc, words.end, words.feed, words.source, when);
-  return planner.add_line(words.end, words.feed, words.source, when);
+Seconds GrblForecast::run(GrblPlanner& planner, const GrblLineMotion& line, std::uint32_t source, Seconds when) {
+  if (line.kind == GrblLineMotion::Kind::rest) return planner.wait_for_rest(line.dwell, when);
+  if (line.kind != GrblLineMotion::Kind::move) return when;
+  if (line.arc) return planner.add_arc(*line.arc, line.end, line.feed, source, when);
+  return planner.add_line(line.end, line.feed, source, when);
 }
 
 // When the last byte of a line of this size has arrived. It is sent when the receive buffer has room for it.

@@ -59,11 +59,13 @@ std::string steps_to(int wanted, char hundred, char ten_up) {
 
 }  // namespace
 
-GrblSender::GrblSender(Seconds now) : now_(now), begun_(now), stage_since_(now), heard_(now) {}
+GrblSender::GrblSender(Seconds now) : now_(now) {
+  last_.begun = last_.stage = last_.heard = last_.polled = now;
+}
 
 GrblSender GrblSender::on_open_line(Seconds now) {
   GrblSender sender(now);
-  sender.stage_since_ = now - start_of_an_arduino;
+  sender.last_.stage = now - start_of_an_arduino;
   return sender;
 }
 
@@ -112,19 +114,19 @@ void GrblSender::resume() {
 
 void GrblSender::override_feed(int percent) {
   if (follower_) follower_->set_override(std::clamp(percent, 10, 200) / 100.0);
-  for (const char byte : steps_to(percent, '\x90', '\x91')) override_bytes_.push_back(byte);
+  for (const char byte : steps_to(percent, '\x90', '\x91')) override_.bytes.push_back(byte);
 }
 
 void GrblSender::override_spindle(int percent) {
-  for (const char byte : steps_to(percent, '\x99', '\x9A')) override_bytes_.push_back(byte);
+  for (const char byte : steps_to(percent, '\x99', '\x9A')) override_.bytes.push_back(byte);
 }
 
 // One by one: Grbl counts equal bytes once that come before it has looked.
 void GrblSender::send_overrides() {
-  if (override_bytes_.empty() || now_ - override_sent_ < between_override_bytes) return;
-  act(override_bytes_.front());
-  override_bytes_.pop_front();
-  override_sent_ = now_;
+  if (override_.bytes.empty() || now_ - override_.sent < between_override_bytes) return;
+  act(override_.bytes.front());
+  override_.bytes.pop_front();
+  override_.sent = now_;
 }
 
 int GrblSender::override_rapids(int percent) {
@@ -153,7 +155,7 @@ void GrblSender::stop() {
     return enter(Stage::dropping);
   }
   enter(Stage::braking);
-  asked_ = Seconds(-1);
+  last_.asked = Seconds(-1);
   reports_.outdate();
   act('!');
 }
@@ -165,7 +167,7 @@ void GrblSender::lose() {
 
 void GrblSender::enter(Stage stage) {
   stage_ = stage;
-  stage_since_ = now_;
+  last_.stage = now_;
 }
 
 // What the machine may be executing: the planner's blocks that are not free. An arc takes many, so the line may be a
@@ -195,7 +197,7 @@ GrblFault GrblSender::fault_between_lines(std::string code, std::string message)
 }
 
 void GrblSender::check_silence() {
-  const Seconds since = std::max(heard_, stage_since_);
+  const Seconds since = std::max(last_.heard, last_.stage);
   const Seconds most = follower_ && has_work() && stage_ == Stage::ready ? longest_silence_in_motion : longest_silence;
   if (now_ - since < most + silence_of_oldest()) return;
   const char* const hint =
@@ -210,10 +212,10 @@ void GrblSender::check_lost_bytes() {
   const UnacknowledgedLines::Line* const oldest = window_.oldest();
   const bool waits = oldest != nullptr || (is_locked && has_work());
   if ((report()->state != "Idle" && !is_locked) || !waits) {
-    idle_since_ = now_;
+    last_.idle = now_;
     return;
   }
-  Seconds since = std::max({idle_since_, told_, answered_});
+  Seconds since = std::max({last_.idle, last_.told, last_.answered});
   if (oldest != nullptr) since = std::max(since, oldest->sent);
   // By its reports, not by the clock: a machine that is silent is not idle.
   if (reports_.came() - since < longest_idle + silence_of_oldest()) return;
@@ -239,11 +241,11 @@ void GrblSender::check_lost_bytes() {
 void GrblSender::check_standstill() {
   const bool has_nothing_to_do =
       window_.oldest() == nullptr && (report()->state == "Idle" || report()->state == "Alarm");
-  if (has_nothing_to_do || !words_of_grbl_wait(*report()).empty()) progress_ = now_;
-  if (now_ - progress_ < longest_standstill + silence_of_oldest()) return;
+  if (has_nothing_to_do || !words_of_grbl_wait(*report()).empty()) last_.progress = now_;
+  if (now_ - last_.progress < longest_standstill + silence_of_oldest()) return;
   fail(fault_between_lines("grbl.no-answer",
                            fmt::format("the machine is in state {}, but has neither moved nor answered for {:.0f} s",
-                                       report()->state, (now_ - progress_).value())));
+                                       report()->state, (now_ - last_.progress).value())));
   stop();
 }
 
@@ -267,15 +269,15 @@ GrblFault GrblSender::fault_of_greeting() const {
 
 void GrblSender::ask_for_status() {
   const Seconds pause = stops() || looks_often_ ? between_urgent_questions : between_questions;
-  if (asked_ >= Seconds(0) && now_ - asked_ < pause) return;
-  asked_ = now_;
+  if (last_.asked >= Seconds(0) && now_ - last_.asked < pause) return;
+  last_.asked = now_;
   act('?');
 }
 
 void GrblSender::poll(Seconds now) {
   // While this program stood still, nothing could be heard.
-  if (now - polled_ > Seconds(0.5)) heard_ = std::max(heard_, now - Seconds(0.5));
-  now_ = polled_ = now;
+  if (now - last_.polled > Seconds(0.5)) last_.heard = std::max(last_.heard, now - Seconds(0.5));
+  now_ = last_.polled = now;
   send_overrides();
   switch (stage_) {
     case Stage::waking:
@@ -285,24 +287,24 @@ void GrblSender::poll(Seconds now) {
     case Stage::ready: return watch();
     case Stage::braking: return brake();
     case Stage::dropping:
-      if (now - stage_since_ > longest_drop) stage_ = Stage::stopped;
+      if (now - last_.stage > longest_drop) stage_ = Stage::stopped;
       return;
     case Stage::stopped: return;
   }
 }
 
 void GrblSender::greet() {
-  if (now_ - begun_ > longest_greeting) return end_with(fault_of_greeting());
+  if (now_ - last_.begun > longest_greeting) return end_with(fault_of_greeting());
   switch (stage_) {
     case Stage::waking:
-      if (now_ - stage_since_ < start_of_an_arduino) return;
+      if (now_ - last_.stage < start_of_an_arduino) return;
       enter(Stage::clearing);
       urgent_ += '\n';  // ends a line that another sender has left
       return;
     case Stage::clearing:
-      if (now_ - std::max(heard_, stage_since_) < quiet && now_ - stage_since_ < longest_clearing) return;
+      if (now_ - std::max(last_.heard, last_.stage) < quiet && now_ - last_.stage < longest_clearing) return;
       enter(Stage::looking);
-      heard_ = now_;
+      last_.heard = now_;
       reports_.forget_last();
       return;
     case Stage::looking:
@@ -341,8 +343,8 @@ void GrblSender::watch() {
 void GrblSender::brake() {
   ask_for_status();
   // A hold at rest, or nothing to hold. A dwell is no motion and is not held: it rests too.
-  const bool rests = reports_.came_after(stage_since_) && report()->rests();
-  if (!rests && now_ - stage_since_ < longest_braking) return;
+  const bool rests = reports_.came_after(last_.stage) && report()->rests();
+  if (!rests && now_ - last_.stage < longest_braking) return;
   act(soft_reset);
   enter(Stage::dropping);
 }
@@ -357,7 +359,7 @@ std::string GrblSender::take_bytes(Seconds now) {
 
 void GrblSender::receive(std::string_view bytes, Seconds now) {
   now_ = now;
-  if (!bytes.empty()) heard_ = now;
+  if (!bytes.empty()) last_.heard = now;
   for (const char byte : bytes) {
     if (byte != '\n' && byte != '\r') {
       if (came_.size() < longest_reply) came_ += byte;
@@ -373,7 +375,7 @@ void GrblSender::hear(std::string_view line) {
   const std::string_view with_blanks = line;
   line = without_blanks(line);
   if (const auto report = read_grbl_report(line, machine_.axes)) return hear_report(*report);
-  told_ = now_;
+  last_.told = now_;
   last_line_heard_ = line;
   if (is_report_of_old_grbl(line) || line.starts_with("Grbl 0.")) {
     return end_with({.code = "grbl.too-old",
@@ -397,14 +399,14 @@ void GrblSender::hear(std::string_view line) {
 void GrblSender::hear_report(const GrblReport& report) {
   ++reports_heard_;
   if (greets()) machine_.hear_value_count(report.values);
-  if (reports_.hear(report, now_)) progress_ = now_;
+  if (reports_.hear(report, now_)) last_.progress = now_;
   if (report.bytes_free) window_.hear_free_bytes(*report.bytes_free);
   follow_report(report);
 }
 
 void GrblSender::hear_greeting() {
   switch (stage_) {
-    case Stage::waking: stage_since_ = now_ - start_of_an_arduino; return;
+    case Stage::waking: last_.stage = now_ - start_of_an_arduino; return;
     case Stage::clearing:
     case Stage::stopped: return;
     case Stage::looking:
@@ -434,7 +436,7 @@ void GrblSender::answer(std::optional<std::string_view> error) {
   // The same, if it comes late: the answer to $I tells the version.
   if (stage_ == Stage::asking && machine_.version.empty()) return;
   UnacknowledgedLines::Line line = *window_.take_answered();
-  answered_ = progress_ = now_;
+  last_.answered = last_.progress = now_;
   if (line.marks) return answer_mark();
   if (line.asks) return window_.keep_reply(std::move(line), error ? words_of_error(*error) : "");
   if (!error) {

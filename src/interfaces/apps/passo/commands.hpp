@@ -56,6 +56,12 @@ struct ChangeArguments {
   std::string adaptive_feed;           // file of factors for M52; empty: the factor is 1
 };
 
+struct StartLine {
+  std::uint32_t line = 0;  // 0: the first one
+  std::uint32_t pass = 0;  // which pass through that line; 0: it is reached only once
+  double after = 0;        // mm along the path from that line
+};
+
 struct RunArguments {
   ProgramArguments program;
   std::string machine;
@@ -74,9 +80,7 @@ struct RunArguments {
   std::string board = "virtual";     // an address for parse_board_address(), or sim:first_board
   std::string journal;               // empty: usual_journal()
   bool resume = false;               // resumes an interrupted run
-  std::uint32_t from_line = 0;       // the line at which the program is to start; 0: its first line
-  std::uint32_t pass = 0;            // which pass through that line; 0: it is reached only once
-  double after = 0;                  // mm along the path from that line
+  StartLine start;                   // where the program is to start
   std::optional<double> ahead;       // motion that may lie in a Grbl board, s
   bool home = false;                 // homes the machine first; the program then starts from the position after
                                      // homing

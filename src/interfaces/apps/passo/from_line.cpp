@@ -21,13 +21,14 @@ bool is_agreed() {
 
 std::optional<Reentry> way_to_line(const RunArguments& arguments, const ProgramReader& program,
                                    const MachineDescription& machine, const InterpreterOptions& options, int& code) {
-  auto way = reentry_at_line(program, machine, options,
-                             {.line = arguments.from_line, .pass = arguments.pass, .after = Mm(arguments.after)});
+  auto way =
+      reentry_at_line(program, machine, options,
+                      {.line = arguments.start.line, .pass = arguments.start.pass, .after = Mm(arguments.start.after)});
   if (!way) {
     const LineProblem& problem = way.error();
     const bool is_pass = problem.refusal == ReentryRefusal::done_often || problem.refusal == ReentryRefusal::no_pass;
     code = fail(exit_bad_program,
-                fmt::format("--from-line {}: {}{} [{}]", arguments.from_line, message_of(problem),
+                fmt::format("--from-line {}: {}{} [{}]", arguments.start.line, message_of(problem),
                             is_pass ? fmt::format(", as --pass {}", problem.times) : "", code_of(problem.refusal)));
     return {};
   }

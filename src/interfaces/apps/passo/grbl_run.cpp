@@ -206,7 +206,7 @@ bool suits_grbl(const RunArguments& arguments) {
     words =
         "--from-here is not possible with Grbl, which keeps its own position: home the machine, or set its work zero "
         "[grbl.cannot]";
-  } else if (arguments.pass > 0 || arguments.after > 0) {
+  } else if (arguments.start.pass > 0 || arguments.start.after > 0) {
     words =
         "--pass and --after are not possible with Grbl, which can only start at a line that runs once [grbl.cannot]";
   } else if (!arguments.pictures.empty() || !arguments.traces.empty() || !arguments.report.empty() ||
@@ -236,7 +236,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   if (!arguments.quiet)
     note("the program starts at " + opened->place_words() + " (machine coordinates), with the offsets of the machine");
   GrblProgram lines(program, machine, options, target, !arguments.yes);
-  if (arguments.from_line > 0) {
+  if (arguments.start.line > 0) {
     const auto way = way_to_line(arguments, program, machine, options, code);
     if (!way) return code;
     lines.begin_at(*way);

@@ -91,17 +91,17 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                    "position is required)");
   command.add_flag("--resume", arguments.resume, "board: continue this program where it was interrupted");
   command
-      .add_option("--from-line", arguments.from_line,
+      .add_option("--from-line", arguments.start.line,
                   "number of the line to start at: set the modes as the earlier lines do, raise the tool, start the "
                   "spindle, move over the start and lower the tool; asks before it moves")
       ->check(CLI::PositiveNumber);
   command
       .add_option(
-          "--pass", arguments.pass,
+          "--pass", arguments.start.pass,
           "pass of that line to start at, if a loop or a subroutine repeats it (default: the first); needs --from-line")
       ->check(CLI::PositiveNumber);
   command
-      .add_option("--after", arguments.after,
+      .add_option("--after", arguments.start.after,
                   "distance along the toolpath after the start of that line's move, mm; needs --from-line")
       ->check(CLI::NonNegativeNumber);
   command

@@ -51,9 +51,9 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--disturb needs --physics: without it, simulated motors follow every command";
   } else if (arguments.ahead && !names_grbl_machine(arguments.board)) {
     words = "--ahead is only for --board grbl:; boards of Passo brake by themselves when the connection is lost";
-  } else if (arguments.from_line > 0 && arguments.resume) {
+  } else if (arguments.start.line > 0 && arguments.resume) {
     words = "--resume continues at the line where the job stopped, so it cannot be combined with --from-line";
-  } else if (arguments.from_line == 0 && (arguments.pass > 0 || arguments.after > 0)) {
+  } else if (arguments.start.line == 0 && (arguments.start.pass > 0 || arguments.start.after > 0)) {
     words = "--pass and --after refine the start point of --from-line, so they need it";
   } else if (arguments.from_here && arguments.resume) {
     words = "--resume uses the start position of the job, so it cannot be combined with --from-here";

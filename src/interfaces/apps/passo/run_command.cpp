@@ -442,7 +442,7 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
     return fail(exit_bad_program, "the program probes, and the port of sim:first_board has no inputs [port.no-inputs]");
   }
   std::optional<Reentry> way;
-  if (arguments.from_line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
+  if (arguments.start.line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
   const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};
   if (resumable && !resumable->suits(subject, code)) return code;
   return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops);

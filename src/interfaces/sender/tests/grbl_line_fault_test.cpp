@@ -144,7 +144,8 @@ TEST(GrblLineFaults, an_accident_in_motion_ends_in_a_stated_state_within_two_sec
       {"another program resets it",
        [](FollowedPair& pair) { pair.machine.receive("\x18"); },
        {"grbl.alarm", "grbl.restarted"}},
-      {"another program moves it", [](FollowedPair& pair) { pair.machine.receive("G91G0X5Y5\nG90\n"); },
+      {"another program moves it",
+       [](FollowedPair& pair) { pair.machine.receive("G91G0X5Y5\nG90\n"); },
        {"grbl.lost-lines", "grbl.off-path", "grbl.changed-line", "grbl.error"}},
   };
   for (const Accident& accident : accidents) {

@@ -57,7 +57,7 @@ class GrblFollower {
   // False after a line that led to an unknown place.
   bool knows_path() const { return !lost_; }
   // The feed override, as a factor.
-  void set_override(double factor) { factor_ = factor; }
+  void set_override(double factor) { clock_.factor = factor; }
   // `rests`: nothing moves. `ends`: all lines were answered before the report, and the board is idle.
   std::optional<Trouble> hear(const Point& place, bool rests, bool ends, Seconds now);
   // `modes`: from [GC:…], after all lines that were sent before the question. `expected`: modes() of that time.
@@ -76,6 +76,21 @@ class GrblFollower {
     double length = 0;
     std::uint32_t line = 0;
     double speed = 0;  // mm/s, at most
+  };
+  struct Path {
+    std::deque<Leg> legs;
+    std::uint32_t first = 0;  // index of legs.front()
+    Point end = {};           // of the last leg
+    double length = 0;        // of all legs so far
+    double known = 0;         // the board has come so far
+  };
+  // The model's time.
+  struct Clock {
+    double time = 0;  // s
+    double debt = 0;  // how long the model waits, s
+    Seconds set{-1};  // the host's time
+    double factor = 1;
+    bool paused = false;
   };
   // What the board has in its receive buffer, or waits for.
   struct Waiting {
@@ -111,16 +126,8 @@ class GrblFollower {
   GrblPlanner model_;
   std::deque<Waiting> waiting_;
   double rests_until_ = 0;  // of a dwell, in the model's time
-  std::deque<Leg> legs_;
-  std::uint32_t first_leg_ = 0;  // index of legs_.front()
-  Point sent_from_;              // end of the last leg
-  double path_length_ = 0;
-  double known_ = 0;  // along the path: the board has come so far
-  double clock_ = 0;  // the model's time, s
-  double debt_ = 0;   // how long the model waits, s
-  Seconds last_{-1};
-  double factor_ = 1;
-  bool paused_ = false;
+  Path path_;
+  Clock clock_;
   bool lost_ = false;          // a line led to an unknown place
   bool ends_in_rest_ = false;  // the last line was answered when all motion was complete
   int strikes_ = 0;            // reports beside the path, one after the other

@@ -16,6 +16,7 @@
 
 #include "passo/geometry/axes.hpp"
 #include "passo/grbl_planner/grbl_planner.hpp"
+#include "passo/sender/grbl_line_reader.hpp"
 #include "passo/sender/grbl_machine.hpp"
 #include "passo/sender/grbl_target.hpp"
 #include "passo/units/units.hpp"
@@ -53,7 +54,6 @@ class GrblForecast {
   Result finish();
 
  private:
-  struct Words;
   struct Sent {
     std::size_t bytes = 0;
     double answered = 0;
@@ -65,17 +65,13 @@ class GrblForecast {
     std::uint32_t source = 0;
   };
 
-  Seconds run(GrblPlanner& planner, const Words& words, Seconds when) const;
+  static Seconds run(GrblPlanner& planner, const GrblLineMotion& line, std::uint32_t source, Seconds when);
   double arrival(std::size_t bytes);
   void weigh(std::size_t bytes, double length, std::uint32_t source);
 
   GrblLine line_;
   GrblTarget target_;
-  Point at_;  // machine coordinates
-  int motion_ = 0;
-  int plane_ = 17;
-  double feed_ = 0;       // mm/s; of an inverse time: moves per second
-  bool by_time_ = false;  // G93
+  GrblLineReader reader_;
   GrblPlanner hindered_;
   GrblPlanner unhindered_;
   std::deque<Sent> unanswered_;

@@ -97,7 +97,7 @@ class GrblSender {
   bool all_answered() const { return window_.all_answered(); }
   // Returns whether all lines were acknowledged and a later report shows that the machine is idle.
   bool at_rest() const {
-    return !fault_ && all_answered() && reports_.came_after(answered_) && report()->state == "Idle";
+    return !fault_ && all_answered() && reports_.came_after(last_.answered) && report()->state == "Idle";
   }
   // Returns the size of the machine's receive buffer, as far as it is known.
   std::size_t buffer_size() const { return window_.usable(machine_.bytes); }
@@ -180,15 +180,20 @@ class GrblSender {
 
   Stage stage_ = Stage::waking;
   Seconds now_{0};
-  Seconds begun_{0};
-  Seconds stage_since_{0};
-  Seconds heard_{0};     // time of the last received byte
-  Seconds asked_{-1};    // time of the last status query
-  Seconds answered_{0};  // time of the last acknowledged line
-  Seconds idle_since_{0};
-  Seconds progress_{0};  // last acknowledgement, or last report with a change of state or position
-  Seconds told_{0};      // last line that is not a report
-  std::string came_;     // the incomplete line received so far
+  // Times of the last …
+  struct Times {
+    Seconds begun{0};     // handshake begun
+    Seconds stage{0};     // change of the stage
+    Seconds heard{0};     // received byte
+    Seconds asked{-1};    // status query
+    Seconds answered{0};  // acknowledged line
+    Seconds idle{0};      // time at which it was not idle, or had nothing to answer
+    Seconds progress{0};  // acknowledgement, or report with a change of state or position
+    Seconds told{0};      // line that is not a report
+    Seconds polled{0};    // call of take_bytes()
+  };
+  Times last_;
+  std::string came_;  // the incomplete line received so far
   std::string last_line_heard_;
   std::string locked_by_;  // the alarm reported during the handshake
   std::string urgent_;
@@ -202,15 +207,21 @@ class GrblSender {
   std::optional<GrblFault> fault_;
 
   std::optional<GrblFollower> follower_;
-  std::deque<GrblLineModes> expected_;  // modes at each mark that is not answered yet
-  bool mark_heard_ = false;             // the modes of the oldest mark have come
-  Seconds marked_{0};                   // time of the last mark
-  std::size_t unmarked_ = 0;            // lines sent since
-  std::uint32_t sure_line_ = 0;         // the last line before the last mark that was right
-  std::deque<std::uint32_t> marked_lines_;
-  std::deque<char> override_bytes_;
-  Seconds override_sent_{-1};
-  Seconds polled_{0};
+  // Marks in the stream.
+  struct Marks {
+    std::deque<GrblLineModes> expected;  // modes at each mark that is not answered yet
+    std::deque<std::uint32_t> lines;     // the last line before each of them
+    bool heard = false;                  // the modes of the oldest one have come
+    Seconds sent{0};                     // time of the last one
+    std::size_t since = 0;               // lines sent since
+    std::uint32_t sure_line = 0;         // the last line before the last mark that was right
+  };
+  Marks marks_;
+  struct Overrides {
+    std::deque<char> bytes;  // not sent yet
+    Seconds sent{-1};        // time of the last one
+  };
+  Overrides override_;
 };
 
 }  // namespace passo

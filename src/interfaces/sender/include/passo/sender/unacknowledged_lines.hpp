@@ -33,7 +33,7 @@ class UnacknowledgedLines {
     Seconds sent{0};
     bool goes_on = false;  // a piece of a line, not its last one
     bool marks = false;    // a question of the sender itself, which counts as no line
-    bool asks = false;  // its answer is wanted; a rejection is no fault
+    bool asks = false;     // its answer is wanted; a rejection is no fault
     std::vector<std::string> said = {};
   };
 
