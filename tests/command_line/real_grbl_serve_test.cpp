@@ -45,14 +45,27 @@ class ServeOnRealGrbl : public test::ServedHttp {
   }
   void serve_grblhal() {
     for (const int port : {20000 + getpid() % 10000, 30000 + getpid() % 10000}) {
-      const std::vector<std::string> words = {test::grbl_peers + "/grblHAL_sim", "-n", "-p", std::to_string(port), "-t",
-                                              "1", "-e", "eeprom", "-s", "steps", "-b", "blocks", "-r", "0.01"};
+      const std::vector<std::string> words = {test::grbl_peers + "/grblHAL_sim",
+                                              "-n",
+                                              "-p",
+                                              std::to_string(port),
+                                              "-t",
+                                              "1",
+                                              "-e",
+                                              "eeprom",
+                                              "-s",
+                                              "steps",
+                                              "-b",
+                                              "blocks",
+                                              "-r",
+                                              "0.01"};
       board_ = std::make_unique<test::ChildProcess>(words, path(""));
       const int line = test::connect_when_there(port);
       if (line < 0) continue;
       test::RealTalker talker(line);
       talker.listen(2, std::chrono::seconds(1));
-      for (const char* setting : {"$110=3000\n", "$111=3000\n", "$112=3000\n", "$120=200\n", "$121=200\n", "$122=200\n"}) {
+      for (const char* setting :
+           {"$110=3000\n", "$111=3000\n", "$112=3000\n", "$120=200\n", "$121=200\n", "$122=200\n"}) {
         talker.ask(setting, 1);
       }
       address_ = fmt::format("grbl:tcp:127.0.0.1:{}", port);
@@ -138,8 +151,9 @@ class ServeOnRealGrbl : public test::ServedHttp {
     ASSERT_TRUE(until_state("Idle"));
     // A line of the console.
     EXPECT_FALSE(post("/mdi", {{"line", "G0 X1 Y1"}}).contains("error"));
-    ASSERT_TRUE(until([&] { return state() == "Idle" && std::abs(status()["place"]["x"].get<double>() - x - 1) < 0.005; }))
-        << status();
+    ASSERT_TRUE(until([&] {
+      return state() == "Idle" && std::abs(status()["place"]["x"].get<double>() - x - 1) < 0.005;
+    })) << status();
   }
 
   std::vector<std::string> settings_;

@@ -137,7 +137,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
                {"place", as_json(machine, status.now_at)},
                {"speed", rounded(status.speed_now.value() * seconds_per_minute)},
                {"line", status.executes.line},
-               {"line_to", std::max(status.executes_to, status.executes.line)},
+               {"line_to", std::max(status.executes.to, status.executes.line)},
                {"progress", status.progress ? Json(rounded(*status.progress)) : Json()},
                {"outputs",
                 {{"spindle", name_of(status.outputs.spindle)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "passo/api/deleted_lines.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
@@ -143,10 +144,27 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   checker_ = std::make_unique<ProgramChecker>(ProgramReader::from_text(program.name, program.text), machine, options,
                                               program.findings);
   path_ = PathFingerprint();
-  checker_->watch([this, path = &program.path_points](const PathItem& item) {
-    path->add(item, checker_->frame());
+  judge_ = new_judge_ ? new_judge_() : nullptr;
+  told_.clear();
+  checker_->watch([this, stored = &program](const PathItem& item) {
+    stored->path_points.add(item, checker_->frame());
     path_.add(item);
+    if (judge_) judge(item, *stored);
   });
+}
+
+// Each objection once, at the first line that gives cause for it.
+void ProgramStore::judge(const PathItem& item, StoredProgram& program) {
+  const auto good = judge_(item);
+  if (good || std::ranges::find(told_, good.error()) != told_.end()) return;
+  told_.push_back(good.error());
+  const std::uint32_t line = std::visit([](const auto& one) { return one.source.line; }, item);
+  program.findings.add({.code = "grbl.cannot",
+                        .file = program.name,
+                        .place = {.line = line, .column = 0},
+                        .message = "a machine with Grbl cannot do this: " + good.error(),
+                        .expected = "",
+                        .text = ""});
 }
 
 void ProgramStore::make_room_for_path(std::uint64_t id) {
@@ -196,7 +214,7 @@ void ProgramStore::poll() {
   program.check = checker_->result();
   program.path_points.finish();
   program.path = path_.value();
-  program.state = program.check.good ? UploadState::good : UploadState::bad;
+  program.state = program.check.good && !program.findings.any_error() ? UploadState::good : UploadState::bad;
   checker_.reset();
 }
 

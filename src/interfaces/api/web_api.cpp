@@ -70,6 +70,7 @@ class WebApi::Parts {
                                                                                                              options,
                                                                                                              programs,
                                                                                                              offsets} {
+    programs.judge_paths(options.path_judge);
     mdi.begin_anew();
     if (BoardMachineSession* const own = session.as_board_session()) {
       own->board().sent_segments().keep(machine.board.clock);

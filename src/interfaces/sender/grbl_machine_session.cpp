@@ -60,7 +60,7 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   sender_.listen([this](std::string_view line) { hear(line); });
   prepared_ = false;
   lent_ = false;
-  reports_ = 0;
+  heard_.reports = 0;
 }
 
 bool GrblMachineSession::busy() const {
@@ -118,27 +118,27 @@ void GrblMachineSession::hear(std::string_view line) {
   if (!line.starts_with(probe) || !line.ends_with(']')) return;
   line.remove_prefix(probe.size());
   line.remove_suffix(1);
-  probed_at_ = contact_of(line, sender_.machine(), probe_touched_);
+  contact_.at = contact_of(line, sender_.machine(), contact_.touched);
 }
 
 void GrblMachineSession::hear_report() {
-  if (sender_.reports_heard() == reports_ || !sender_.report()) return;
-  reports_ = sender_.reports_heard();
+  if (sender_.reports_heard() == heard_.reports || !sender_.report()) return;
+  heard_.reports = sender_.reports_heard();
   const GrblReport& report = *sender_.report();
-  if (pins_ != report.pins) ++version_;
-  pins_ = report.pins;
-  if (report.outputs) outputs_ = *report.outputs;
+  if (heard_.pins != report.pins) ++news_.version;
+  heard_.pins = report.pins;
+  if (report.outputs) heard_.outputs = *report.outputs;
   const auto place = sender_.place();
   if (!place) return;
   live_.hear(*place, now());
   if (report.rests() && !busy()) {
-    if (position_.place != *place) ++version_;
+    if (position_.place != *place) ++news_.version;
     position_.place = *place;
     live_.rest_at(*place);
   }
   if (!busy() || !work_->feed || work_->stage == Work::Stage::resyncs) return;
   const std::size_t blocks = board_.blocks + 1;
-  work_->executed.hear(sender_.lines_answered(), blocks, *place);
+  work_->progress.executed.hear(sender_.lines_answered(), blocks, *place);
 }
 
 // Sets the modes that the lines need, and reads the offsets.
@@ -256,6 +256,16 @@ std::optional<Refusal> GrblMachineSession::lost_place() const {
   return Refusal{homes ? RefusalReason::unknown_so_home : RefusalReason::unknown_so_jog};
 }
 
+std::function<Status<std::string>(const PathItem&)> GrblMachineSession::path_judge() const {
+  return [code = std::make_shared<GrblCode>(GrblTarget::of(board_))](const PathItem& item) -> Status<std::string> {
+    const auto* action = std::get_if<Action>(&item);
+    const bool is_probe =
+        action != nullptr && (action->kind == Action::Kind::probe_begin || action->kind == Action::Kind::probe_end);
+    std::vector<std::string> lines;
+    return is_probe ? Status<std::string>(Unit{}) : code->write(item, lines);
+  };
+}
+
 std::optional<MachineSession::ProgramResults> GrblMachineSession::program_results() const {
   if (!work_ || !work_->program) return {};
   return ProgramResults{.parameters = work_->program->saved_parameters(), .tools = work_->program->tools()};
@@ -263,7 +273,7 @@ std::optional<MachineSession::ProgramResults> GrblMachineSession::program_result
 
 MachineStatus GrblMachineSession::status() const {
   MachineStatus status;
-  status.version = version_;
+  status.version = news_.version;
   status.time = now();
   status.state = state_;
   status.position = position_;
@@ -271,7 +281,7 @@ MachineStatus GrblMachineSession::status() const {
   status.now_at = live_.at();
   status.speed_now = live_.speed();
   status.ahead = position_.place;
-  status.inputs = inputs_of(pins_);
+  status.inputs = inputs_of(heard_.pins);
   status.overrides = overrides_;
   status.stops = stops_;
   status.trouble_sentence = trouble_;
@@ -282,14 +292,15 @@ MachineStatus GrblMachineSession::status() const {
   status.rests = waits || (report && report->rests() && work.stage == Work::Stage::moves);
   status.ahead = live_.at();
   status.activity = work.kind;
-  status.holds.set(HoldReason::operator_hold, work.held || (state_ == MachineState::hold && work.was_held));
+  status.holds.set(HoldReason::operator_hold, work.hold.asked || (state_ == MachineState::hold && work.hold.heard));
   status.holds.set(HoldReason::door, state_ == MachineState::door);
   if (work.feed) {
     status.outputs = work.feed->outputs();
-    status.executes = work.executed.source();
-    status.executes_to = work.executed.last_line();
+    status.executes = work.progress.executed.source();
+    status.executes.to = work.progress.executed.last_line();
     if (work.start && work.start->nominal_time > Seconds(0)) {
-      status.progress = std::min(1.0, (work.skipped + work.executed.time()) / work.start->nominal_time);
+      status.progress =
+          std::min(1.0, (work.progress.skipped + work.progress.executed.time()) / work.start->nominal_time);
     }
     if (waits && work.feed->asks() == GrblFeed::Asks::operator_stop) {
       const Action& stop = work.feed->stop();
@@ -316,9 +327,9 @@ void GrblMachineSession::move_to(MachineEvent event) {
 
 void GrblMachineSession::publish(MachineChange change) {
   change.time = now();
-  ++version_;
-  if (changes_.size() == most_kept_changes) changes_.pop_front();
-  changes_.push_back(std::move(change));
+  ++news_.version;
+  if (news_.changes.size() == most_kept_changes) news_.changes.pop_front();
+  news_.changes.push_back(std::move(change));
 }
 
 void GrblMachineSession::answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault) {
@@ -326,12 +337,12 @@ void GrblMachineSession::answer(Ticket ticket, Outcome outcome, std::optional<Ac
 }
 
 void GrblMachineSession::answer_holds(Outcome outcome) {
-  for (const Ticket ticket : std::exchange(waiting_holds_, {})) answer(ticket, outcome);
+  for (const Ticket ticket : std::exchange(tickets_.holds, {})) answer(ticket, outcome);
 }
 
 std::vector<MachineChange> GrblMachineSession::take_changes() {
-  std::vector<MachineChange> taken(changes_.begin(), changes_.end());
-  changes_.clear();
+  std::vector<MachineChange> taken(news_.changes.begin(), news_.changes.end());
+  news_.changes.clear();
   return taken;
 }
 

@@ -24,6 +24,30 @@ struct GrblMachineSession::Work {
     ended
   };
 
+  struct Progress {
+    GrblExecuted executed;
+    Seconds skipped{0};              // nominal time of what comes before the point where the program begins
+    std::uint64_t lines_before = 0;  // lines sent before this work
+  };
+  struct Hold {
+    bool asked = false;  // by a request
+    bool door = false;   // the same, as for an open door
+    bool heard = false;  // the board has reported it
+    bool told = false;   // that the machine has come to rest
+    Seconds at{0};
+  };
+  struct Jog {
+    std::unique_ptr<JogLine> line;  // null: this is no jog
+    Point from;
+    MmPerSecond speed{0};
+    Mm length{0};
+    Mm sent{0};   // end of the last piece
+    Mm ahead{0};  // how far pieces are sent ahead of the reported position
+    Seconds lease{0};
+    Seconds lease_end{0};
+    std::optional<Seconds> cancelled_at;
+  };
+
   // Whether this is a program, which can be held and resumed.
   bool is_program() const { return program != nullptr || lines != nullptr; }
   std::string words_at(std::uint32_t line) {
@@ -48,28 +72,13 @@ struct GrblMachineSession::Work {
   std::unique_ptr<ProbeLine> probe;
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
-  GrblExecuted executed;
-  Seconds skipped{0};             // nominal time of what comes before the point where the program begins
-  std::uint64_t lines_before = 0;  // lines sent before this work
+  Progress progress;
   std::uint64_t stops = 0;
-  bool held = false;      // by a request
-  bool door = false;      // the same, as for an open door
-  bool was_held = false;  // the board has reported the hold
-  bool rest_told = false;
-  Seconds held_at{0};
+  Hold hold;
 
   std::unique_ptr<ProgramChecker> checker;
 
-  // A jog
-  std::unique_ptr<JogLine> jog;
-  Point from;
-  MmPerSecond speed{0};
-  Mm length{0};
-  Mm sent{0};   // end of the last piece
-  Mm ahead{0};  // how far pieces are sent ahead of the reported position
-  Seconds lease{0};
-  Seconds lease_end{0};
-  std::optional<Seconds> cancelled_at;
+  Jog jog;
 };
 
 }  // namespace passo

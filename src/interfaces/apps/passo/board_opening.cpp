@@ -45,7 +45,8 @@ std::string message_of_missing(const fs::path& image) {
 Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant,
                                                                const PinSetup& wiring) {
   if (address.speaks_grbl) {
-    return Failure{"a machine with Grbl is not a Passo board: only passo run, passo home and passo serve can use it [board.grbl]"};
+    return Failure{
+        "a machine with Grbl is not a Passo board: only passo run, passo home and passo serve can use it [board.grbl]"};
   }
   if (address.kind != BoardAddress::Kind::emulated) {
     auto line = open_board(address);

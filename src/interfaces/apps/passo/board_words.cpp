@@ -81,7 +81,7 @@ std::string silence_of(const BoardSession& board) {
   if (board.hung_up()) return "closes the connection: another program uses it";
   if (board.gibberish().empty()) return "does not answer";
   if (board.gibberish().find("Grbl ") != std::string::npos || board.gibberish().find("GrblHAL ") != std::string::npos) {
-    return "is a machine with Grbl: use passo run or passo home with --board grbl:... [board.grbl]";
+    return "is a machine with Grbl: use passo run, passo home or passo serve with --board grbl:... [board.grbl]";
   }
   return fmt::format("answers, but is not a Passo board: \"{}\"", board.gibberish().substr(0, 60));
 }

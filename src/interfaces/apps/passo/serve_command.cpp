@@ -166,9 +166,12 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
   }
   MachineControl owner;
   std::unique_ptr<ServedWeb> web;
-  const ServedJobs jobs{.journal = things.journal,
-                        .machine_file = stamp_of_text(arguments.machine, things.text),
-                        .machine_access = access_to(arguments.machine)};
+  ServedJobs jobs{.journal = things.journal,
+                  .machine_file = stamp_of_text(arguments.machine, things.text),
+                  .machine_access = access_to(arguments.machine)};
+  if (things.grbl_board != nullptr) {
+    jobs.path_judge = [board = things.grbl_board] { return board->path_judge(); };
+  }
   if (!arguments.http.empty()) {
     web = ServedWeb::open(arguments, machine, session, owner, jobs, code);
     if (!web) return code;

@@ -60,6 +60,7 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
+  options.path_judge = jobs.path_judge;
   options.contact = &services.contact;
   options.settings = &services.settings;
   options.maker = &services.maker;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct ServedJobs {
   ServedJournal* journal = nullptr;  // null: none
   FileStamp machine_file;
   MachineFileAccess machine_access;
+  std::function<PathJudge()> path_judge = {};  // see ApiOptions
 };
 
 class ServedWeb {

@@ -9,6 +9,7 @@
 #include "passo/api/cam_service.hpp"
 #include "passo/api/first_contact.hpp"
 #include "passo/api/motion_times.hpp"
+#include "passo/api/program_store.hpp"
 #include "passo/api/studies.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
@@ -53,6 +54,8 @@ struct ApiOptions {
   BoardSettings* settings = nullptr;
   // Runs longer analyses; must outlive the API. Null: not available.
   Studies* studies = nullptr;
+  // Returns a judge for the path of each program that is checked. Null: the board can execute every path.
+  std::function<PathJudge()> path_judge = {};
   // Computes the duration of programs; must outlive the API. Null: not available, so the remaining time is unknown.
   MotionTimer* timer = nullptr;
 };

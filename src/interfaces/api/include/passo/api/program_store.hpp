@@ -8,15 +8,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "passo/activity/program.hpp"
 #include "passo/api/program_path.hpp"
+#include "passo/base/result.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/interpreter.hpp"
@@ -55,6 +58,9 @@ struct StoredProgram {
   std::string text_to_keep() const;
 };
 
+// Judges the path items of one program, in order. The error is a clause that says what the board cannot do.
+using PathJudge = std::function<Status<std::string>(const PathItem&)>;
+
 class ProgramStore {
  public:
   static constexpr std::size_t most_programs = 64;
@@ -73,6 +79,8 @@ class ProgramStore {
   // Begins to check a program from this start position. Only one check runs at a time; a new one replaces it. A program
   // that was already found error-free from this position is not checked again, unless its path was dropped.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
+  // Sets a function that returns a judge for each check. Null: the board can execute every path.
+  void judge_paths(std::function<PathJudge()> new_judge) { new_judge_ = std::move(new_judge); }
   bool checks() const { return checker_ != nullptr; }
   // Checks one piece of limited size.
   void poll();
@@ -96,6 +104,7 @@ class ProgramStore {
  private:
   void make_room_for_path(std::uint64_t id);
   void forget_checks();
+  void judge(const PathItem& item, StoredProgram& program);
   static void forget_check(StoredProgram& program);
 
   std::map<std::uint64_t, StoredProgram> programs_;
@@ -105,7 +114,10 @@ class ProgramStore {
   ToolTable tools_;
   std::uint64_t checked_ = 0;  // the program being checked
   std::unique_ptr<ProgramChecker> checker_;
-  PathFingerprint path_;  // path fingerprint of the program being checked
+  std::function<PathJudge()> new_judge_;
+  PathJudge judge_;                // of the program being checked
+  std::vector<std::string> told_;  // its objections so far
+  PathFingerprint path_;           // path fingerprint of the program being checked
 };
 
 }  // namespace passo

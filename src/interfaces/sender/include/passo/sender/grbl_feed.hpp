@@ -40,7 +40,8 @@ class GrblFeed {
 
   // `path` and `answers` must outlive the feed. `target`: the board. `waits`: it waits at stops and tool changes;
   // `waits_at_optional`: also at M1.
-  GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTarget& target, bool waits, bool waits_at_optional);
+  GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTarget& target, bool waits,
+           bool waits_at_optional);
 
   // Skips the path before that point. The lead-in comes first.
   void begin_at(const ResumePoint& point, const std::vector<PathItem>& lead_in);

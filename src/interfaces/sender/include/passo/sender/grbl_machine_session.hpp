@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,9 @@ class GrblMachineSession final : public MachineSession {
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
+  // Returns a function that judges the path items of one program, in order: the error is a clause that says what the
+  // board cannot do.
+  std::function<Status<std::string>(const PathItem&)> path_judge() const;
   // Returns the board's offsets as parameters of a program: G54 to G59.3, G28, G30 and G92. `kept`: the values of what
   // the board does not have.
   SavedParameters offsets(const SavedParameters& kept = {}) const;
@@ -69,6 +73,24 @@ class GrblMachineSession final : public MachineSession {
 
  private:
   struct Work;
+  struct Heard {
+    std::uint64_t reports = 0;  // so far
+    std::string pins;
+    std::string outputs;  // letters, as the board reports them
+  };
+  // The result of the last probe move.
+  struct Contact {
+    std::optional<Point> at;
+    bool touched = false;
+  };
+  struct News {
+    std::deque<MachineChange> changes;
+    std::uint64_t version = 0;
+  };
+  struct Tickets {
+    Ticket last = 0;
+    std::vector<Ticket> holds;  // answered when the machine is stopped
+  };
 
   using Answer = Result<Ticket, Refusal>;
   Answer handle(request::Start& start);
@@ -143,20 +165,15 @@ class GrblMachineSession final : public MachineSession {
   std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;
-  std::uint64_t reports_ = 0;  // heard so far
-  std::string pins_;
-  std::string outputs_;  // letters, as the board reports them
-  std::optional<Point> probed_at_;
-  bool probe_touched_ = false;
+  Heard heard_;
+  Contact contact_;
   std::unique_ptr<Work> work_;  // the current or the last activity
   Overrides overrides_;
   ChosenStops stops_;
   Sentence trouble_;
   std::optional<SavedParameters> to_store_;
-  std::deque<MachineChange> changes_;
-  std::vector<Ticket> waiting_holds_;
-  Ticket last_ticket_ = 0;
-  std::uint64_t version_ = 0;
+  News news_;
+  Tickets tickets_;
 };
 
 }  // namespace passo

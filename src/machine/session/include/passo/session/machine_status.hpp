@@ -46,6 +46,14 @@ constexpr const char* code_of(const OperatorWait& wait) {
   return wait.kind == Action::Kind::optional_stop ? "M1" : "M0";
 }
 
+struct ExecutedLine : OperationSource {
+  ExecutedLine() = default;
+  ExecutedLine(const OperationSource& source) : OperationSource(source) {}  // NOLINT: a line of which all is known
+
+  // The last line that may be executed instead, on a board that does not report lines; 0: the line is exact.
+  std::uint32_t to = 0;
+};
+
 struct MachineStatus {
   std::uint64_t version = 0;  // grows with each change
   Seconds time{0};            // on the board's side
@@ -62,9 +70,7 @@ struct MachineStatus {
   Seconds committed{0};            // duration of the motion that can no longer be changed
   std::uint16_t inputs = 0;        // bits of BoardInput: the closed inputs
   OutputState outputs;             // the outputs as commanded by the program and the operator
-  OperationSource executes;        // in a program: the executed line, as last reported
-  // The last line that may be executed instead, on a board that does not report lines; 0: `executes` is exact.
-  std::uint32_t executes_to = 0;
+  ExecutedLine executes;           // in a program: the executed line, as last reported
   Overrides overrides;
   ChosenStops stops;
   std::optional<OperatorWait> waits_for;

@@ -29,7 +29,7 @@ void GrblMachineSession::poll_work() {
       if (rests()) make_feed();
       return;
     case Work::Stage::moves:
-      if (work_->jog) return poll_jog();
+      if (work_->jog.line) return poll_jog();
       if (work_->feed) return poll_feed();
       return poll_home();
     case Work::Stage::brakes:
@@ -53,16 +53,17 @@ void GrblMachineSession::make_feed() {
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
   sender_.follow(first_work_zero(board_));
-  work.lines_before = sender_.lines_sent();
+  work.progress.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
-  work.feed->watch([this, &work, limits](const PathItem& item) {
+  work.feed->watch([&work, limits](const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
-      work.executed.add(segment->curve, segment->source, nominal_time_of(item, limits),
-                        work.lines_before + work.feed->lines_written());
+      work.progress.executed.add(segment->curve, segment->source, nominal_time_of(item, limits),
+                                 work.progress.lines_before + work.feed->lines_written());
     }
     if (work.watchers.path) work.watchers.path(item);
   });
-  work.feed->watch_skipped([&work, limits](const PathItem& item) { work.skipped += nominal_time_of(item, limits); });
+  work.feed->watch_skipped(
+      [&work, limits](const PathItem& item) { work.progress.skipped += nominal_time_of(item, limits); });
   if (work.start && work.start->from) work.feed->begin_at(*work.start->from, work.start->lead_in);
   if (work.is_program() && overrides_ != Overrides()) send_overrides();
   work.stage = Work::Stage::moves;
@@ -82,12 +83,12 @@ void GrblMachineSession::poll_feed() {
 // The machine is at rest, and the path continues with what it has found.
 void GrblMachineSession::answer_question() {
   GrblFeed& feed = *work_->feed;
-  work_->executed.finish();
+  work_->progress.executed.finish();
   position_.place = sender_.place().value_or(position_.place);
   switch (feed.asks()) {
     case GrblFeed::Asks::nothing: return;
     case GrblFeed::Asks::operator_stop:
-      if (!std::exchange(work_->rest_told, true)) {
+      if (!std::exchange(work_->hold.told, true)) {
         ++work_->stops;
         update_holds();
         publish({.kind = MachineChange::Kind::came_to_rest});
@@ -97,14 +98,14 @@ void GrblMachineSession::answer_question() {
       if (work_->lines->is_to_begin(now())) feed.go_on();
       return;
     case GrblFeed::Asks::probe_state:
-      probed_at_.reset();
-      probe_touched_ = false;
-      feed.take_probe_state(pins_.find('P') != std::string::npos, position_.place);
+      contact_.at.reset();
+      contact_.touched = false;
+      feed.take_probe_state(heard_.pins.find('P') != std::string::npos, position_.place);
       return;
     case GrblFeed::Asks::probe_result: {
       const ProbeOutcome outcome{.refused = false,
-                                 .touched = probe_touched_ && probed_at_,
-                                 .contact = probed_at_.value_or(position_.place),
+                                 .touched = contact_.touched && contact_.at,
+                                 .contact = contact_.at.value_or(position_.place),
                                  .rest = position_.place};
       feed.take_probe(outcome);
       sender_.follow(first_work_zero(board_));
@@ -146,16 +147,17 @@ void GrblMachineSession::update_holds() {
   const bool holds = report.state == "Hold";
   const bool is_door = report.state == "Door";
   // Somebody has resumed the program at the machine.
-  if (work.was_held && !holds && !is_door && report.state == "Run") work.held = work.door = work.was_held = false;
-  work.was_held = work.was_held || holds || is_door;
-  if (!holds && !is_door && !work.held) work.was_held = false;
-  const bool waits = work.feed && (rests() || work.rest_told);
+  if (work.hold.heard && !holds && !is_door && report.state == "Run")
+    work.hold.asked = work.hold.door = work.hold.heard = false;
+  work.hold.heard = work.hold.heard || holds || is_door;
+  if (!holds && !is_door && !work.hold.asked) work.hold.heard = false;
+  const bool waits = work.feed && (rests() || work.hold.told);
   const GrblFeed::Asks asks = waits ? work.feed->asks() : GrblFeed::Asks::nothing;
   const bool is_stop = asks == GrblFeed::Asks::operator_stop;
   const bool is_tool = is_stop && work.feed->stop().kind == Action::Kind::tool_change;
-  if (is_door || work.door) {
+  if (is_door || work.hold.door) {
     if (state_ != MachineState::door) move_to(MachineEvent::open_door);
-  } else if (holds || work.held || (is_stop && !is_tool)) {
+  } else if (holds || work.hold.asked || (is_stop && !is_tool)) {
     if (state_ != MachineState::hold) move_to(MachineEvent::hold);
   } else if (is_tool) {
     if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
@@ -164,8 +166,8 @@ void GrblMachineSession::update_holds() {
   } else if (state_ != MachineState::run) {
     move_to(MachineEvent::resume);
   }
-  if (!work.held || waiting_holds_.empty()) return;
-  const bool is_late = now() - work.held_at > longest_wait_for_hold;
+  if (!work.hold.asked || tickets_.holds.empty()) return;
+  const bool is_late = now() - work.hold.at > longest_wait_for_hold;
   const bool is_at_rest = (holds || is_door) ? report.rests() : is_late && report.rests();
   if (!is_at_rest) return;
   publish({.kind = MachineChange::Kind::came_to_rest});
@@ -174,46 +176,47 @@ void GrblMachineSession::update_holds() {
 
 void GrblMachineSession::send_jog_piece() {
   Work& work = *work_;
-  const Mm piece = std::max(work.ahead / pieces_ahead, Mm(shortest_piece));
-  work.sent = std::min(work.sent + piece, work.length);
-  if (work.length - work.sent < Mm(shortest_piece)) work.sent = work.length;
-  const Point& target = work.jog->target();
-  const Point to = work.from + (target - work.from) * (work.sent / work.length);
+  const Mm piece = std::max(work.jog.ahead / pieces_ahead, Mm(shortest_piece));
+  work.jog.sent = std::min(work.jog.sent + piece, work.jog.length);
+  if (work.jog.length - work.jog.sent < Mm(shortest_piece)) work.jog.sent = work.jog.length;
+  const Point& target = work.jog.line->target();
+  const Point to = work.jog.from + (target - work.jog.from) * (work.jog.sent / work.jog.length);
   std::string text = "$J=G21G90G53";
   for (const AxisDescription& axis : machine_.axes) {
-    if (target[axis.axis] == work.from[axis.axis]) continue;
+    if (target[axis.axis] == work.jog.from[axis.axis]) continue;
     text += fmt::format("{}{:.4f}", letter_of(axis.axis), to[axis.axis]);
   }
-  sender_.add(text + fmt::format("F{:.3f}", std::max(0.001, work.speed.value() * seconds_per_minute)));
+  sender_.add(text + fmt::format("F{:.3f}", std::max(0.001, work.jog.speed.value() * seconds_per_minute)));
 }
 
 // Pieces of the way are sent as the machine goes, so that little motion is left in a board that loses its host.
 void GrblMachineSession::poll_jog() {
   Work& work = *work_;
-  const bool is_over = now() >= work.lease_end;
-  if (is_over && !work.cancelled_at) {
+  const bool is_over = now() >= work.jog.lease_end;
+  if (is_over && !work.jog.cancelled_at) {
     sender_.cancel_jog();
-    work.cancelled_at = now();
+    work.jog.cancelled_at = now();
     work.stopped = true;
   }
-  if (work.cancelled_at) {
+  if (work.jog.cancelled_at) {
     const bool jogs = !sender_.report() || sender_.report()->state == "Jog" || !sender_.all_answered();
-    if (jogs && now() - *work.cancelled_at > between_cancels) {
+    if (jogs && now() - *work.jog.cancelled_at > between_cancels) {
       sender_.cancel_jog();
-      work.cancelled_at = now();
+      work.jog.cancelled_at = now();
     }
     // A report that came after the cancel.
-    if (!jogs && rests() && now() - *work.cancelled_at > GrblSender::between_urgent_questions) {
+    if (!jogs && rests() && now() - *work.jog.cancelled_at > GrblSender::between_urgent_questions) {
       position_.place = *sender_.place();
       end_work(Outcome::stopped);
     }
     return;
   }
-  if (!(work.length > Mm(0))) return end_work(Outcome::done);
+  if (!(work.jog.length > Mm(0))) return end_work(Outcome::done);
   // One line at a time lies in the board's buffer: a cancel does not clear it there.
-  const Mm travelled(distance(work.from, live_.at()));
-  if (sender_.all_answered() && work.sent < work.length && work.sent - travelled < work.ahead) send_jog_piece();
-  if (work.sent < work.length || !rests()) return;
+  const Mm travelled(distance(work.jog.from, live_.at()));
+  if (sender_.all_answered() && work.jog.sent < work.jog.length && work.jog.sent - travelled < work.jog.ahead)
+    send_jog_piece();
+  if (work.jog.sent < work.jog.length || !rests()) return;
   position_.place = *sender_.place();
   end_work(Outcome::done);
 }
@@ -312,7 +315,7 @@ void GrblMachineSession::check_fault_of_work(const GrblFault& fault) {
 
 std::string GrblMachineSession::words_of_restart() const {
   if (!busy() || !work_->feed || work_->program == nullptr) return {};
-  const std::uint32_t line = work_->executed.source().line;
+  const std::uint32_t line = work_->progress.executed.source().line;
   if (line == 0) return {};
   return fmt::format("; line {} of the program is the last one that was executed for sure: home the machine or set its "
                      "zero, and start at that line",

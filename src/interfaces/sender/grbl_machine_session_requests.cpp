@@ -93,14 +93,14 @@ Refusal GrblMachineSession::why_not() const {
 }
 
 GrblMachineSession::Answer GrblMachineSession::at_once() {
-  const Ticket ticket = ++last_ticket_;
+  const Ticket ticket = ++tickets_.last;
   answer(ticket, Outcome::done);
   return ticket;
 }
 
 GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
   work_ = std::move(work);
-  work_->ticket = ++last_ticket_;
+  work_->ticket = ++tickets_.last;
   sender_.look_often(true);
   move_to(event);
   return work_->ticket;
@@ -137,7 +137,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Stream& stream) {
 // The board brakes, and forgets what it holds. The stream goes on from there.
 GrblMachineSession::Answer GrblMachineSession::handle(request::DropLines&) {
   if (!busy() || work_->lines == nullptr) return refused(RefusalReason::no_lines_queued);
-  const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
+  const Ticket ticket = tickets_.holds.emplace_back(++tickets_.last);
   work_->lines->drop(position_.place);
   if (!std::exchange(work_->drops, true) && work_->stage < Work::Stage::brakes) {
     sender_.stop();
@@ -160,28 +160,28 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Jog& jog) {
   auto work = std::make_unique<Work>();
   work->kind = ActivityKind::jog;
   work->stage = Work::Stage::moves;
-  work->from = position_.place;
-  work->jog = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
-  work->length = Mm(distance(work->from, work->jog->target()));
-  work->speed = jog.way.speed;
+  work->jog.from = position_.place;
+  work->jog.line = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
+  work->jog.length = Mm(distance(work->jog.from, work->jog.line->target()));
+  work->jog.speed = jog.way.speed;
   double least_acceleration = 1e9;
   for (const AxisDescription& axis : machine_.axes) {
     if (jog.way.direction[axis.axis] == 0) continue;
-    work->speed = std::min(work->speed, axis.velocity);
+    work->jog.speed = std::min(work->jog.speed, axis.velocity);
     least_acceleration = std::min(least_acceleration, axis.acceleration.value());
   }
   // As much as the way between two reports, and to brake from the speed.
   constexpr double two_reports = 0.25;  // s
-  const double v = work->speed.value();
-  work->ahead = Mm(v * two_reports + 0.6 * v * v / least_acceleration);
-  work->lease = jog.lease;
-  work->lease_end = now() + jog.lease;
+  const double v = work->jog.speed.value();
+  work->jog.ahead = Mm(v * two_reports + 0.6 * v * v / least_acceleration);
+  work->jog.lease = jog.lease;
+  work->jog.lease_end = now() + jog.lease;
   return begin(MachineEvent::begin_jog, std::move(work));
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive&) {
   if (state_ != MachineState::jog) return refused(RefusalReason::no_jog);
-  work_->lease_end = now() + work_->lease;
+  work_->jog.lease_end = now() + work_->jog.lease;
   return at_once();
 }
 
@@ -227,23 +227,23 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Hold& hold) {
     request::Stop stop;
     return handle(stop);
   }
-  const Ticket ticket = ++last_ticket_;
-  waiting_holds_.push_back(ticket);
-  work_->held = true;
-  work_->door = hold.for_door;
-  work_->rest_told = false;
-  work_->held_at = now();
+  const Ticket ticket = ++tickets_.last;
+  tickets_.holds.push_back(ticket);
+  work_->hold.asked = true;
+  work_->hold.door = hold.for_door;
+  work_->hold.told = false;
+  work_->hold.at = now();
   hold.for_door ? sender_.open_door() : sender_.hold();
   update_holds();
   return ticket;
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
-  const bool is_held = busy() && work_->is_program() && (work_->held || work_->was_held);
-  const bool is_door_closed = state_ == MachineState::door && pins_.find('D') == std::string::npos;
+  const bool is_held = busy() && work_->is_program() && (work_->hold.asked || work_->hold.heard);
+  const bool is_door_closed = state_ == MachineState::door && heard_.pins.find('D') == std::string::npos;
   if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);
-  if (pins_.find('D') != std::string::npos) return refused(RefusalReason::door_open);
-  if (busy()) work_->held = work_->door = work_->was_held = false;
+  if (heard_.pins.find('D') != std::string::npos) return refused(RefusalReason::door_open);
+  if (busy()) work_->hold.asked = work_->hold.door = work_->hold.heard = false;
   sender_.resume();
   answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
   return at_once();
@@ -251,7 +251,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Stop&) {
   if (!busy()) return refused(RefusalReason::nothing_going_on);
-  const Ticket ticket = waiting_holds_.emplace_back(++last_ticket_);
+  const Ticket ticket = tickets_.holds.emplace_back(++tickets_.last);
   work_->stopped = true;
   work_->drops = false;
   if (work_->checker || work_->stage >= Work::Stage::brakes) return ticket;
@@ -264,9 +264,9 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Stop&) {
     end_work(Outcome::stopped);
     return ticket;
   }
-  if (work_->jog) {
+  if (work_->jog.line) {
     sender_.cancel_jog();
-    work_->cancelled_at = now();
+    work_->jog.cancelled_at = now();
   } else {
     sender_.stop();
     work_->stage = Work::Stage::brakes;
@@ -300,7 +300,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Override& change)
     sender_.override_spindle(percent_of(*change.spindle));
   }
   if (change.rapids) overrides_.rapids = sender_.override_rapids(percent_of(*change.rapids)) / 100.0;
-  ++version_;
+  ++news_.version;
   return at_once();
 }
 
@@ -309,11 +309,11 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SwitchOutputs& wa
     return refused(RefusalReason::no_program_runs);
   }
   if (wanted.spindle_stands && state_ != MachineState::hold) return refused(RefusalReason::spindle_turns);
-  const auto is_on = [&](char letter) { return outputs_.find(letter) != std::string::npos; };
+  const auto is_on = [&](char letter) { return heard_.outputs.find(letter) != std::string::npos; };
   if (wanted.mist && *wanted.mist != is_on('M')) sender_.toggle_mist();
   if (wanted.flood && *wanted.flood != is_on('F')) sender_.toggle_flood();
   if (wanted.spindle_stands && *wanted.spindle_stands == (is_on('S') || is_on('C'))) sender_.toggle_spindle_stop();
-  ++version_;
+  ++news_.version;
   return at_once();
 }
 
@@ -321,7 +321,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::ChooseStops& chos
   if (chosen.single_block.value_or(false)) return refuse_ability(Ability::single_block);
   stops_.optional_stop = chosen.optional_stop.value_or(stops_.optional_stop);
   if (busy() && work_->feed) work_->feed->wait_at_optional(stops_.optional_stop);
-  ++version_;
+  ++news_.version;
   return at_once();
 }
 
@@ -331,7 +331,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::OperatorDone&) {
   const std::uint32_t line = work_->feed->stop().source.line;
   if (work_->program) work_->program->operator_messages().pass(line);
   if (work_->lines != nullptr) work_->lines->operator_messages().pass(line);
-  work_->rest_told = false;
+  work_->hold.told = false;
   work_->feed->go_on();
   update_holds();
   return at_once();
@@ -346,7 +346,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SetPosition& set)
   loses_place_ = false;
   position_.trust = Trust::commanded;
   position_.is_lost = false;
-  ++version_;
+  ++news_.version;
   return at_once();
 }
 
