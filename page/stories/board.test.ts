@@ -89,7 +89,7 @@ async function useSettings(page: Page, name: string): Promise<void> {
   const field = row.getByRole('textbox');
   const before = await field.inputValue();
   expect(await row.innerText()).toMatch(/mm\/min/);
-  await look(page, `${name}-settings`);
+  if (pictures !== undefined) await section.screenshot({ path: `${pictures}/${name}-settings.png` });
   expect(await violations(page)).toEqual([]);
   // A value that the firmware does not take leaves the old one.
   await field.fill('-5');

@@ -99,10 +99,11 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       contact_(arguments),
       timer_(machine),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
-                       {contact_, settings_, maker_, studies_, timer_}, [this](const SavedParameters& parameters, const ToolTable& tools) {
-                         return keep(parameters, tools);
-                       })) {}
+           api_options(
+               arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
+               {contact_, settings_, maker_, studies_, timer_},
+               [this](const SavedParameters& parameters, const ToolTable& tools) { return keep(parameters, tools); })) {
+}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MachineControl& owner, const ServedJobs& jobs,
