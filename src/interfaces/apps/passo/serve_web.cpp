@@ -96,12 +96,12 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       offsets_(std::move(offsets)),
-      contact_(arguments),
+      boards_(arguments),
       timer_(machine),
       api_(machine, session, owner,
            api_options(
                arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
-               {contact_, settings_, maker_, studies_, timer_},
+               {boards_.contact, boards_.settings, maker_, studies_, timer_},
                [this](const SavedParameters& parameters, const ToolTable& tools) { return keep(parameters, tools); })) {
 }
 
@@ -152,7 +152,7 @@ Seconds ServedWeb::most_wait(Seconds most) const {
 void ServedWeb::poll() {
   server_->poll();
   api_.poll();
-  settings_.poll();
+  boards_.settings.poll();
   if (server_->watchers() > 0) publish();
 }
 
@@ -185,7 +185,7 @@ void ServedWeb::share_offsets(GrblController& grbl) {
 void ServedWeb::follow_offsets(GrblMachineSession& board) {
   api_.apply_offsets(board.offsets(api_.parameters()));
   board_ = &board;
-  settings_.use(board);
+  boards_.settings.use(board);
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
