@@ -1,6 +1,6 @@
 // What the stories share: the real daemon with its virtual machine, and the real browser.
 import { spawn, type ChildProcess } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -70,8 +70,62 @@ export class Board {
   end = (): Promise<void> => kill(this.process, 'SIGTERM');
 }
 
+export const peers = join(root, '../shared/peers/grbl');
+
+// What another program says on its first line, and the program; it is killed when the story ends.
+export class Peer {
+  private constructor(private readonly process: ChildProcess) {}
+  static async start(words: readonly string[], folder: string, ready: () => boolean): Promise<Peer> {
+    const child = spawn(words[0] ?? '', words.slice(1), { stdio: ['pipe', 'ignore', 'ignore'], cwd: folder });
+    begun.add(child);
+    child.once('exit', () => begun.delete(child));
+    for (const end = Date.now() + 20_000; !ready() && Date.now() < end; ) await sleep(50);
+    return new Peer(child);
+  }
+  end = (): Promise<void> => kill(this.process, 'SIGKILL');
+}
+
+interface FakePort {
+  name: string; // "ttyACM0"
+  vendor: string;
+  product: string;
+  words: string;
+  leadsTo?: string; // a terminal; otherwise it is no serial port
+  lasting?: string; // its name in by-id
+  user?: { process: number; program: string };
+}
+// The files in which a computer's system tells of its serial ports.
+export function systemWith(folder: string, ports: readonly FakePort[]): string {
+  const system = join(folder, 'system');
+  const write = (file: string, text: string): void => {
+    mkdirSync(join(system, file, '..'), { recursive: true });
+    writeFileSync(join(system, file), text);
+  };
+  write('proc/locks', '');
+  for (const one of ports) {
+    const usb = `sys/devices/usb1/1-${one.name}`;
+    write(`${usb}/idVendor`, `${one.vendor}\n`);
+    write(`${usb}/idProduct`, `${one.product}\n`);
+    write(`${usb}/product`, `${one.words}\n`);
+    const tty = `${usb}/1-1:1.0/tty/${one.name}`;
+    for (const made of [tty, 'sys/class/tty', 'dev/serial/by-id']) mkdirSync(join(system, made), { recursive: true });
+    symlinkSync('../../../1-1:1.0', join(system, tty, 'device'));
+    symlinkSync(join(system, tty), join(system, 'sys/class/tty', one.name));
+    if (one.leadsTo !== undefined) symlinkSync(one.leadsTo, join(system, 'dev', one.name));
+    else write(`dev/${one.name}`, '');
+    if (one.lasting !== undefined) symlinkSync(`../../${one.name}`, join(system, 'dev/serial/by-id', one.lasting));
+    if (one.user === undefined) continue;
+    write(`proc/${one.user.process}/comm`, `${one.user.program}\n`);
+    mkdirSync(join(system, `proc/${one.user.process}/fd`), { recursive: true });
+    symlinkSync(join(system, 'dev', one.name), join(system, `proc/${one.user.process}/fd/5`));
+  }
+  return system;
+}
+
 interface Start {
   port?: string;
+  system?: string; // a folder of systemWith()
+  address?: string; // of a board that is no virtual one
   machine?: string;
   board?: Board;
   data?: string; // a folder that outlives the daemon
@@ -85,12 +139,14 @@ export class Daemon {
     private readonly folder: string,
   ) {}
 
-  static async start({ port = '0', machine, board, data, touch = [] }: Start = {}): Promise<Daemon> {
+  static async start({ port = '0', machine, board, data, touch = [], system, address }: Start = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
     const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', data ?? folder];
     words.push('--machine', machine ?? smallMachine(folder));
     for (const one of touch) words.push('--touch', one);
     if (board !== undefined) words.push('--board', `tcp:127.0.0.1:${board.port}`);
+    if (address !== undefined) words.push('--board', address);
+    if (system !== undefined) words.push('--system', system);
     const child = begin(words);
     const found = /http:\/\/127\.0\.0\.1:\d+\//;
     const said = await saying(child, (all) => found.test(all) && all.includes('Ctrl-C'));

@@ -21,10 +21,10 @@ class FakeContact final : public FirstContact {
        "users": [{"process": 4711, "program": "cncjs"}, {"process": null, "program": ""}]}],
       "sees_all_programs": true})";
   }
-  bool begin(const std::string& device, unsigned baud) override {
+  bool begin(const std::string& device, const std::string& board) override {
     if (now.state == ContactResult::State::running) return false;
-    opened.push_back(device + "@" + std::to_string(baud));
-    now = {.state = ContactResult::State::running, .device = device, .board = "grbl:" + device};
+    opened.push_back(board);
+    now = {.state = ContactResult::State::running, .device = device, .board = board};
     return true;
   }
   const ContactResult& result() override { return now; }

@@ -70,13 +70,11 @@ TEST_F(ApiSettings, are_compared_with_a_file_and_restored_from_one) {
 // A line end would make a second line of a value, e.g. one that moves.
 TEST_F(ApiSettings, with_values_that_are_no_single_words_are_refused) {
   run.own();
-  for (const char* body : {"{}", R"({"order": "all"})", R"({"order": "write"})", R"({"order": "write", "values": {}})",
-                           R"({"order": "write", "values": {"$110": 5}})",
-                           R"({"order": "write", "values": {"$110": "5\n$J=X9F100"}})",
-                           R"({"order": "write", "values": {"$110=5\n$1": "5"}})",
-                           R"({"order": "write", "values": {"G0X9": "5"}})",
-                           R"({"order": "write", "values": {"$": "5"}})", R"({"order": "restore"})",
-                           R"({"order": "read", "more": 1})"}) {
+  for (const char* body :
+       {"{}", R"({"order": "all"})", R"({"order": "write"})", R"({"order": "write", "values": {}})",
+        R"({"order": "write", "values": {"$110": 5}})", R"({"order": "write", "values": {"$110": "5\n$J=X9F100"}})",
+        R"({"order": "write", "values": {"$110=5\n$1": "5"}})", R"({"order": "write", "values": {"G0X9": "5"}})",
+        R"({"order": "write", "values": {"$": "5"}})", R"({"order": "restore"})", R"({"order": "read", "more": 1})"}) {
     EXPECT_EQ(code_of(run.post("/board/settings", body)), "http.bad-body") << body;
   }
   EXPECT_TRUE(settings.orders.empty());

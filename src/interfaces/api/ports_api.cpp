@@ -134,14 +134,14 @@ WebAnswer PortsApi::open(const ApiCall& call) {
   }
   if (!port["users"].empty()) {
     const std::string users = users_of(port);
-    return error_answer(409, "ports.busy",
-                        Sentence{.code = "ports.busy",
-                                 .arguments = {{"users", users}},
-                                 .text = "the port is in use by " + users});
+    return error_answer(
+        409, "ports.busy",
+        Sentence{.code = "ports.busy", .arguments = {{"users", users}}, .text = "the port is in use by " + users});
   }
   const auto lasting = port["lasting_name"].get<std::string>();
   const auto rate = baud.get<unsigned>();
-  return open_board(lasting, fmt::format("grbl:{}{}", lasting, rate == usual_grbl_baud ? "" : fmt::format("@{}", rate)));
+  return open_board(lasting,
+                    fmt::format("grbl:{}{}", lasting, rate == usual_grbl_baud ? "" : fmt::format("@{}", rate)));
 }
 
 WebAnswer PortsApi::keep_machine(const ApiCall& call) {

@@ -97,13 +97,14 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       offsets_(std::move(offsets)),
-      contact_(arguments),
+      boards_(arguments),
       timer_(machine),
       api_(machine, session, owner,
-           api_options(arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
-                       {contact_, settings_, maker_, studies_, timer_}, [this](const SavedParameters& parameters, const ToolTable& tools) {
-                         return keep(parameters, tools);
-                       })) {}
+           api_options(
+               arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
+               {boards_.contact, boards_.settings, maker_, studies_, timer_},
+               [this](const SavedParameters& parameters, const ToolTable& tools) { return keep(parameters, tools); })) {
+}
 
 std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, const MachineDescription& machine,
                                            MachineSession& session, MachineControl& owner, const ServedJobs& jobs,
@@ -152,7 +153,7 @@ Seconds ServedWeb::most_wait(Seconds most) const {
 void ServedWeb::poll() {
   server_->poll();
   api_.poll();
-  settings_.poll();
+  boards_.settings.poll();
   if (server_->watchers() > 0) publish();
 }
 
@@ -185,7 +186,7 @@ void ServedWeb::share_offsets(GrblController& grbl) {
 void ServedWeb::follow_offsets(GrblMachineSession& board) {
   api_.apply_offsets(board.offsets(api_.parameters()));
   board_ = &board;
-  settings_.use(board);
+  boards_.settings.use(board);
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {

@@ -77,8 +77,7 @@ class ServedWeb {
   GrblController* grbl_ = nullptr;          // the controller for senders
   GrblMachineSession* board_ = nullptr;     // a board that keeps the offsets
   std::string host_;
-  ServedContact contact_;
-  ServedSettings settings_{contact_};
+  ServedBoards boards_;
   ServedMaker maker_;
   ServedStudies studies_;
   ServedTimer timer_;

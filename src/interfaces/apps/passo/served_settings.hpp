@@ -50,4 +50,12 @@ class ServedSettings final : public BoardSettings {
   SettingsResult result_;
 };
 
+// What the API does with boards beside the machine.
+struct ServedBoards {
+  explicit ServedBoards(const ServeArguments& arguments) : contact(arguments) {}
+
+  ServedContact contact;
+  ServedSettings settings{contact};
+};
+
 }  // namespace passo

@@ -161,7 +161,7 @@ class GrblMachineSession final : public MachineSession {
   bool prepared_ = false;  // the board's modes are set, since the connection
   bool locked_ = false;    // the board is in an alarm that $X or $H ends
   bool loses_place_ = false;
-  bool lent_ = false;    // the sender, for the settings
+  bool lent_ = false;  // the sender, for the settings
   std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;
