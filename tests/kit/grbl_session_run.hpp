@@ -147,9 +147,8 @@ class GrblSessionRun {
         if (found != unanswered.end()) unanswered.erase(found);
       }
       if (change.kind == MachineChange::Kind::state) {
-        const bool follows = std::ranges::any_of(transitions, [&](const Transition& one) {
-          return one.from == last_ && one.to == change.state;
-        });
+        const bool follows = std::ranges::any_of(
+            transitions, [&](const Transition& one) { return one.from == last_ && one.to == change.state; });
         EXPECT_TRUE(follows) << name_of(last_) << " to " << name_of(change.state);
         last_ = change.state;
       }

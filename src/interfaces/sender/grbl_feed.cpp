@@ -70,9 +70,7 @@ void GrblFeed::add_action(const Action& action) {
   using Kind = Action::Kind;
   switch (action.kind) {
     case Kind::await_line: return sync(Asks::line, 0);
-    case Kind::probe_begin:
-      probe_ = action;
-      return sync(Asks::probe_state, action.source.line);
+    case Kind::probe_begin: probe_ = action; return sync(Asks::probe_state, action.source.line);
     case Kind::probe_end: probe_.reset(); return;
     default: break;
   }
@@ -83,8 +81,8 @@ void GrblFeed::add_action(const Action& action) {
   sync(Asks::operator_stop, action.source.line);
 }
 
-// A line may be executed several times: the pass that leads through the point is meant. Corners are not rounded here, so
-// the point may lie beside this path. The line is executed from its beginning.
+// A line may be executed several times: the pass that leads through the point is meant. Corners are not rounded here,
+// so the point may lie beside this path. The line is executed from its beginning.
 bool GrblFeed::reaches(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->source.line != from_->line) return false;

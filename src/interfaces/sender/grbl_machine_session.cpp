@@ -156,9 +156,9 @@ void GrblMachineSession::go_online() {
   board_ = sender_.machine();
   const auto place = sender_.place();
   if (!place) {
-    return break_off(MachineEvent::lose_board,
-                     {.code = "grbl.no-place",
-                      .message = "the machine's status reports have no position; $10=1 adds it"});
+    return break_off(
+        MachineEvent::lose_board,
+        {.code = "grbl.no-place", .message = "the machine's status reports have no position; $10=1 adds it"});
   }
   position_.place = *place;
   live_.rest_at(*place);
@@ -247,7 +247,7 @@ GrblSender* GrblMachineSession::lend_sender() {
 void GrblMachineSession::take_sender_back() {
   if (!std::exchange(lent_, false)) return;
   board_ = sender_.machine();
-  ++version_;
+  ++news_.version;
 }
 
 std::optional<Refusal> GrblMachineSession::lost_place() const {

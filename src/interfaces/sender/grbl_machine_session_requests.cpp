@@ -206,8 +206,8 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Probe& probe) {
   unlock();
   auto work = std::make_unique<Work>();
   work->kind = ActivityKind::probing;
-  work->probe = std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward,
-                                            work->probe_results);
+  work->probe =
+      std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->probe_results);
   prepare();
   return begin(MachineEvent::begin_probe, std::move(work));
 }

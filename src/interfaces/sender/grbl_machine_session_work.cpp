@@ -317,9 +317,10 @@ std::string GrblMachineSession::words_of_restart() const {
   if (!busy() || !work_->feed || work_->program == nullptr) return {};
   const std::uint32_t line = work_->progress.executed.source().line;
   if (line == 0) return {};
-  return fmt::format("; line {} of the program is the last one that was executed for sure: home the machine or set its "
-                     "zero, and start at that line",
-                     line);
+  return fmt::format(
+      "; line {} of the program is the last one that was executed for sure: home the machine or set its "
+      "zero, and start at that line",
+      line);
 }
 
 Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {

@@ -16,8 +16,8 @@
 
 namespace passo {
 
-// The bytes of a Grbl board in real time. A connection that broke stays so until open_again(): opening a serial port may
-// reset the board.
+// The bytes of a Grbl board in real time. A connection that broke stays so until open_again(): opening a serial port
+// may reset the board.
 class GrblStreamPort final : public GrblPort {
  public:
   GrblStreamPort(BoardAddress address, std::unique_ptr<StreamPort> port)

@@ -142,10 +142,10 @@ struct ServedThings {
   const std::string& text;  // of the machine file
   const MachineDescription& machine;
   ServedMachine served;
-  std::string words = {};                     // the board
-  ServedJournal* journal = nullptr;           // null: an interrupted job cannot be resumed
-  MachineConnection* simulated = nullptr;     // a machine in this process
-  GrblMachineSession* grbl_board = nullptr;   // a board that keeps the work offsets
+  std::string words = {};                    // the board
+  ServedJournal* journal = nullptr;          // null: an interrupted job cannot be resumed
+  MachineConnection* simulated = nullptr;    // a machine in this process
+  GrblMachineSession* grbl_board = nullptr;  // a board that keeps the work offsets
 };
 
 // Serves until a signal is received. The machine is ready.

@@ -112,8 +112,8 @@ TEST_F(GrblSessions, wait_at_stops_for_the_operator) {
 
 TEST_F(GrblSessions, a_released_key_stops_a_jog_soon) {
   ASSERT_TRUE(run.go_online());
-  const auto ticket = run.ask(
-      request::Jog{.way = {.direction = Point{{{1, 0, 0}}}, .speed = MmPerSecond(40), .distance = Mm(0)}, .lease = Seconds(0.25)});
+  const auto ticket = run.ask(request::Jog{
+      .way = {.direction = Point{{{1, 0, 0}}}, .speed = MmPerSecond(40), .distance = Mm(0)}, .lease = Seconds(0.25)});
   ASSERT_TRUE(ticket);
   for (int i = 0; i < 20; ++i) {
     run.play_for(Seconds(0.1));
@@ -154,8 +154,8 @@ TEST_F(GrblSessions, a_jog_ends_with_its_lease_and_without_its_host) {
 
 TEST_F(GrblSessions, a_jog_of_a_distance_ends_there) {
   ASSERT_TRUE(run.go_online());
-  const auto done = run.ask_and_wait(
-      request::Jog{.way = {.direction = Point{{{-1, 0, 0}}}, .speed = MmPerSecond(20), .distance = Mm(2.5)}, .lease = Seconds(5)});
+  const auto done = run.ask_and_wait(request::Jog{
+      .way = {.direction = Point{{{-1, 0, 0}}}, .speed = MmPerSecond(20), .distance = Mm(2.5)}, .lease = Seconds(5)});
   ASSERT_TRUE(done);
   EXPECT_EQ(done->outcome, Outcome::done);
   EXPECT_NEAR(run.grbl.place()[Axis::x], -2.5, 5e-3);
@@ -222,9 +222,8 @@ TEST(GrblSession, homing_without_switches_is_an_alarm_that_a_reset_ends) {
 }
 
 TEST(GrblSession, finds_contacts_by_probe_moves_and_in_programs) {
-  GrblSessionRun run(example_machine("router"), [](StrictGrbl& grbl) {
-    grbl.probe = [](const Point& place) { return place[Axis::z] <= -4; };
-  });
+  GrblSessionRun run(example_machine("router"),
+                     [](StrictGrbl& grbl) { grbl.probe = [](const Point& place) { return place[Axis::z] <= -4; }; });
   ASSERT_TRUE(run.go_online());
   const auto done = run.ask_and_wait(request::Probe{.target = Point{{{0, 0, -10}}}, .speed = MmPerSecond(2)});
   ASSERT_TRUE(done);
@@ -340,7 +339,8 @@ TEST_F(GrblSessions, lines_of_a_client_run_as_they_come) {
   ASSERT_TRUE(run.play_until(MachineState::await_line));
   EXPECT_NEAR(run.grbl.place()[Axis::x], 5, 1e-9);
   ASSERT_FALSE(lines.add_line("G0 Y7", run.session.now()));
-  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::y] == 7 && run.session.state() == MachineState::await_line; }));
+  ASSERT_TRUE(
+      run.play([&] { return run.grbl.place()[Axis::y] == 7 && run.session.state() == MachineState::await_line; }));
   const Seconds before = run.session.now();
   ASSERT_TRUE(run.ask_and_wait(request::Stop{}));
   EXPECT_LT(run.session.now() - before, Seconds(0.1)) << "a machine at rest is not reset";
