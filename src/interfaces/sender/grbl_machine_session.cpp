@@ -58,8 +58,7 @@ GrblMachineSession::~GrblMachineSession() = default;
 void GrblMachineSession::connect_again(bool on_open_line) {
   sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
   sender_.listen([this](std::string_view line) { hear(line); });
-  prepared_ = false;
-  lent_ = false;
+  connection_ = {};
   heard_.reports = 0;
 }
 
@@ -68,7 +67,8 @@ bool GrblMachineSession::busy() const {
 }
 
 bool GrblMachineSession::works() const {
-  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered();
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || connection_.lent ||
+         !sender_.all_answered();
 }
 
 // All lines are answered, and the board has reported since that it is idle.
@@ -145,13 +145,13 @@ void GrblMachineSession::hear_report() {
 void GrblMachineSession::prepare() {
   for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender_.add(line);
   sender_.ask_for_offsets();
-  prepared_ = true;
+  connection_.prepared = true;
 }
 
 void GrblMachineSession::go_online() {
   if (!sender_.ready()) return;
   locked_ = sender_.report()->state == "Alarm";
-  if (!prepared_ && !locked_) return prepare();
+  if (!connection_.prepared && !locked_) return prepare();
   if (!(locked_ ? sender_.all_answered() : rests())) return;
   board_ = sender_.machine();
   const auto place = sender_.place();
@@ -188,7 +188,7 @@ void GrblMachineSession::poll_idle() {
   } else if (state_ == MachineState::door && report->state == "Idle") {
     move_to(MachineEvent::close_door);
   }
-  if (!to_store_ || lent_ || state_ != MachineState::idle || locked_ || !rests()) return;
+  if (!to_store_ || connection_.lent || state_ != MachineState::idle || locked_ || !rests()) return;
   const SavedParameters wanted = *std::exchange(to_store_, {});
   const SavedParameters present = offsets();
   bool is_changed = false;
@@ -239,13 +239,13 @@ void GrblMachineSession::store_offsets(const SavedParameters& parameters) {
 
 // A board in an alarm tells and takes settings, too.
 GrblSender* GrblMachineSession::lend_sender() {
-  if (lent_ || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
-  lent_ = true;
+  if (connection_.lent || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
+  connection_.lent = true;
   return &sender_;
 }
 
 void GrblMachineSession::take_sender_back() {
-  if (!std::exchange(lent_, false)) return;
+  if (!std::exchange(connection_.lent, false)) return;
   board_ = sender_.machine();
   ++news_.version;
 }

@@ -69,7 +69,7 @@ GrblMachineSession::Answer GrblMachineSession::refuse_ability(Ability ability) c
 }
 
 Result<Ticket, Refusal> GrblMachineSession::request(Request wanted) {
-  if (lent_) return refused(RefusalReason::busy);
+  if (connection_.lent) return refused(RefusalReason::busy);
   return std::visit([this](auto& one) { return handle(one); }, wanted);
 }
 

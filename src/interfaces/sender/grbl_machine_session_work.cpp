@@ -243,7 +243,7 @@ void GrblMachineSession::resync() {
 void GrblMachineSession::end_resync() {
   if (!sender_.ready()) return;
   const bool is_locked = sender_.report()->state == "Alarm";
-  if (!prepared_ && !is_locked) return prepare();
+  if (!connection_.prepared && !is_locked) return prepare();
   if (!(is_locked ? sender_.all_answered() : rests())) return;
   board_ = sender_.machine();
   position_.place = sender_.place().value_or(position_.place);
@@ -330,7 +330,7 @@ Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
 // The board may have moved further, or lost steps.
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
-  lent_ = false;
+  connection_.lent = false;
   trouble_ = sentence;
   if (state_ != MachineState::offline) {
     position_.trust = Trust::unknown;

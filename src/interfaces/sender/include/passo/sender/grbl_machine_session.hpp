@@ -67,7 +67,7 @@ class GrblMachineSession final : public MachineSession {
   // Meanwhile every request is refused. Null: the machine is not at rest.
   GrblSender* lend_sender();
   // False if it has not been lent, or if the connection or the board's state was lost in the meantime.
-  bool is_sender_lent() const { return lent_; }
+  bool is_sender_lent() const { return connection_.lent; }
   // The settings may be others now: the session takes over what the board has told.
   void take_sender_back();
 
@@ -82,6 +82,11 @@ class GrblMachineSession final : public MachineSession {
   struct Contact {
     std::optional<Point> at;
     bool touched = false;
+  };
+  // Begins anew with each connection.
+  struct Connection {
+    bool prepared = false;  // the board's modes are set
+    bool lent = false;      // the sender, for the settings
   };
   struct News {
     std::deque<MachineChange> changes;
@@ -158,10 +163,9 @@ class GrblMachineSession final : public MachineSession {
   GrblSender sender_;
   GrblMachine board_;  // as it has described itself last
   MachineState state_ = MachineState::offline;
-  bool prepared_ = false;  // the board's modes are set, since the connection
-  bool locked_ = false;    // the board is in an alarm that $X or $H ends
+  Connection connection_;
+  bool locked_ = false;  // the board is in an alarm that $X or $H ends
   bool loses_place_ = false;
-  bool lent_ = false;  // the sender, for the settings
   std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;
