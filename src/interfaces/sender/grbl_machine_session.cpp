@@ -118,7 +118,7 @@ void GrblMachineSession::hear(std::string_view line) {
   if (!line.starts_with(probe) || !line.ends_with(']')) return;
   line.remove_prefix(probe.size());
   line.remove_suffix(1);
-  contact_.at = contact_of(line, sender_.machine(), contact_.touched);
+  heard_.contact.at = contact_of(line, sender_.machine(), heard_.contact.touched);
 }
 
 void GrblMachineSession::hear_report() {
@@ -202,7 +202,8 @@ void GrblMachineSession::poll_idle() {
       words += fmt::format("{}{:.4f}", letter_of(axis.axis), then[axis.axis]);
     }
     if (words.empty()) continue;
-    sender_.add(fmt::format("G10L2P{}{}", system, words));
+    // A start line ($N0) may have set inches.
+    sender_.add(fmt::format("G21G10L2P{}{}", system, words));
     is_changed = true;
   }
   if (is_changed) sender_.ask_for_offsets();
@@ -240,6 +241,7 @@ void GrblMachineSession::store_offsets(const SavedParameters& parameters) {
 // A board in an alarm tells and takes settings, too.
 GrblSender* GrblMachineSession::lend_sender() {
   if (lent_ || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
+  while (sender_.take_reply()) continue;  // of an earlier reader that did not wait
   lent_ = true;
   return &sender_;
 }

@@ -31,7 +31,7 @@ namespace passo {
 
 class GrblMachineSession final : public MachineSession {
  public:
-  // A key that is released stops a jog after this time, and the board's own braking.
+  // The longest time between two exchanges with a busy board: a released key takes effect that much later at most.
   static constexpr Seconds between_looks{0.02};
 
   // Both must outlive the session. Nothing is sent before the first poll().
@@ -73,15 +73,16 @@ class GrblMachineSession final : public MachineSession {
 
  private:
   struct Work;
-  struct Heard {
-    std::uint64_t reports = 0;  // so far
-    std::string pins;
-    std::string outputs;  // letters, as the board reports them
-  };
   // The result of the last probe move.
   struct Contact {
     std::optional<Point> at;
     bool touched = false;
+  };
+  struct Heard {
+    std::uint64_t reports = 0;  // so far
+    std::string pins;
+    std::string outputs;  // letters, as the board reports them
+    Contact contact;
   };
   struct News {
     std::deque<MachineChange> changes;
@@ -166,7 +167,6 @@ class GrblMachineSession final : public MachineSession {
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;
-  Contact contact_;
   std::unique_ptr<Work> work_;  // the current or the last activity
   Overrides overrides_;
   ChosenStops stops_;
