@@ -52,7 +52,8 @@ TEST_F(GrblMachine, gets_programs_of_linuxcnc) {
 TEST_F(GrblMachine, gives_its_work_zero_to_the_senders_of_a_server) {
   const std::string other = path("other");
   const std::string serve = std::string(PASSO_PROGRAM) +
-                            " serve -m " PASSO_SOURCE_DIR "/examples/machines/router.toml --board $L --grbl-pty " + other;
+                            " serve -m " PASSO_SOURCE_DIR "/examples/machines/router.toml --board $L --grbl-pty " +
+                            other;
   const auto outcome = beside_a_machine(
       "exec 3<>" + path("tty") + R"(; printf '$X\nG10L2P1X50\n' >&3; sleep 0.3; exec 3>&-; )" + serve + " >" +
       path("told") + " 2>&1 & server=$!; until grep -q Ctrl-C " + path("told") + "; do sleep 0.02; done; exec 4<>" +

@@ -72,8 +72,8 @@ TEST(GrblFollow, an_override_counts_after_a_further_beginning) {
   ASSERT_TRUE(pair.run({"G1F600X1Y0Z0", "G4P0"}));
   pair.sender.follow({});
   double most = 0;
-  static_cast<void>(pair.run({"G1F600X60Y0Z0"}, [&] { most = std::max(most, pair.sender.time_in_machine().value()); },
-                             Seconds(0.3)));
+  static_cast<void>(pair.run(
+      {"G1F600X60Y0Z0"}, [&] { most = std::max(most, pair.sender.time_in_machine().value()); }, Seconds(0.3)));
   EXPECT_LE(pair.runs_on(), 1.3) << "at half of the feed, and with a piece of 0.5 s to brake in";
   EXPECT_GT(most, 0.5);
 }
