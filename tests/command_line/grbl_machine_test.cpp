@@ -48,6 +48,20 @@ TEST_F(GrblMachine, gets_programs_of_linuxcnc) {
   EXPECT_GT(all["lines"], 15);
 }
 
+// Also without the web interface: a zero of zeros would move the machine elsewhere.
+TEST_F(GrblMachine, gives_its_work_zero_to_the_senders_of_a_server) {
+  const std::string other = path("other");
+  const std::string serve = std::string(PASSO_PROGRAM) +
+                            " serve -m " PASSO_SOURCE_DIR "/examples/machines/router.toml --board $L --grbl-pty " +
+                            other;
+  const auto outcome = beside_a_machine(
+      "exec 3<>" + path("tty") + R"(; printf '$X\nG10L2P1X50\n' >&3; sleep 0.3; exec 3>&-; )" + serve + " >" +
+      path("told") + " 2>&1 & server=$!; until grep -q Ctrl-C " + path("told") + "; do sleep 0.02; done; exec 4<>" +
+      other + R"(; printf '$#\n' >&4; timeout 5 grep -m1 G54 <&4; code=$?; kill $server; wait $server; exit $code)");
+  EXPECT_EQ(outcome.code, 0) << passo::test::read(path("told"));
+  EXPECT_THAT(outcome.out, HasSubstr("[G54:50.000,"));
+}
+
 TEST_F(GrblMachine, is_held_and_slowed_and_a_hold_may_end_the_run) {
   const std::string program = write("p.ngc", "G21 G90 G1 X20 F6000\nX0\nX20\nX0\nM2\n");
   auto outcome = beside_a_machine(run(program, "-q --hold-at 0.2:0.1 --override 50@0.1"));

@@ -141,8 +141,7 @@ class FirmwareFake {
     if (line == "$I+" && !traits_.more_about.empty()) return answer(traits_.more_about);
     if (line == "$#") return tell_offsets();
     if (line == "$G") {
-      return answer(
-          {fmt::format("[GC:G{} G54 G17 G21 G90 G{} M5 M9 T0 F{:.0f} S0]", motion_, by_time_ ? 93 : 94, feed_)});
+      return answer({fmt::format("[GC:G{} G54 G17 G21 G90 G{} M5 M9 T0 F{} S0]", motion_, by_time_ ? 93 : 94, feed_)});
     }
     if (line == "$$") {
       for (const auto& [name, value] : traits_.settings) say(fmt::format("${}={}", name, value));

@@ -57,6 +57,7 @@ class StrictGrbl {
   std::string trips = {};    // a line at which a limit switch closes
   bool loses_next_line_end = false;
   bool silent = false;  // does not report
+  bool ignores_hold_at_rest = false;
 
   std::string state = "Idle";  // as reported, with its number
   double x = 0;                // place()[Axis::x]
@@ -240,7 +241,7 @@ class StrictGrbl {
   }
   void hold() {
     if (state == "Jog") return cancel_jog();
-    if (state == "Idle") state = "Hold:0";
+    if (state == "Idle" && !ignores_hold_at_rest) state = "Hold:0";
     if (state != "Run") return;
     state = motion_.moves() ? "Hold:1" : "Hold:0";
     motion_.brake();

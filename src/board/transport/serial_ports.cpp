@@ -201,7 +201,8 @@ void add_those_with_lock_files(std::vector<SerialPort>& ports, const fs::path& r
   for (SerialPort& port : ports) {
     const fs::path file = root / "var/lock" / ("LCK.." + fs::path(port.device).filename().string());
     std::error_code none;
-    if (!fs::exists(file, none)) continue;
+    // Any user may write into this folder. To open a pipe there would wait for its other end.
+    if (!fs::is_regular_file(file, none)) continue;
     const int process = process_in(start_of(file, 64));
     // A program that was killed leaves its lock file. One that cannot be read may be anybody's.
     if (process > 0 && !processes.runs(process)) continue;

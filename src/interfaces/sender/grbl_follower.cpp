@@ -256,10 +256,10 @@ void GrblFollower::run_model(double until) {
     if (waiting_.empty()) break;
     const Waiting& next = waiting_.front();
     if (next.rests) {
-      const double rest = std::max(model_.rest_at().value(), rests_until_) + next.dwell.value();
-      if (rest > clock_.time) break;
-      model_.wait_for_rest(Seconds(0), Seconds(rest));
-      rests_until_ = rest;
+      const double begin = std::max(model_.rest_at().value(), rests_until_);
+      if (begin > clock_.time) break;
+      model_.wait_for_rest(Seconds(0), Seconds(begin));
+      rests_until_ = begin + next.dwell.value();
     } else {
       if (rests_until_ > clock_.time) break;
       if (model_.full()) {

@@ -58,7 +58,8 @@ GrblMachineSession::~GrblMachineSession() = default;
 void GrblMachineSession::connect_again(bool on_open_line) {
   sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
   sender_.listen([this](std::string_view line) { hear(line); });
-  connection_ = {};
+  prepared_ = false;
+  lent_ = false;
   heard_.reports = 0;
 }
 
@@ -67,8 +68,7 @@ bool GrblMachineSession::busy() const {
 }
 
 bool GrblMachineSession::works() const {
-  return busy() || state_ == MachineState::offline || to_store_.has_value() || connection_.lent ||
-         !sender_.all_answered();
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered();
 }
 
 // All lines are answered, and the board has reported since that it is idle.
@@ -118,7 +118,7 @@ void GrblMachineSession::hear(std::string_view line) {
   if (!line.starts_with(probe) || !line.ends_with(']')) return;
   line.remove_prefix(probe.size());
   line.remove_suffix(1);
-  contact_.at = contact_of(line, sender_.machine(), contact_.touched);
+  heard_.contact.at = contact_of(line, sender_.machine(), heard_.contact.touched);
 }
 
 void GrblMachineSession::hear_report() {
@@ -145,13 +145,13 @@ void GrblMachineSession::hear_report() {
 void GrblMachineSession::prepare() {
   for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender_.add(line);
   sender_.ask_for_offsets();
-  connection_.prepared = true;
+  prepared_ = true;
 }
 
 void GrblMachineSession::go_online() {
   if (!sender_.ready()) return;
   locked_ = sender_.report()->state == "Alarm";
-  if (!connection_.prepared && !locked_) return prepare();
+  if (!prepared_ && !locked_) return prepare();
   if (!(locked_ ? sender_.all_answered() : rests())) return;
   board_ = sender_.machine();
   const auto place = sender_.place();
@@ -188,7 +188,7 @@ void GrblMachineSession::poll_idle() {
   } else if (state_ == MachineState::door && report->state == "Idle") {
     move_to(MachineEvent::close_door);
   }
-  if (!to_store_ || connection_.lent || state_ != MachineState::idle || locked_ || !rests()) return;
+  if (!to_store_ || lent_ || state_ != MachineState::idle || locked_ || !rests()) return;
   const SavedParameters wanted = *std::exchange(to_store_, {});
   const SavedParameters present = offsets();
   bool is_changed = false;
@@ -202,7 +202,8 @@ void GrblMachineSession::poll_idle() {
       words += fmt::format("{}{:.4f}", letter_of(axis.axis), then[axis.axis]);
     }
     if (words.empty()) continue;
-    sender_.add(fmt::format("G10L2P{}{}", system, words));
+    // A start line ($N0) may have set inches.
+    sender_.add(fmt::format("G21G10L2P{}{}", system, words));
     is_changed = true;
   }
   if (is_changed) sender_.ask_for_offsets();
@@ -239,13 +240,14 @@ void GrblMachineSession::store_offsets(const SavedParameters& parameters) {
 
 // A board in an alarm tells and takes settings, too.
 GrblSender* GrblMachineSession::lend_sender() {
-  if (connection_.lent || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
-  connection_.lent = true;
+  if (lent_ || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
+  while (sender_.take_reply()) continue;  // of an earlier reader that did not wait
+  lent_ = true;
   return &sender_;
 }
 
 void GrblMachineSession::take_sender_back() {
-  if (!std::exchange(connection_.lent, false)) return;
+  if (!std::exchange(lent_, false)) return;
   board_ = sender_.machine();
   ++news_.version;
 }

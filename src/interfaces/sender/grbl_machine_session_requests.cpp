@@ -69,7 +69,7 @@ GrblMachineSession::Answer GrblMachineSession::refuse_ability(Ability ability) c
 }
 
 Result<Ticket, Refusal> GrblMachineSession::request(Request wanted) {
-  if (connection_.lent) return refused(RefusalReason::busy);
+  if (lent_) return refused(RefusalReason::busy);
   return std::visit([this](auto& one) { return handle(one); }, wanted);
 }
 
@@ -239,6 +239,8 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Hold& hold) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
+  // While the board brakes or is reset, it would move on.
+  if (busy() && work_->stage >= Work::Stage::brakes) return refused(RefusalReason::no_program_held);
   const bool is_held = busy() && work_->is_program() && (work_->hold.asked || work_->hold.heard);
   const bool is_door_closed = state_ == MachineState::door && heard_.pins.find('D') == std::string::npos;
   if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);

@@ -71,7 +71,8 @@ void GrblMachineSession::make_feed() {
 
 void GrblMachineSession::poll_feed() {
   GrblFeed& feed = *work_->feed;
-  while (sender_.wants_lines()) {
+  // A board at rest may ignore a hold: nothing may move then either.
+  while (!work_->hold.asked && sender_.wants_lines()) {
     const auto line = feed.next();
     if (!line) break;
     sender_.add(line->text, line->line, line->silence);
@@ -98,14 +99,14 @@ void GrblMachineSession::answer_question() {
       if (work_->lines->is_to_begin(now())) feed.go_on();
       return;
     case GrblFeed::Asks::probe_state:
-      contact_.at.reset();
-      contact_.touched = false;
+      heard_.contact.at.reset();
+      heard_.contact.touched = false;
       feed.take_probe_state(heard_.pins.find('P') != std::string::npos, position_.place);
       return;
     case GrblFeed::Asks::probe_result: {
       const ProbeOutcome outcome{.refused = false,
-                                 .touched = contact_.touched && contact_.at,
-                                 .contact = contact_.at.value_or(position_.place),
+                                 .touched = heard_.contact.touched && heard_.contact.at,
+                                 .contact = heard_.contact.at.value_or(position_.place),
                                  .rest = position_.place};
       feed.take_probe(outcome);
       sender_.follow(first_work_zero(board_));
@@ -243,7 +244,7 @@ void GrblMachineSession::resync() {
 void GrblMachineSession::end_resync() {
   if (!sender_.ready()) return;
   const bool is_locked = sender_.report()->state == "Alarm";
-  if (!connection_.prepared && !is_locked) return prepare();
+  if (!prepared_ && !is_locked) return prepare();
   if (!(is_locked ? sender_.all_answered() : rests())) return;
   board_ = sender_.machine();
   position_.place = sender_.place().value_or(position_.place);
@@ -268,6 +269,7 @@ void GrblMachineSession::end_work(Outcome outcome, std::optional<ActivityFault> 
   Work& work = *work_;
   work.stage = Work::Stage::ended;
   sender_.look_often(false);
+  sender_.stop_following();
   const auto place = sender_.place();
   if (place && rests()) position_.place = *place;
   live_.rest_at(position_.place);
@@ -330,7 +332,7 @@ Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
 // The board may have moved further, or lost steps.
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
-  connection_.lent = false;
+  lent_ = false;
   trouble_ = sentence;
   if (state_ != MachineState::offline) {
     position_.trust = Trust::unknown;

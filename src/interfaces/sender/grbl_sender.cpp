@@ -113,7 +113,8 @@ void GrblSender::resume() {
 }
 
 void GrblSender::override_feed(int percent) {
-  if (follower_) follower_->set_override(std::clamp(percent, 10, 200) / 100.0);
+  override_.feed = std::clamp(percent, 10, 200) / 100.0;
+  if (follower_) follower_->set_override(override_.feed);
   for (const char byte : steps_to(percent, '\x90', '\x91')) override_.bytes.push_back(byte);
 }
 

@@ -21,6 +21,7 @@ void GrblSender::follow(const Point& zero, Seconds ahead) {
   const GrblLimits limits = limits_of(machine_);
   if (!start || limits.steps_per_mm == PerAxis<double>()) return;
   follower_.emplace(limits, *start, zero, ahead);
+  follower_->set_override(override_.feed);
   marks_.expected.clear();
   marks_.lines.clear();
   marks_.heard = false;

@@ -133,6 +133,12 @@ TEST_F(SerialPorts, are_in_use_by_the_program_in_their_lock_file) {
   EXPECT_EQ(describe_users(port("ttyUSB0")), "in use by another program");
 }
 
+TEST_F(SerialPorts, are_not_looked_for_in_a_pipe_that_stands_for_a_lock_file) {
+  fs::create_directories(root_ / "var/lock");
+  ASSERT_EQ(mkfifo((root_ / "var/lock/LCK..ttyUSB0").c_str(), 0600), 0);
+  EXPECT_TRUE(port("ttyUSB0").users.empty());
+}
+
 TEST_F(SerialPorts, of_a_program_with_several_signs_have_one_user) {
   files_.begin(31, "picocom", "ttyUSB0");
   write("var/lock/LCK..ttyUSB0", "        31\n");

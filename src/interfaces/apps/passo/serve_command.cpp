@@ -180,6 +180,10 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
     if (const auto place = web->broken_off_at(); place && things.simulated != nullptr) {
       things.simulated->stand_in_truth_at(*place);
     }
+  } else if (things.grbl_board != nullptr) {
+    grbl.apply_offsets(things.grbl_board->offsets());
+    grbl.share_offsets(
+        [board = things.grbl_board](const SavedParameters& parameters) { board->store_offsets(parameters); });
   }
   if (!arguments.data.empty()) remember(grbl, arguments.data);
   std::unique_ptr<ServedStatus> status;

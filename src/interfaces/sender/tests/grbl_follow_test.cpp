@@ -55,6 +55,29 @@ GrblLimits fast_router() {
   return limits;
 }
 
+TEST(GrblFollow, lines_follow_a_dwell_of_any_length) {
+  FollowedPair pair;
+  ASSERT_TRUE(pair.begin());
+  const std::vector<std::string> lines{"G4P1.2", "G1F600X10Y0Z0", "G4P0.5", "G4P1.2", "X20", "G4P0"};
+  ASSERT_TRUE(pair.run(lines, {}, Seconds(30)));
+  EXPECT_FALSE(pair.sender.fault()) << pair.sender.fault()->message;
+  EXPECT_NEAR((pair.now - pair.begun).value(), 2.9 + 2, 0.5);
+  EXPECT_NEAR(pair.machine.place()[Axis::x], 20, 1e-9);
+}
+
+TEST(GrblFollow, an_override_counts_after_a_further_beginning) {
+  FollowedPair pair;
+  ASSERT_TRUE(pair.begin());
+  pair.sender.override_feed(50);
+  ASSERT_TRUE(pair.run({"G1F600X1Y0Z0", "G4P0"}));
+  pair.sender.follow({});
+  double most = 0;
+  static_cast<void>(pair.run(
+      {"G1F600X60Y0Z0"}, [&] { most = std::max(most, pair.sender.time_in_machine().value()); }, Seconds(0.3)));
+  EXPECT_LE(pair.runs_on(), 1.3) << "at half of the feed, and with a piece of 0.5 s to brake in";
+  EXPECT_GT(most, 0.5);
+}
+
 TEST(GrblFollow, pieces_of_a_line_end_exactly_where_it_ends) {
   GrblFollower follower(fast_router(), {}, {}, Seconds(1));
   EXPECT_THAT(follower.pieces("G1F600X1Y0Z0"), testing::ElementsAre("G1F600X1Y0Z0")) << "0.1 s";

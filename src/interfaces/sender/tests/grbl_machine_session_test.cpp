@@ -90,6 +90,44 @@ TEST_F(GrblSessions, a_stop_brakes_on_the_path_and_keeps_the_position) {
   EXPECT_EQ(next->outcome, Outcome::done);
 }
 
+TEST_F(GrblSessions, do_not_resume_while_a_stop_brakes) {
+  ASSERT_TRUE(run.go_online());
+  const auto ticket = run.ask(grbl_start("G21 G90\nG1 X100 F1200\nM2\n"));
+  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 10; }));
+  ASSERT_TRUE(run.ask_and_wait(request::Hold{}, Seconds(2)));
+  const double rests_at = run.grbl.place()[Axis::x];
+  run.port.sent.clear();
+  ASSERT_TRUE(run.ask(request::Stop{}));
+  EXPECT_FALSE(run.ask(request::Resume{}));
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  EXPECT_EQ(run.port.sent.find('~'), std::string::npos);
+  EXPECT_NEAR(run.grbl.place()[Axis::x], rests_at, 1e-9);
+  EXPECT_FALSE(run.session.lost_place());
+}
+
+TEST_F(GrblSessions, hold_a_board_that_ignores_a_hold_at_rest) {
+  ASSERT_TRUE(run.go_online());
+  const auto ticket = run.ask(grbl_start("G21 G90\nG4 P2\nG1 X10 F1200\nM2\n"));
+  ASSERT_TRUE(ticket);
+  run.grbl.ignores_hold_at_rest = true;
+  ASSERT_TRUE(run.ask(request::Hold{}));
+  run.play_for(Seconds(4));
+  EXPECT_EQ(run.session.state(), MachineState::hold);
+  EXPECT_EQ(run.grbl.place()[Axis::x], 0);
+  ASSERT_TRUE(run.ask(request::Resume{}));
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  EXPECT_NEAR(run.grbl.place()[Axis::x], 10, 1e-9);
+}
+
+TEST_F(GrblSessions, may_be_moved_by_others_after_a_program) {
+  ASSERT_TRUE(run.go_online());
+  ASSERT_TRUE(run.ask_and_wait(grbl_start(square)));
+  run.grbl.receive("$J=G91X7F1000\n");  // a pendant at the board
+  run.play_for(Seconds(2));
+  EXPECT_EQ(run.session.state(), MachineState::idle) << run.session.trouble_words();
+  EXPECT_NEAR(run.session.status().position.place[Axis::x], 7, 1e-3);
+}
+
 TEST_F(GrblSessions, wait_at_stops_for_the_operator) {
   ASSERT_TRUE(run.go_online());
   request::Start start = grbl_start("G21 G90\nG1 X5 F1200\n(MSG, turn it over)\nM0\nT2 M6\nG1 X9\nM2\n");
@@ -355,7 +393,7 @@ TEST_F(GrblSessions, work_offsets_are_those_of_the_board) {
   parameters[5242] = -3;
   run.session.store_offsets(parameters);
   run.play([&] { return !run.session.works(); });
-  EXPECT_THAT(run.port.sent, HasSubstr("G10L2P1X12.5000\n"));
+  EXPECT_THAT(run.port.sent, HasSubstr("G21G10L2P1X12.5000\n"));
   EXPECT_THAT(run.port.sent, HasSubstr("G10L2P2Y-3.0000\n"));
   request::Start start = grbl_start("G21 G90\nG0 X2\nM2\n");
   start.options.parameters = parameters;

@@ -31,7 +31,7 @@ namespace passo {
 
 class GrblMachineSession final : public MachineSession {
  public:
-  // A key that is released stops a jog after this time, and the board's own braking.
+  // The longest time between two exchanges with a busy board: a released key takes effect that much later at most.
   static constexpr Seconds between_looks{0.02};
 
   // Both must outlive the session. Nothing is sent before the first poll().
@@ -67,26 +67,22 @@ class GrblMachineSession final : public MachineSession {
   // Meanwhile every request is refused. Null: the machine is not at rest.
   GrblSender* lend_sender();
   // False if it has not been lent, or if the connection or the board's state was lost in the meantime.
-  bool is_sender_lent() const { return connection_.lent; }
+  bool is_sender_lent() const { return lent_; }
   // The settings may be others now: the session takes over what the board has told.
   void take_sender_back();
 
  private:
   struct Work;
-  struct Heard {
-    std::uint64_t reports = 0;  // so far
-    std::string pins;
-    std::string outputs;  // letters, as the board reports them
-  };
   // The result of the last probe move.
   struct Contact {
     std::optional<Point> at;
     bool touched = false;
   };
-  // Begins anew with each connection.
-  struct Connection {
-    bool prepared = false;  // the board's modes are set
-    bool lent = false;      // the sender, for the settings
+  struct Heard {
+    std::uint64_t reports = 0;  // so far
+    std::string pins;
+    std::string outputs;  // letters, as the board reports them
+    Contact contact;
   };
   struct News {
     std::deque<MachineChange> changes;
@@ -163,14 +159,14 @@ class GrblMachineSession final : public MachineSession {
   GrblSender sender_;
   GrblMachine board_;  // as it has described itself last
   MachineState state_ = MachineState::offline;
-  Connection connection_;
-  bool locked_ = false;  // the board is in an alarm that $X or $H ends
+  bool prepared_ = false;  // the board's modes are set, since the connection
+  bool locked_ = false;    // the board is in an alarm that $X or $H ends
   bool loses_place_ = false;
+  bool lent_ = false;  // the sender, for the settings
   std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;
-  Contact contact_;
   std::unique_ptr<Work> work_;  // the current or the last activity
   Overrides overrides_;
   ChosenStops stops_;

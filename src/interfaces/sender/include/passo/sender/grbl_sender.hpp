@@ -89,6 +89,8 @@ class GrblSender {
   // work zero of the lines, in machine coordinates. A line that is none of GrblCode's ends the comparison of positions
   // until the next call. No effect if the machine has reported no steps per unit, or no position.
   void follow(const Point& zero, Seconds ahead = default_ahead);
+  // Ends that, at rest: from here on the machine may be moved by others, e.g. with a pendant.
+  void stop_following() { follower_.reset(); }
   // Returns how long the machine moves if it gets nothing more. Without follow(): 0.
   Seconds time_in_machine() { return follower_ ? follower_->time_in_board(now_) : Seconds(0); }
   // Adds a line whose answer take_reply() returns, in the order of the questions. A rejection is no fault.
@@ -223,6 +225,7 @@ class GrblSender {
   struct Overrides {
     std::deque<char> bytes;  // not sent yet
     Seconds sent{-1};        // time of the last one
+    double feed = 1;         // the factor, since the connection
   };
   Overrides override_;
 };
