@@ -178,7 +178,6 @@ TEST_F(ServeOnRealGrbl, grbl_on_an_uno_homes_probes_and_survives_a_power_cut_and
     GTEST_SKIP() << "grbl_on_uno does not build here: libsimavr is missing";
   }
   key_ = new_key();
-  EXPECT_EQ(status()["lost_place"], true) << "a machine with switches is locked at its start";
   post("/home");
   ASSERT_TRUE(until([&] { return status()["trust"] == "homed"; })) << status();
   // Down to the probe.

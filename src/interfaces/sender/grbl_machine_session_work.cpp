@@ -320,8 +320,8 @@ std::string GrblMachineSession::words_of_restart() const {
   const std::uint32_t line = work_->progress.executed.source().line;
   if (line == 0) return {};
   return fmt::format(
-      "; line {} of the program is the last one that was executed for sure: home the machine or set its "
-      "zero, and start at that line",
+      "; by its last reports the machine was at line {} of the program: home it or set its zero, and start at that "
+      "line",
       line);
 }
 
