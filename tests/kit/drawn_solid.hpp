@@ -15,6 +15,7 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -120,6 +121,26 @@ class DrawnShapes {
   std::vector<Corner> corners_;
 };
 
+// From `ring.back()` to `to`, as a DXF polyline goes: the bulge is the tangent of a quarter of the angle.
+inline void add_bulge(FlatRing& ring, FlatPoint to, double bulge) {
+  const FlatPoint from = ring.back();
+  const double angle = 4 * std::atan(bulge);
+  const int pieces = std::max(1, static_cast<int>(std::abs(angle) * 180 / std::numbers::pi));
+  if (std::abs(bulge) > 1e-9) {
+    const double half = std::tan(angle / 2);
+    const FlatPoint centre{(from.x + to.x) / 2 - (to.y - from.y) / 2 / half,
+                           (from.y + to.y) / 2 + (to.x - from.x) / 2 / half};
+    for (int i = 1; i < pieces; ++i) {
+      const double turn = angle * i / pieces;
+      const double x = from.x - centre.x;
+      const double y = from.y - centre.y;
+      ring.push_back(
+          {centre.x + x * std::cos(turn) - y * std::sin(turn), centre.y + x * std::sin(turn) + y * std::cos(turn)});
+    }
+  }
+  ring.push_back(to);
+}
+
 // "M 1,2 L3,4 C 5,6 7,8 9,10 Z", with Y downwards from `height`.
 inline FlatRing ring_of_path(const std::string& d, double height) {
   FlatRing ring;
@@ -128,14 +149,35 @@ inline FlatRing ring_of_path(const std::string& d, double height) {
   const auto point = [&] {
     FlatPoint at;
     int used = 0;
-    if (std::sscanf(text, " %lf,%lf%n", &at.x, &at.y, &used) == 2) text += used;
+    if (std::sscanf(text, " %lf,%lf%n", &at.x, &at.y, &used) != 2) throw std::runtime_error("unknown path: " + d);
+    text += used;
     return FlatPoint{at.x, height - at.y};
+  };
+  const auto number = [&] {
+    char* end = nullptr;
+    const double value = std::strtod(text, &end);
+    if (end == text) throw std::runtime_error("unknown path: " + d);
+    text = end;
+    return value;
   };
   while (*text != 0) {
     if (std::isspace(static_cast<unsigned char>(*text)) != 0) {
       ++text;
     } else if (std::isalpha(static_cast<unsigned char>(*text)) != 0) {
       command = *text++;
+    } else if (command == 'h') {
+      ring.push_back({ring.back().x + number(), ring.back().y});
+    } else if (command == 'a') {
+      const FlatPoint radii = point();
+      number();  // a circle has no rotation
+      const bool is_large = number() != 0;
+      const bool turns_clockwise = number() != 0;
+      const FlatPoint way = point();
+      const FlatPoint to{ring.back().x + way.x, ring.back().y + way.y - height};
+      const double share = std::hypot(way.x, way.y - height) / 2 / radii.x;
+      const double angle = 2 * std::asin(std::min(share, 1.0));
+      const double bulge = std::tan((is_large ? 2 * std::numbers::pi - angle : angle) / 4);
+      add_bulge(ring, to, turns_clockwise ? -bulge : bulge);
     } else if (command == 'C') {
       const FlatPoint a = ring.back();
       const FlatPoint b = point();
@@ -157,26 +199,6 @@ inline FlatRing ring_of_path(const std::string& d, double height) {
   if (ring.size() > 1 && std::hypot(ring.back().x - ring.front().x, ring.back().y - ring.front().y) < 1e-6)
     ring.pop_back();
   return ring;
-}
-
-// From `ring.back()` to `to`, as a DXF polyline goes: the bulge is the tangent of a quarter of the angle.
-inline void add_bulge(FlatRing& ring, FlatPoint to, double bulge) {
-  const FlatPoint from = ring.back();
-  const double angle = 4 * std::atan(bulge);
-  const int pieces = std::max(1, static_cast<int>(std::abs(angle) * 180 / std::numbers::pi));
-  if (std::abs(bulge) > 1e-9) {
-    const double half = std::tan(angle / 2);
-    const FlatPoint centre{(from.x + to.x) / 2 - (to.y - from.y) / 2 / half,
-                           (from.y + to.y) / 2 + (to.x - from.x) / 2 / half};
-    for (int i = 1; i < pieces; ++i) {
-      const double turn = angle * i / pieces;
-      const double x = from.x - centre.x;
-      const double y = from.y - centre.y;
-      ring.push_back(
-          {centre.x + x * std::cos(turn) - y * std::sin(turn), centre.y + x * std::sin(turn) + y * std::cos(turn)});
-    }
-  }
-  ring.push_back(to);
 }
 
 // The layers of a DXF drawing in mm.
