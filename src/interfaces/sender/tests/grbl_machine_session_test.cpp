@@ -339,7 +339,7 @@ TEST_F(GrblSessions, a_restart_or_a_cut_is_a_fault_and_nothing_is_sent_twice) {
     ASSERT_TRUE(run.play_until(MachineState::fault, Seconds(2)));
     EXPECT_LT(run.session.now() - then, Seconds(2));
     EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::failed);
-    EXPECT_THAT(run.session.trouble_words(), HasSubstr("line 4 of the program is the last one"));
+    EXPECT_THAT(run.session.trouble_words(), HasSubstr("the machine was at line 4 of the program"));
     run.play_for(Seconds(3));
     EXPECT_EQ(run.port.sent.find('X'), std::string::npos) << run.port.sent;
     run.port.unplugged = false;
