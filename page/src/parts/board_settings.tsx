@@ -13,6 +13,7 @@ import {
 } from '../machine/board_settings';
 import { opened } from '../machine/ports';
 import { Button } from './button';
+import { FactsTable } from './facts_table';
 import { Icon } from './icon';
 import { Typed } from './typed';
 
@@ -147,32 +148,7 @@ function Compared() {
   return (
     <div class="compared" role="status">
       <p>{now.rows.length === 0 ? say('settings.same', { name: now.name }) : sayCount('settings.differ', now.rows.length, { name: now.name })}</p>
-      {now.rows.length > 0 && (
-        <table class="facts">
-          <thead>
-            <tr>
-              <td />
-              {columns().map((name) => (
-                <th scope="col" key={name}>
-                  {name}
-                </th>
-              ))}
-            </tr>
-          </thead>
-          <tbody>
-            {rowsOf(now.rows).map(([name, ...values]) => (
-              <tr key={name}>
-                <th scope="row">
-                  <code>{name}</code>
-                </th>
-                {values.map((value, i) => (
-                  <td key={i}>{value}</td>
-                ))}
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      )}
+      {now.rows.length > 0 && <FactsTable columns={columns()} rows={rowsOf(now.rows)} shown={(name) => <code>{name}</code>} />}
       {now.rows.length > 0 && (
         <Button icon="reset" why={why()} onClick={() => restore(now.name, now.file, now.rows)}>
           {say('settings.restore')} …

@@ -6,6 +6,7 @@ import { dismiss, notices } from '../core/notices';
 import { asked } from '../core/question';
 import { hold, stop, whyNoHold } from '../machine/actions';
 import { Button } from './button';
+import { FactsTable } from './facts_table';
 import { Icon } from './icon';
 import { Steps } from './reported';
 
@@ -35,32 +36,7 @@ export function QuestionDialog() {
   return (
     <Dialog title={question.title} onClose={() => question.answer(false)} key={question.title}>
       {question.facts[0] !== undefined && <p>{question.facts[0]}</p>}
-      {question.rows !== undefined && question.rows.length > 0 && (
-        <table class="facts">
-          {question.columns !== undefined && (
-            <thead>
-              <tr>
-                <td />
-                {question.columns.map((name) => (
-                  <th scope="col" key={name}>
-                    {name}
-                  </th>
-                ))}
-              </tr>
-            </thead>
-          )}
-          <tbody>
-            {question.rows.map(([name, ...values]) => (
-              <tr key={name}>
-                <th scope="row">{name}</th>
-                {values.map((value, i) => (
-                  <td key={i}>{value}</td>
-                ))}
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      )}
+      {question.rows !== undefined && question.rows.length > 0 && <FactsTable columns={question.columns} rows={question.rows} />}
       {question.steps !== undefined && <Steps steps={question.steps} />}
       {question.facts.slice(1).map((fact) => (
         <p key={fact}>{fact}</p>
