@@ -97,7 +97,7 @@ Status<std::string> GrblCode::write_segment(const Segment& segment, std::vector<
   } else {
     write_line(curve.start(), curve.end(), feed, curve.length().value(), lines);
   }
-  if (segment.mode == PathMode::exact_stop) lines.emplace_back("G4P0");
+  if (segment.mode == PathMode::exact_stop) lines.emplace_back(wait_for_rest);
   return Unit{};
 }
 

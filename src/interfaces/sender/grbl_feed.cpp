@@ -13,13 +13,7 @@
 namespace passo {
 namespace {
 
-// Answered when all motion is complete.
-constexpr const char* rest_line = "G4P0";
 constexpr double same_place = 1e-3;  // mm
-
-std::uint32_t source_line(const PathItem& item) {
-  return std::visit([](const auto& one) { return one.source.line; }, item);
-}
 
 }  // namespace
 
@@ -100,7 +94,7 @@ void GrblFeed::push(GrblProgram::Line line) {
 }
 
 void GrblFeed::sync(Asks asks, std::uint32_t line) {
-  push({.text = rest_line, .line = line});
+  push({.text = GrblCode::wait_for_rest, .line = line});
   asks_ = asks;
 }
 
@@ -108,10 +102,10 @@ void GrblFeed::write(const PathItem& item) {
   std::vector<std::string> lines;
   if (const auto written = code_.write(item, lines); !written) {
     objection_ = written.error();
-    objection_line_ = source_line(item);
+    objection_line_ = GrblCode::source_line(item);
     return;
   }
-  const std::uint32_t line = source_line(item);
+  const std::uint32_t line = GrblCode::source_line(item);
   const auto* action = std::get_if<Action>(&item);
   const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
   if (action != nullptr) outputs_ = action->outputs;

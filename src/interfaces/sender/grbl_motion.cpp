@@ -46,7 +46,7 @@ void GrblMotion::add(const PathItem& item) {
   if (path_watcher_) path_watcher_(item);
   lines_.clear();
   if (!code_.write(item, lines_)) return;  // the check has reported it
-  const std::uint32_t source = std::visit([](const auto& one) { return one.source.line; }, item);
+  const std::uint32_t source = GrblCode::source_line(item);
   for (const std::string& line : lines_) forecast_.add(line, source);
   const auto* action = std::get_if<Action>(&item);
   if (action == nullptr) return;

@@ -12,9 +12,6 @@
 namespace passo {
 namespace {
 
-// Answered when all motion is done.
-constexpr const char* wait_for_rest = "G4P0";
-
 // Reports what a Grbl machine cannot do, at its line, once for each reason.
 class Objections {
  public:
@@ -44,10 +41,6 @@ class Objections {
   std::string file_;
   std::vector<std::string> told_;
 };
-
-std::uint32_t line_of(const PathItem& item) {
-  return std::visit([](const auto& one) { return one.source.line; }, item);
-}
 
 }  // namespace
 
@@ -84,7 +77,7 @@ ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescripti
       [&](const PathItem& item) {
         lines.clear();
         const auto written = code.write(item, lines);
-        if (!written) objections.add(written.error(), line_of(item));
+        if (!written) objections.add(written.error(), GrblCode::source_line(item));
         if (watch_path) watch_path(item);
       },
       [&](const Operation& operation) {
@@ -114,7 +107,7 @@ std::optional<GrblProgram::Line> GrblProgram::next() {
   while (!stop_ && !ended()) {
     if (ready_.empty()) {
       ended_ = checker_.go_on(1);
-      if (ended_) ready_.push_back({.line = {.text = wait_for_rest}});
+      if (ended_) ready_.push_back({.line = {.text = GrblCode::wait_for_rest}});
       continue;
     }
     Ready next = std::move(ready_.front());
@@ -144,7 +137,7 @@ bool GrblProgram::reaches(const PathItem& item) {
 void GrblProgram::write(const PathItem& item) {
   std::vector<std::string> lines;
   if (!code_.write(item, lines)) return;  // the check has told it
-  const std::uint32_t line = line_of(item);
+  const std::uint32_t line = GrblCode::source_line(item);
   const auto* action = std::get_if<Action>(&item);
   const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
   for (std::string& text : lines) {
@@ -153,7 +146,7 @@ void GrblProgram::write(const PathItem& item) {
   if (action == nullptr || !is_program_stop(*action) || !waits_) return;
   const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)};
   words_.pass(line);
-  ready_.push_back({.line = {.text = wait_for_rest, .line = line}, .stop = wait});
+  ready_.push_back({.line = {.text = GrblCode::wait_for_rest, .line = line}, .stop = wait});
 }
 
 }  // namespace passo

@@ -22,6 +22,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "passo/base/result.hpp"
@@ -33,6 +34,14 @@ namespace passo {
 class GrblCode {
  public:
   explicit GrblCode(const GrblTarget& target = {}) : target_(target) {}
+
+  // A line that is answered when all motion is complete.
+  static constexpr const char* wait_for_rest = "G4P0";
+
+  // Returns the line of the program to which an item belongs.
+  static std::uint32_t source_line(const PathItem& item) {
+    return std::visit([](const auto& one) { return one.source.line; }, item);
+  }
 
   // Appends the lines of an item; none if nothing changes. Stops and tool changes produce only the lines of their
   // outputs; the caller must wait. The error is a clause that names what a Grbl machine does not support.
