@@ -162,14 +162,14 @@ function(passo_test_headers)
 endfunction()
 
 
-# passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [SLOW filter] [DEFINITIONS name=value…]
-#            [COST seconds] [PROCESSORS number] [CALCULATES])
+# passo_test(NAME SOURCES file… [APART file…] LIBRARIES target… [LABELS label…] [SLOW filter] [ALONE filter]
+#            [DEFINITIONS name=value…] [COST seconds] [PROCESSORS number] [CALCULATES])
 #
 # A GoogleTest program; APART as for passo_module. Tests without a label are fast: a developer runs them at every change.
-# SLOW: the tests of this filter of GoogleTest get the label slow. COST: how long they take, as for passo_slow_test.
+# SLOW: the tests of this filter of GoogleTest get the label slow. ALONE: no other test runs beside these. COST: how long they take, as for passo_slow_test.
 # PROCESSORS: how many it counts for; so many tests less run beside it. CALCULATES: its own code is worth optimising.
 function(passo_test name)
-  cmake_parse_arguments(ARG "CALCULATES" "COST;PROCESSORS;SLOW" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "CALCULATES" "COST;PROCESSORS;SLOW;ALONE" "SOURCES;APART;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   set(one_in 0)  # of the trials of random tests, as each decides (tests/kit/in_full.hpp)
   if(PASSO_SANITIZE)
     set(one_in 16)  # a trial takes ten times as long
@@ -215,11 +215,20 @@ function(passo_test name)
       ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks_of_libraries.txt")
     return()
   endif()
+  set(rest "")
   if(ARG_SLOW)
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${ARG_SLOW}" PROPERTIES ${properties} LABELS slow)
-    set(ARG_SLOW TEST_FILTER "-${ARG_SLOW}")
+    list(APPEND rest ${ARG_SLOW})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 ${ARG_SLOW} PROPERTIES ${properties})
+  if(ARG_ALONE)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${ARG_ALONE}" PROPERTIES ${properties} RUN_SERIAL ON)
+    list(APPEND rest ${ARG_ALONE})
+  endif()
+  if(rest)
+    list(JOIN rest ":" rest)
+    set(rest TEST_FILTER "-${rest}")
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 ${rest} PROPERTIES ${properties})
 endfunction()
 
 # passo_slow_test(NAME SECONDS COMMAND program [argument…] [ENVIRONMENT name=value…] [IN_FULL name=value…])

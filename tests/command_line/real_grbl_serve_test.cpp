@@ -116,7 +116,7 @@ class ServeOnRealGrbl : public test::ServedHttp {
     post("/stop");
     ASSERT_TRUE(until_state("Idle"));
     const double x = status()["place"]["x"];
-    EXPECT_GT(x, 3);
+    EXPECT_GT(x, 1);
     EXPECT_LT(x, 25);
     // A key whose client has gone.
     ASSERT_TRUE(post("/jog", {{"direction", {{"y", 1}}}, {"speed", 600}, {"lease", 0.3}}).contains("ticket"));
