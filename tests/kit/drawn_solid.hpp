@@ -44,6 +44,10 @@ class DrawnShapes {
     return low;
   }
   void add(FlatRing ring) {
+    // An edge without a length has no direction.
+    const auto is_same = [](FlatPoint a, FlatPoint b) { return std::hypot(a.x - b.x, a.y - b.y) < 1e-9; };
+    ring.erase(std::unique(ring.begin(), ring.end(), is_same), ring.end());
+    while (ring.size() > 1 && is_same(ring.front(), ring.back())) ring.pop_back();
     Outline outline{.ring = std::move(ring)};
     const std::size_t n = outline.ring.size();
     constexpr double least_turn = 15 * std::numbers::pi / 180;

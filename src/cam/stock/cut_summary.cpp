@@ -50,7 +50,8 @@ void CutSummary::judge(const Stretch& stretch, const ToolShape& tool) {
   const double width = stretch.area / stretch.way_level;
   const double engagement = std::min(1.0, width / (2 * tool.cutter.radius.value()));
   raise(engagement_, engagement, stretch.most.line);
-  if (engagement > heavy_engagement) heavy_way_ += stretch.way;
+  constexpr double level = 0.999;  // 2.6 degrees
+  if (engagement > heavy_engagement && stretch.way_level > level * stretch.way) heavy_way_ += stretch.way;
 }
 
 void CutSummary::find_troubles(const MoveCut& cut) {

@@ -49,10 +49,10 @@ std::vector<std::string> keys_of_head(std::string_view line) {
   const auto tree = tree_of(line);
   const toml::table* table = tree ? &*tree : nullptr;
   while (table != nullptr && !table->empty()) {
-    const auto& [key, node] = *table->begin();
-    keys.emplace_back(key.str());
-    const toml::array* const list = node.as_array();
-    table = list != nullptr && !list->empty() ? (*list)[0].as_table() : node.as_table();
+    const auto only = table->begin();  // what it refers to lives as long as it does
+    keys.emplace_back(only->first.str());
+    const toml::array* const list = only->second.as_array();
+    table = list != nullptr && !list->empty() ? (*list)[0].as_table() : only->second.as_table();
   }
   return keys;
 }

@@ -55,6 +55,17 @@ TEST(CutSummary, short_moves_count_together_over_a_way_of_the_tools_radius) {
   EXPECT_NEAR(summary.engagement().value, 6 / 3.0 / 6, 1e-9);
 }
 
+TEST(CutSummary, a_descent_is_no_heavy_cut) {
+  CutSummary summary({flat_tool(6)});
+  MoveCut ramp = feed(1, 10, 30, 60, 1);
+  ramp.way_level = 9.96;
+  summary.add(ramp);
+  EXPECT_NEAR(summary.engagement().value, 1, 1e-9);
+  EXPECT_EQ(summary.heavy_way(), 0);
+  summary.add(feed(2, 10, 60, 60, 1));
+  EXPECT_EQ(summary.heavy_way(), 10);
+}
+
 TEST(CutSummary, rapids_one_after_another_are_one_trouble_with_the_greatest_depth) {
   CutSummary summary({flat_tool(6)});
   const auto rapid = [&](std::uint32_t line, double depth) {

@@ -62,7 +62,8 @@ class CutSummary {
   const LargestOf& depth() const { return depth_; }            // mm, in a feed move
   const LargestOf& engagement() const { return engagement_; }  // 0 to 1
   const LargestOf& rate() const { return rate_; }              // mm³/s
-  double heavy_way() const { return heavy_way_; }              // mm of cutting_way() above heavy_engagement
+  // mm of cutting_way() above heavy_engagement, without descents: a helix cuts a slot, but a thin one.
+  double heavy_way() const { return heavy_way_; }
 
   // In program order, at most `most_kept` of each kind. Consecutive moves with the same problem are merged into one,
   // with the maximum depth.
