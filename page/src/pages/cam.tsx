@@ -5,7 +5,7 @@ import { goTo } from '../core/route';
 import { lengthUnit } from '../core/units';
 import { isLive } from '../machine/connection';
 import { needFile } from '../machine/machine_file';
-import { clearDrawings, cam, madeCount } from '../machine/cam';
+import { clearDrawings, cam, madeCount, removeDrawing } from '../machine/cam';
 import { forgetShapes, jobFile } from '../machine/job_file';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
@@ -17,6 +17,14 @@ import { BoardLayers, BoardSteps } from './cam_board';
 import { JobPanels } from './cam_job';
 import { JobPicture } from './cam_job_picture';
 import { ask, fieldsOf, formNow, job, jobForm, layers, lookAtCam, partsOf, pick, picked, set, takeDrawings, valuesOf } from './cam_order';
+
+async function removeOne(name: string): Promise<void> {
+  if (!(await removeDrawing(name))) return;
+  picked.value = picked.value.filter((one) => one !== name);
+  if (jobFile.value?.name === name) jobFile.value = null;
+  forgetShapes(name);
+  ask(formNow());
+}
 
 function Drawings({ form }: { form: Form }) {
   const files = cam.value?.files ?? [];
@@ -33,13 +41,14 @@ function Drawings({ form }: { form: Form }) {
         {files.map((name) => (
           <li key={name}>
             {isJob ? (
-              name
+              <span>{name}</span>
             ) : (
               <label>
                 <input type="checkbox" checked={taken(form, picked.value).includes(name)} onChange={(event) => pick(name, event.currentTarget.checked)} />{' '}
                 {name}
               </label>
             )}
+            <Button icon="trash" label={say('cam.remove', { name })} why={why} onClick={() => removeOne(name)} />
           </li>
         ))}
       </ul>
