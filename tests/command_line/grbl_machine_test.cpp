@@ -68,18 +68,16 @@ TEST_F(GrblMachine, is_held_and_slowed_and_a_hold_may_end_the_run) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   outcome = beside_a_machine(run(program, "-q --hold-at 0.2"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in state Hold at X"));
+  EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in state Idle at X"));
 }
 
 TEST_F(GrblMachine, cannot_do_all_and_says_so) {
-  const std::string probe = write("p.ngc", "G21 G90\nG38.2 Z-1 F10\nM2\n");
-  const auto outcome = beside_a_machine(run(probe, "") + "; [ $? = 2 ] && " + run(probe, "--resume") +
+  const std::string thread = write("p.ngc", "G21 G90 G18\nM3 S100\nG33 Z-1 K0.5\nM2\n");
+  const auto outcome = beside_a_machine(run(thread, "") + "; [ $? = 2 ] && " + run(thread, "--resume") +
                                         "; [ $? = 2 ] && " PASSO_PROGRAM " jog X1 -m " PASSO_SOURCE_DIR
                                         "/examples/machines/router.toml --board $L");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(
-      outcome.err,
-      HasSubstr("p.ngc:2:1: error: a machine with Grbl cannot do this: Passo cannot read the result of its probe"));
+  EXPECT_THAT(outcome.err, HasSubstr("p.ngc:3:1: error: a machine with Grbl cannot do this"));
   EXPECT_THAT(outcome.err, HasSubstr("--resume and --journal"));
   EXPECT_THAT(outcome.err, HasSubstr("[board.grbl]"));
 }

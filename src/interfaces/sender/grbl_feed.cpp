@@ -31,10 +31,10 @@ void GrblFeed::begin_at(const ResumePoint& point, const std::vector<PathItem>& l
   from_ = point;
 }
 
-std::optional<GrblProgram::Line> GrblFeed::next() {
+std::optional<GrblFeed::Line> GrblFeed::next() {
   while (ready_.empty() && asks_ == Asks::nothing) pull();
   if (ready_.empty()) return {};
-  GrblProgram::Line line = std::move(ready_.front());
+  Line line = std::move(ready_.front());
   ready_.pop_front();
   return line;
 }
@@ -88,7 +88,7 @@ bool GrblFeed::reaches(const PathItem& item) {
   return true;
 }
 
-void GrblFeed::push(GrblProgram::Line line) {
+void GrblFeed::push(Line line) {
   ready_.push_back(std::move(line));
   ++lines_written_;
 }

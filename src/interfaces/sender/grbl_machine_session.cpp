@@ -48,8 +48,9 @@ std::optional<Point> contact_of(std::string_view value, const GrblMachine& board
 
 }  // namespace
 
-GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port)
+GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port, Seconds ahead)
     : machine_(machine), port_(port), sender_(port.now()) {
+  connection_.ahead = ahead;
   connect_again(false);
 }
 
@@ -58,7 +59,7 @@ GrblMachineSession::~GrblMachineSession() = default;
 void GrblMachineSession::connect_again(bool on_open_line) {
   sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
   sender_.listen([this](std::string_view line) { hear(line); });
-  prepared_ = false;
+  connection_.is_prepared = false;
   lent_ = false;
   heard_.reports = 0;
 }
@@ -88,12 +89,12 @@ void GrblMachineSession::exchange(Seconds most) {
 }
 
 void GrblMachineSession::poll(Seconds most) {
-  if (broken_since_) {
+  if (connection_.broken_since) {
     if (port_.open_again()) {
-      broken_since_.reset();
+      connection_.broken_since.reset();
       connect_again(false);
-    } else if (now() - *broken_since_ > longest_reopening) {
-      broken_since_.reset();
+    } else if (now() - *connection_.broken_since > longest_reopening) {
+      connection_.broken_since.reset();
       return break_off(MachineEvent::lose_board, {.code = "grbl.line-lost", .message = "the connection is not there"});
     } else {
       static_cast<void>(port_.receive(std::min(most, between_looks)));
@@ -145,13 +146,13 @@ void GrblMachineSession::hear_report() {
 void GrblMachineSession::prepare() {
   for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender_.add(line);
   sender_.ask_for_offsets();
-  prepared_ = true;
+  connection_.is_prepared = true;
 }
 
 void GrblMachineSession::go_online() {
   if (!sender_.ready()) return;
   locked_ = sender_.report()->state == "Alarm";
-  if (!prepared_ && !locked_) return prepare();
+  if (!connection_.is_prepared && !locked_) return prepare();
   if (!(locked_ ? sender_.all_answered() : rests())) return;
   board_ = sender_.machine();
   const auto place = sender_.place();
@@ -258,14 +259,8 @@ std::optional<Refusal> GrblMachineSession::lost_place() const {
   return Refusal{homes ? RefusalReason::unknown_so_home : RefusalReason::unknown_so_jog};
 }
 
-std::function<Status<std::string>(const PathItem&)> GrblMachineSession::path_judge() const {
-  return [code = std::make_shared<GrblCode>(GrblTarget::of(board_))](const PathItem& item) -> Status<std::string> {
-    const auto* action = std::get_if<Action>(&item);
-    const bool is_probe =
-        action != nullptr && (action->kind == Action::Kind::probe_begin || action->kind == Action::Kind::probe_end);
-    std::vector<std::string> lines;
-    return is_probe ? Status<std::string>(Unit{}) : code->write(item, lines);
-  };
+std::uint64_t GrblMachineSession::lines_of_program() const {
+  return work_ ? sender_.lines_sent() - std::min(sender_.lines_sent(), work_->progress.lines_before) : 0;
 }
 
 std::optional<MachineSession::ProgramResults> GrblMachineSession::program_results() const {
@@ -286,7 +281,7 @@ MachineStatus GrblMachineSession::status() const {
   status.inputs = inputs_of(heard_.pins);
   status.overrides = overrides_;
   status.stops = stops_;
-  status.trouble_sentence = trouble_;
+  status.trouble_sentence = trouble_.words;
   if (!busy() || work_->checker) return status;
   const Work& work = *work_;
   const auto& report = sender_.report();

@@ -101,6 +101,7 @@ GrblMachineSession::Answer GrblMachineSession::at_once() {
 GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
   work_ = std::move(work);
   work_->ticket = ++tickets_.last;
+  trouble_.fault.reset();
   sender_.look_often(true);
   move_to(event);
   return work_->ticket;
@@ -117,7 +118,11 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
   work->start->options.start = work->start->from ? work->start->options.start : position_.place;
   work->program = std::make_unique<GrblProgramPath>(std::move(work->start->program), machine_, work->start->options,
                                                     *work->findings, std::move(work->start->known_probes));
-  if (work->watchers.operations) work->program->operations().watch(work->watchers.operations);
+  if (work->watchers.operations) {
+    work->program->operations().watch([&one = *work](const Operation& operation) {
+      if (!one.feed->skips()) one.watchers.operations(operation);
+    });
+  }
   prepare();
   return begin(MachineEvent::begin_run, std::move(work));
 }
@@ -356,7 +361,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::ResetMachine&) {
   if (auto refusal = refuse(MachineEvent::reset)) return Failure{*refusal};
   trouble_ = {};
   if (port_.is_broken()) {
-    broken_since_ = now();
+    connection_.broken_since = now();
   } else {
     port_.send("\x18");
     connect_again(true);

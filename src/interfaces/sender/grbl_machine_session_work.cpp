@@ -52,7 +52,7 @@ void GrblMachineSession::make_feed() {
                                                    : *work.probe;
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
-  sender_.follow(first_work_zero(board_));
+  sender_.follow(first_work_zero(board_), connection_.ahead);
   work.progress.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
   work.feed->watch([&work, limits](const PathItem& item) {
@@ -109,7 +109,7 @@ void GrblMachineSession::answer_question() {
                                  .contact = heard_.contact.at.value_or(position_.place),
                                  .rest = position_.place};
       feed.take_probe(outcome);
-      sender_.follow(first_work_zero(board_));
+      sender_.follow(first_work_zero(board_), connection_.ahead);
       if (work_->watchers.probe) work_->watchers.probe(outcome);
       return publish({.kind = MachineChange::Kind::probed, .probe = outcome});
     }
@@ -244,7 +244,7 @@ void GrblMachineSession::resync() {
 void GrblMachineSession::end_resync() {
   if (!sender_.ready()) return;
   const bool is_locked = sender_.report()->state == "Alarm";
-  if (!prepared_ && !is_locked) return prepare();
+  if (!connection_.is_prepared && !is_locked) return prepare();
   if (!(is_locked ? sender_.all_answered() : rests())) return;
   board_ = sender_.machine();
   position_.place = sender_.place().value_or(position_.place);
@@ -296,6 +296,7 @@ void GrblMachineSession::check_fault_of_work(const GrblFault& fault) {
   if (work_->stage == Work::Stage::resyncs) return break_off(MachineEvent::lose_board, fault);
   if (work_->fault) return;
   work_->drops = false;
+  trouble_.fault = fault;
   if (work_->program && fault.code == "grbl.error") {
     work_->findings->add({.code = fault.code,
                           .file = {},
@@ -333,7 +334,7 @@ Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
   lent_ = false;
-  trouble_ = sentence;
+  trouble_ = {sentence, fault};
   if (state_ != MachineState::offline) {
     position_.trust = Trust::unknown;
     position_.is_lost = true;

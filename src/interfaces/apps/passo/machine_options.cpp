@@ -8,6 +8,12 @@ void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
 }
 
+void add_ahead(CLI::App& command, std::optional<double>& ahead) {
+  command
+      .add_option("--ahead", ahead, "grbl: how long the machine may go on after the connection is lost, s (default: 1)")
+      ->check(CLI::Range(0.1, 60.0));
+}
+
 void add_board(CLI::App& command, std::string& board) {
   command.add_option("-b,--board", board,
                      "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico (see passo board), for "

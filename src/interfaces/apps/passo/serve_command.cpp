@@ -211,7 +211,7 @@ int serve_grbl_board(const ServeArguments& arguments, const std::string& text, c
                      ServeDaemon::Lines lines, ServiceNotice& service) {
   int code = exit_done;
   brake_on_signals();
-  const auto opened = GrblMachineConnection::open(arguments.board, machine, code);
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, GrblSender::default_ahead, code);
   if (!opened) return code;
   return serve_machine({.arguments = arguments,
                         .text = text,

@@ -23,6 +23,7 @@
 
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/sender/grbl_port.hpp"
+#include "passo/sender/grbl_program_check.hpp"
 #include "passo/sender/grbl_sender.hpp"
 #include "passo/session/live_position.hpp"
 #include "passo/session/machine_session.hpp"
@@ -34,8 +35,9 @@ class GrblMachineSession final : public MachineSession {
   // The longest time between two exchanges with a busy board: a released key takes effect that much later at most.
   static constexpr Seconds between_looks{0.02};
 
-  // Both must outlive the session. Nothing is sent before the first poll().
-  GrblMachineSession(const MachineDescription& machine, GrblPort& port);
+  // Both must outlive the session. `ahead`: how much motion may lie in the board. Nothing is sent before the first
+  // poll().
+  GrblMachineSession(const MachineDescription& machine, GrblPort& port, Seconds ahead = GrblSender::default_ahead);
   ~GrblMachineSession() override;
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted) override;
@@ -46,7 +48,7 @@ class GrblMachineSession final : public MachineSession {
   Seconds now() const override { return port_.now(); }
   bool busy() const override;
   bool works() const override;
-  const std::string& trouble_words() const override { return trouble_.text; }
+  const std::string& trouble_words() const override { return trouble_.words.text; }
   std::optional<ProgramResults> program_results() const override;
   std::optional<Refusal> closed_limit() const override { return {}; }
   std::optional<Refusal> lost_place() const override;
@@ -54,9 +56,17 @@ class GrblMachineSession final : public MachineSession {
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
-  // Returns a function that judges the path items of one program, in order: the error is a clause that says what the
-  // board cannot do.
-  std::function<Status<std::string>(const PathItem&)> path_judge() const;
+  // What the board reports now, and for what it waits.
+  const GrblSender& sender() const { return sender_; }
+  // The board is in an alarm that $X or $H ends.
+  bool is_locked() const { return locked_; }
+  // Why the last activity ended before its end, or why the board cannot be used. Empty: nothing has gone wrong.
+  const std::optional<GrblFault>& fault() const { return trouble_.fault; }
+  // The number of lines that the current or the last program has sent.
+  std::uint64_t lines_of_program() const;
+  // Returns the board's messages since the last call: see GrblMachine::take_messages().
+  std::vector<std::string> take_messages() { return sender_.take_messages(); }
+  GrblPathJudge path_judge() const { return grbl_path_judge(GrblTarget::of(board_)); }
   // Returns the board's offsets as parameters of a program: G54 to G59.3, G28, G30 and G92. `kept`: the values of what
   // the board does not have.
   SavedParameters offsets(const SavedParameters& kept = {}) const;
@@ -83,6 +93,15 @@ class GrblMachineSession final : public MachineSession {
     std::string pins;
     std::string outputs;  // letters, as the board reports them
     Contact contact;
+  };
+  struct Connection {
+    Seconds ahead{1};
+    bool is_prepared = false;  // the board's modes are set, since the connection
+    std::optional<Seconds> broken_since = {};
+  };
+  struct Trouble {
+    Sentence words;
+    std::optional<GrblFault> fault;
   };
   struct News {
     std::deque<MachineChange> changes;
@@ -159,18 +178,17 @@ class GrblMachineSession final : public MachineSession {
   GrblSender sender_;
   GrblMachine board_;  // as it has described itself last
   MachineState state_ = MachineState::offline;
-  bool prepared_ = false;  // the board's modes are set, since the connection
-  bool locked_ = false;    // the board is in an alarm that $X or $H ends
+  Connection connection_;
+  bool locked_ = false;  // the board is in an alarm that $X or $H ends
   bool loses_place_ = false;
   bool lent_ = false;  // the sender, for the settings
-  std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;
   std::unique_ptr<Work> work_;  // the current or the last activity
   Overrides overrides_;
   ChosenStops stops_;
-  Sentence trouble_;
+  Trouble trouble_;
   std::optional<SavedParameters> to_store_;
   News news_;
   Tickets tickets_;
