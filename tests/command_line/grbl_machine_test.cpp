@@ -113,9 +113,8 @@ TEST_F(FakeGrblMachine, may_tell_the_work_place_alone) {
   grbl.settings = "$10=0\r\n$13=1\r\n";
   grbl.own_report = [] { return std::string("<Idle|WPos:1.0000,0.0000,0.0000>"); };
   grbl.offsets = "[G54:0.0000,1.0000,0.0000]\r\n[G92:0.0000,0.0000,0.0000]\r\n[TLO:0.0000]\r\n";
-  grbl.put(22, 1);
   const FakeGrbl machine(grbl);
-  const auto outcome = beside(machine, "home --json");
+  const auto outcome = beside(machine, "run " + program() + " --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto all = nlohmann::json::parse(outcome.out);
   EXPECT_NEAR(all["position_mm"]["X"].get<double>(), 25.4, 1e-9);

@@ -8,7 +8,9 @@
 #include "grbl_work.hpp"
 #include <fmt/format.h>
 
+#include "passo/geometry/euclid.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
+#include "passo/sender/grbl_code.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -18,6 +20,7 @@ constexpr std::size_t most_kept_changes = 4096;
 constexpr std::uint64_t items_of_a_turn = 2000;
 // How long a lost connection is looked for before it is a fault.
 constexpr Seconds longest_reopening{10};
+constexpr double same_report = 2e-3;  // mm: reports have three decimals
 
 // Inputs as bits of BoardInput: a board reports letters.
 std::uint16_t inputs_of(std::string_view pins) {
@@ -61,6 +64,7 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   sender_.listen([this](std::string_view line) { hear(line); });
   connection_.is_prepared = false;
   lent_ = false;
+  connection_.asks_offsets = false;
   heard_.reports = 0;
 }
 
@@ -69,7 +73,8 @@ bool GrblMachineSession::busy() const {
 }
 
 bool GrblMachineSession::works() const {
-  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered();
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered() ||
+         connection_.asks_offsets;
 }
 
 // All lines are answered, and the board has reported since that it is idle.
@@ -132,6 +137,7 @@ void GrblMachineSession::hear_report() {
   const auto place = sender_.place();
   if (!place) return;
   live_.hear(*place, now());
+  if (report.work_offset) hear_work_zero(sender_.machine().millimetres(*report.work_offset));
   if (report.rests() && !busy()) {
     if (position_.place != *place) ++news_.version;
     position_.place = *place;
@@ -142,9 +148,31 @@ void GrblMachineSession::hear_report() {
   work_->progress.executed.hear(sender_.lines_answered(), blocks, *place);
 }
 
+// Somebody may have set a zero at the machine.
+void GrblMachineSession::hear_work_zero(const Point& zero) {
+  const auto before = std::exchange(heard_.work_zero, zero);
+  if (before && distance(*before, zero) > same_report) connection_.offsets_are_old = true;
+}
+
+void GrblMachineSession::ask_for_offsets() {
+  sender_.ask_for_offsets();
+  connection_.offsets_are_old = false;
+  connection_.asks_offsets = true;
+}
+
+// All that the board has told of itself.
+void GrblMachineSession::take_board() {
+  connection_.asks_offsets = false;
+  const bool are_other_offsets = board_.offsets != sender_.machine().offsets;
+  board_ = sender_.machine();
+  if (!are_other_offsets) return;
+  ++news_.version;
+  if (connection_.offsets_listener && !to_store_) connection_.offsets_listener();
+}
+
 // Sets the modes that the lines need, and reads the offsets.
 void GrblMachineSession::prepare() {
-  for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender_.add(line);
+  for (const char* line : {GrblCode::known_modes, "M5", "M9"}) sender_.add(line);
   sender_.ask_for_offsets();
   connection_.is_prepared = true;
 }
@@ -154,7 +182,7 @@ void GrblMachineSession::go_online() {
   locked_ = sender_.report()->state == "Alarm";
   if (!connection_.is_prepared && !locked_) return prepare();
   if (!(locked_ ? sender_.all_answered() : rests())) return;
-  board_ = sender_.machine();
+  take_board();
   const auto place = sender_.place();
   if (!place) {
     return break_off(
@@ -189,7 +217,11 @@ void GrblMachineSession::poll_idle() {
   } else if (state_ == MachineState::door && report->state == "Idle") {
     move_to(MachineEvent::close_door);
   }
-  if (!to_store_ || lent_ || state_ != MachineState::idle || locked_ || !rests()) return;
+  if (lent_ || state_ != MachineState::idle) return;
+  if (connection_.asks_offsets && sender_.all_answered()) take_board();
+  if (locked_ || !rests()) return;
+  if (connection_.offsets_are_old) return ask_for_offsets();
+  if (!to_store_) return;
   const SavedParameters wanted = *std::exchange(to_store_, {});
   const SavedParameters present = offsets();
   bool is_changed = false;
@@ -207,7 +239,7 @@ void GrblMachineSession::poll_idle() {
     sender_.add(fmt::format("G21G10L2P{}{}", system, words));
     is_changed = true;
   }
-  if (is_changed) sender_.ask_for_offsets();
+  if (is_changed) ask_for_offsets();
 }
 
 void GrblMachineSession::poll_check() {

@@ -1,7 +1,6 @@
 // passo run: checks the program, runs it on the machine, and writes the files that were asked for.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>

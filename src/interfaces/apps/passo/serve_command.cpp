@@ -184,6 +184,7 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
     grbl.apply_offsets(things.grbl_board->offsets());
     grbl.share_offsets(
         [board = things.grbl_board](const SavedParameters& parameters) { board->store_offsets(parameters); });
+    things.grbl_board->watch_offsets([&grbl, board = things.grbl_board] { grbl.apply_offsets(board->offsets()); });
   }
   if (!arguments.data.empty()) remember(grbl, arguments.data);
   std::unique_ptr<ServedStatus> status;

@@ -66,6 +66,9 @@ class GrblFeed {
   const Action& stop() const { return stop_; }
   // Continues after an operator stop, or with a further line.
   void go_on();
+  // The same after a stop at `from` during which others may have moved the machine, or changed its modes. From `place`,
+  // rapids lead back: up to the higher Z, across, and down.
+  void go_on_from(const Point& place, const Point& from);
   // `triggered`: the present state of the probe.
   void take_probe_state(bool triggered, const Point& place);
   void take_probe(const ProbeOutcome& outcome);

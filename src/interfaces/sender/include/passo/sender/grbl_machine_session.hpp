@@ -9,7 +9,8 @@
 // After a stop, a refused line and a probe alarm, the board is asked again who and where it is, before the activity
 // ends. Nothing is sent twice: what a lost connection, a restart or an alarm has interrupted ends there. A restart, a
 // lost connection and a timeout lead to the state fault, an alarm of the board to the state alarm; both end with
-// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again.
+// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again. In motion it stops the machine at
+// once, and the position is lost.
 #pragma once
 
 #include <cstdint>
@@ -72,6 +73,8 @@ class GrblMachineSession final : public MachineSession {
   SavedParameters offsets(const SavedParameters& kept = {}) const;
   // Writes changed work offsets to the board (G10 L2), as soon as it is idle.
   void store_offsets(const SavedParameters& parameters);
+  // Calls the listener when the board has others, e.g. because a zero was set at its panel.
+  void watch_offsets(std::function<void()> listener) { connection_.offsets_listener = std::move(listener); }
 
   // Lends the sender to a reader of the board's settings, which moves nothing. The owner goes on polling the session.
   // Meanwhile every request is refused. Null: the machine is not at rest.
@@ -92,12 +95,16 @@ class GrblMachineSession final : public MachineSession {
     std::uint64_t reports = 0;  // so far
     std::string pins;
     std::string outputs;  // letters, as the board reports them
+    std::optional<Point> work_zero;
     Contact contact;
   };
   struct Connection {
     Seconds ahead{1};
     bool is_prepared = false;  // the board's modes are set, since the connection
     std::optional<Seconds> broken_since = {};
+    bool offsets_are_old = false;
+    bool asks_offsets = false;
+    std::function<void()> offsets_listener = {};
   };
   struct Trouble {
     Sentence words;
@@ -136,11 +143,16 @@ class GrblMachineSession final : public MachineSession {
   Refusal why_not() const;
   Answer refuse_ability(Ability ability) const;
   Answer at_once();
+  void end_at_other_zero(std::uint32_t line);
+  void switch_outputs_off();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
 
   void exchange(Seconds most);
   void hear(std::string_view line);
   void hear_report();
+  void hear_work_zero(const Point& zero);
+  void ask_for_offsets();
+  void take_board();
   void go_online();
   void connect_again(bool on_open_line);
   void prepare();
@@ -164,6 +176,7 @@ class GrblMachineSession final : public MachineSession {
   void check_fault();
   void check_fault_of_work(const GrblFault& fault);
   void break_off(MachineEvent event, const GrblFault& fault);
+  void stop_by_reset();
   Sentence sentence_of(const GrblFault& fault) const;
   std::string words_of_restart() const;
   void send_overrides();
