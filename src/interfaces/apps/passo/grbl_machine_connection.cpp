@@ -35,7 +35,10 @@ std::string GrblStreamPort::receive(Seconds most) {
 }
 
 bool GrblStreamPort::open_again() {
-  auto port = open_board(address_);
+  if (!opening_.valid())
+    opening_ = std::async(std::launch::async, [address = address_] { return open_board(address); });
+  if (opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+  auto port = opening_.get();
   if (!port) return false;
   port_ = std::move(*port);
   broken_ = false;

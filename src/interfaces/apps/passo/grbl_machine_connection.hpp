@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@
 namespace passo {
 
 // The bytes of a Grbl board in real time. A connection that broke stays so until open_again(): opening a serial port
-// may reset the board.
+// may reset the board. A network connection may take seconds to open, so that happens in a thread of its own.
 class GrblStreamPort final : public GrblPort {
  public:
   GrblStreamPort(BoardAddress address, std::unique_ptr<StreamPort> port)
@@ -34,6 +35,7 @@ class GrblStreamPort final : public GrblPort {
   BoardAddress address_;
   std::unique_ptr<StreamPort> port_;
   bool broken_ = false;
+  std::future<Result<std::unique_ptr<StreamPort>, std::string>> opening_;  // valid while it is being opened
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
