@@ -74,6 +74,7 @@ void add_home_options(CLI::App& command, HomeArguments& arguments) {
 void add_serve_options(CLI::App& command, ServeArguments& arguments) {
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML; default: an example machine)");
   add_board(command, arguments.board);
+  add_ahead(command, arguments.ahead);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
                      "HOST:PORT for G-code senders; port 0 picks a free port (default, if no interface is given: "
                      "127.0.0.1:7071, and the web interface at 127.0.0.1:7080)");
