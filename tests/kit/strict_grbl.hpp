@@ -58,6 +58,7 @@ class StrictGrbl {
   bool loses_next_line_end = false;
   bool silent = false;  // does not report
   bool ignores_hold_at_rest = false;
+  bool held_input = false;  // the hold input is active
 
   std::string state = "Idle";  // as reported, with its number
   double x = 0;                // place()[Axis::x]

@@ -356,6 +356,14 @@ std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool
       .last_line = last_line_};
 }
 
+Seconds GrblFollower::longest_between_changes() const {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Leg& leg : path_.legs) {
+    if (leg.begin + leg.length >= path_.known) slowest = std::min(slowest, leg.speed);
+  }
+  return Seconds(std::isinf(slowest) ? 0 : report_resolution / (slowest * clock_.factor));
+}
+
 std::uint32_t GrblFollower::first_line() const {
   for (const Leg& leg : path_.legs) {
     if (leg.line != 0 && leg.begin + leg.length >= path_.known) return leg.line;

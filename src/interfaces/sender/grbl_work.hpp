@@ -29,12 +29,18 @@ struct GrblMachineSession::Work {
     Seconds skipped{0};              // nominal time of what comes before the point where the program begins
     std::uint64_t lines_before = 0;  // lines sent before this work
   };
+  // Where the machine stood, and its work zero, when it came to the stop at which the program waits.
+  struct Stop {
+    Point place;
+    std::optional<Point> zero;
+  };
   struct Hold {
     bool asked = false;  // by a request
     bool door = false;   // the same, as for an open door
     bool heard = false;  // the board has reported it
     bool told = false;   // that the machine has come to rest
     Seconds at{0};
+    std::optional<Stop> stop = {};
   };
   struct Jog {
     std::unique_ptr<JogLine> line;  // null: this is no jog

@@ -225,6 +225,7 @@ struct ServeArguments {
   std::string data;                     // folder for jobs and history; empty: nothing is kept
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
   std::string system;                   // a folder with system files, as for `board list`
+  std::optional<double> ahead;          // motion that may lie in a Grbl board, s
 };
 int serve(const ServeArguments& arguments);
 

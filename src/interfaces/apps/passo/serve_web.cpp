@@ -187,6 +187,11 @@ void ServedWeb::follow_offsets(GrblMachineSession& board) {
   api_.apply_offsets(board.offsets(api_.parameters()));
   board_ = &board;
   boards_.settings.use(board);
+  board.watch_offsets([this] {
+    api_.apply_offsets(board_->offsets(api_.parameters()));
+    if (grbl_ != nullptr) grbl_->apply_offsets(api_.parameters());
+    if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
+  });
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
