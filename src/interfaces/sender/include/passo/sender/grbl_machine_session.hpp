@@ -9,7 +9,8 @@
 // After a stop, a refused line and a probe alarm, the board is asked again who and where it is, before the activity
 // ends. Nothing is sent twice: what a lost connection, a restart or an alarm has interrupted ends there. A restart, a
 // lost connection and a timeout lead to the state fault, an alarm of the board to the state alarm; both end with
-// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again.
+// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again. A USB device that was unplugged and
+// returns is opened without a request, also under another name.
 #pragma once
 
 #include <cstdint>
@@ -78,6 +79,12 @@ class GrblMachineSession final : public MachineSession {
     std::optional<Point> at;
     bool touched = false;
   };
+  // After a lost connection, an alarm or a restart.
+  struct Recovery {
+    bool lacks_place = false;
+    AxisSet homed;         // single axes, since then
+    Seconds next_look{0};  // for a device that was unplugged
+  };
   struct Heard {
     std::uint64_t reports = 0;  // so far
     std::string pins;
@@ -124,9 +131,11 @@ class GrblMachineSession final : public MachineSession {
   void hear_report();
   void go_online();
   void connect_again(bool on_open_line);
+  void look_for_device();
   void prepare();
   bool rests() const;
   void unlock();
+  void lose_place();
 
   void poll_idle();
   void poll_check();
@@ -138,6 +147,7 @@ class GrblMachineSession final : public MachineSession {
   void poll_jog();
   void send_jog_piece();
   void poll_home();
+  bool knows_place_after(std::optional<Axis> homed);
   void resync();
   void end_resync();
   void end_program();
@@ -161,7 +171,7 @@ class GrblMachineSession final : public MachineSession {
   MachineState state_ = MachineState::offline;
   bool prepared_ = false;  // the board's modes are set, since the connection
   bool locked_ = false;    // the board is in an alarm that $X or $H ends
-  bool loses_place_ = false;
+  Recovery recovery_;
   bool lent_ = false;  // the sender, for the settings
   std::optional<Seconds> broken_since_;
   KnownPosition position_;
