@@ -198,6 +198,17 @@ Seconds GrblFollower::time_in_board(Seconds now) {
   return Seconds((remaining() + clock_.debt) / clock_.factor);
 }
 
+std::optional<Seconds> GrblFollower::dwell_left(Seconds now) {
+  advance(now);
+  if (!model_.empty()) return {};
+  double left = std::max(0.0, rests_until_ - clock_.time);
+  for (const Waiting& one : waiting_) {
+    if (!one.rests) break;
+    left += one.dwell.value();
+  }
+  return left > 0 ? std::optional(Seconds(left)) : std::nullopt;
+}
+
 double GrblFollower::remaining() const {
   double time = std::max(model_.rest_at().value(), rests_until_) - clock_.time;
   if (time < 0) time = 0;

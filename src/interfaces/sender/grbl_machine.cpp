@@ -157,6 +157,10 @@ void GrblMachine::hear_setting(std::string_view line) {
   if (number && std::abs(*number) < 1e6 && value) settings[static_cast<int>(*number)] = *value;
 }
 
+bool GrblMachine::homes_single_axes() const {
+  return row().homes_single_axes || (!row().sizes_are_last && options.find('H') != std::string::npos);
+}
+
 bool GrblMachine::in_inches() const {
   const auto found = settings.find(13);
   return found != settings.end() && found->second != 0;

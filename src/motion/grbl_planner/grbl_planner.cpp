@@ -80,7 +80,9 @@ Seconds GrblPlanner::add_line(const Point& end, MmPerSecond feed, std::uint32_t 
                          .end = step,
                          .length = Mm(length),
                          .acceleration = MmPerSecond2(limit_along(direction, strongest_))}};
-  block.nominal2 = square(std::min(std::max(feed.value(), slowest), limit_along(direction, fastest_)));
+  const double fastest = limit_along(direction, fastest_);
+  const double wanted = block.motion.rapid ? fastest * limits_.rapid_factor : feed.value() * limits_.feed_factor;
+  block.nominal2 = square(std::min(std::max(wanted, slowest), fastest));
   if (!blocks_.empty()) block.most_entry2 = std::min({junction2(direction), block.nominal2, nominal2_});
   blocks_.push_back(block);
   last_step_ = step;

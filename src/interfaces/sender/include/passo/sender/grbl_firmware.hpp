@@ -39,6 +39,7 @@ struct GrblFirmware {
   bool sizes_are_last;         // blocks and bytes are the last fields of [OPT:…], not the second and third
   bool tells_mist;             // 'M' in [OPT:…] says whether M7 exists; without it M7 is rejected
   bool measures_motors;        // built for a CoreXY ('C' in [OPT:…]), it applies F to the way of the two motors
+  bool homes_single_axes;      // it knows $HX, whatever [OPT:…] says; others have 'H' there if they do
   bool converts_angles;        // with $13=1 the values of rotary axes are divided by 25.4 too
   FeedWay feed_way;
   Settings settings;

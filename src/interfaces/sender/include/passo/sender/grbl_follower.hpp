@@ -54,6 +54,9 @@ class GrblFollower {
   // How long the board moves from now on if it gets nothing more.
   Seconds time_in_board(Seconds now);
 
+  // How long the board still dwells, if it does not move: with what follows before the next motion. Empty: it moves.
+  std::optional<Seconds> dwell_left(Seconds now);
+
   // False after a line that led to an unknown place.
   bool knows_path() const { return !lost_; }
   // The feed override, as a factor.

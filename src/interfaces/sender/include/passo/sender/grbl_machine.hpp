@@ -44,8 +44,11 @@ struct GrblMachine {
   bool is_known() const { return row().name == firmware; }
   // Returns whether M7 exists, as far as the board tells it.
   bool has_mist() const;
-  // Returns whether grblHAL has an option: "TC" (tool changes), "ATC", "SD" (files), "HOME" (single axes).
+  // Returns whether grblHAL has an option: "TC" (tool changes), "ATC", "SD" (files).
   bool has_option(std::string_view name) const;
+
+  // Returns whether it knows $HX: Grbl and grblHAL tell it, FluidNC always does.
+  bool homes_single_axes() const;
 
   bool in_inches() const;  // whether it reports in inches ($13)
   // Returns values of reports in mm and degrees.

@@ -38,6 +38,10 @@ struct GrblLimits {
   Mm junction_deviation{0.01};              // $11
   Mm arc_tolerance{0.002};                  // $12
   std::size_t blocks = 15;                  // blocks that the planner holds, including the one that moves; at least 1
+  double feed_factor = 1;                   // overrides; above 0
+  double rapid_factor = 1;
+
+  bool operator==(const GrblLimits&) const = default;
 };
 
 // A straight move of the board, from step to step.
