@@ -174,6 +174,22 @@ TEST_F(GrblSessions, a_released_key_stops_a_jog_soon) {
   EXPECT_NEAR(run.session.status().position.place[Axis::x], run.grbl.place()[Axis::x], 1e-3);
 }
 
+TEST_F(GrblSessions, a_cancel_at_the_end_of_a_jog_does_not_leave_a_board_that_takes_no_line) {
+  run.grbl.put(120, 100);  // it brakes for longer than the pause between two cancels
+  run.grbl.second_cancel_is_late = true;
+  ASSERT_TRUE(run.go_online());
+  const auto ticket = run.ask(request::Jog{
+      .way = {.direction = Point{{{1, 0, 0}}}, .speed = MmPerSecond(40), .distance = Mm(0)}, .lease = Seconds(2)});
+  run.play_for(Seconds(1));
+  ASSERT_TRUE(run.ask(request::Stop{}));
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  const double x = run.grbl.place()[Axis::x];
+  const auto done = run.ask_and_wait(grbl_start("G91 G1 X2 F1200\nM2\n"));
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->outcome, Outcome::done);
+  EXPECT_NEAR(run.grbl.place()[Axis::x], x + 2, 0.005);
+}
+
 TEST_F(GrblSessions, a_jog_ends_with_its_lease_and_without_its_host) {
   ASSERT_TRUE(run.go_online());
   const request::Jog jog{.way = {.direction = Point{{{0, 1, 0}}}, .speed = MmPerSecond(30), .distance = Mm(0)}};

@@ -1,0 +1,183 @@
+// A Grbl machine worked from the page alone, on firmware of other people: Grbl 1.1h on an emulated Uno, and grblHAL's
+// simulator. The simulators share the computer, so places are judged, never times.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Daemon, example, openBrowser, passo, peers, Peer, sleep, violations, visit } from './kit';
+
+let browser: Browser;
+let folder: string;
+beforeAll(async () => {
+  browser = await openBrowser();
+  folder = mkdtempSync(join(tmpdir(), 'passo-grbl-'));
+});
+afterAll(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const pictures = process.env.PASSO_BOARD_PICTURES; // a folder, for whoever wants to look
+// A state in both themes, and on a phone.
+async function look(page: Page, name: string): Promise<void> {
+  if (pictures === undefined) return;
+  const was = page.viewportSize() ?? { width: 1280, height: 800 };
+  for (const theme of ['dark', 'light'] as const) {
+    await page.emulateMedia({ colorScheme: theme });
+    await page.screenshot({ path: `${pictures}/${name}-${theme}.png` });
+  }
+  await page.setViewportSize({ width: 360, height: 740 });
+  await page.screenshot({ path: `${pictures}/${name}-phone.png` });
+  await page.setViewportSize(was);
+  await page.emulateMedia({ colorScheme: 'dark' });
+}
+
+const click = (page: Page, name: string): Promise<void> => page.getByRole('button', { name, exact: true }).first().click();
+const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name, exact: true }).click();
+const whyDisabled = async (page: Page, name: string): Promise<string> => {
+  const button = page.getByRole('button', { name: new RegExp(`^${name}`) }).first(); // its name has the reason too
+  expect(await button.getAttribute('aria-disabled'), name).toBe('true');
+  return (await button.getAttribute('title')) ?? '';
+};
+
+// The board, what serves it, and a page.
+interface Bench {
+  board: Peer;
+  daemon: Daemon;
+  page: Page;
+  errors: string[];
+  end: () => Promise<void>;
+}
+
+const pace = ['110=3000', '111=3000', '112=3000', '120=200', '121=200', '122=200'];
+const write = (address: string, settings: readonly string[]): void =>
+  void execFileSync(passo, ['board', 'settings', address, ...[...pace, ...settings].flatMap((one) => ['--set', one])], { stdio: 'pipe' });
+
+async function bench(board: Peer, address: string, settings: readonly string[]): Promise<Bench> {
+  write(address, settings);
+  const daemon = await Daemon.start({ machine: example('machines/router.toml'), address });
+  const { page, context, errors } = await visit(browser, daemon, 'jog', { size: { width: 1280, height: 1000 } });
+  const end = async (): Promise<void> => {
+    await context.close();
+    await daemon.end();
+    await board.end();
+  };
+  return { board, daemon, page, errors, end };
+}
+async function uno(options: readonly string[] = [], settings: readonly string[] = []): Promise<Bench> {
+  const own = mkdtempSync(join(folder, 'uno-'));
+  const program = join(folder, 'grbl_on_uno');
+  if (!existsSync(program)) execFileSync(join(peers, 'build.sh'), [program]);
+  const line = join(own, 'line');
+  const board = await Peer.start([program, join(peers, 'grbl-1.1h-uno.elf'), line, ...options], own, () => existsSync(line));
+  return bench(board, `grbl:${line}`, settings);
+}
+let ports = 0;
+async function grblHal(settings: readonly string[] = []): Promise<Bench> {
+  const own = mkdtempSync(join(folder, 'hal-'));
+  const port = 40_000 + ((process.pid + 7919 * ++ports) % 20_000);
+  const board = await Peer.start([join(peers, 'grblHAL_sim'), '-n', '-p', String(port), '-t', '1', '-e', 'eeprom.dat'], own, () => existsSync(join(own, 'eeprom.dat')));
+  return bench(board, `grbl:tcp:127.0.0.1:${port}`, settings);
+}
+
+const xOf = async (daemon: Daemon): Promise<number> => (await daemon.status()).place.x ?? NaN;
+
+// A key is held, and released: the machine moves, and rests.
+async function jogByKey({ daemon, page }: Bench, name: string): Promise<void> {
+  await page.getByText('Keyboard jogging is on').waitFor();
+  const from = await xOf(daemon);
+  await page.keyboard.down('ArrowRight');
+  await daemon.until((status) => status.state === 'Jog' && (status.place.x ?? 0) > from + 2);
+  await look(page, `${name}-jog`);
+  await page.keyboard.up('ArrowRight');
+  await daemon.until((status) => status.state === 'Idle' && status.rests);
+  const at = await xOf(daemon);
+  expect(at).toBeGreaterThan(from + 2);
+  await sleep(400);
+  expect(await xOf(daemon)).toBe(at);
+}
+
+async function zeroHere({ daemon, page }: Bench): Promise<void> {
+  await click(page, 'Zero all');
+  await agree(page, 'Work zero');
+  for (const axis of ['x', 'y', 'z']) await expect.poll(() => page.getByTestId(`work-${axis}`).innerText()).toMatch(/^[-−]?0\.000$/);
+  const { place, work_offset: zero } = await daemon.status();
+  expect(zero?.x).toBeCloseTo(place.x ?? NaN, 3);
+}
+
+async function open({ daemon, page }: Bench, name: string, text: string): Promise<void> {
+  await page.goto(`${daemon.address}#/files`);
+  await page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  await expect.poll(() => page.getByRole('region', { name }).getByTestId('verdict').innerText()).toMatch(/^(No errors|Has warnings)/);
+  await page.goto(`${daemon.address}#/run`);
+}
+async function start({ page }: Bench): Promise<void> {
+  await click(page, 'Start');
+  await agree(page, 'Start');
+}
+
+async function runHoldOverrideStop(all: Bench, name: string): Promise<void> {
+  const { daemon, page } = all;
+  const zero = await xOf(daemon);
+  await open(all, 'part.ngc', 'G21 G90\nG1 X20 F600\nG1 Y10\nG1 X0 Y0\nM2\n');
+  await start(all);
+  await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > zero + 2);
+  await look(page, `${name}-run`);
+  await click(page, 'Hold');
+  await page.getByText('On hold', { exact: true }).waitFor();
+  const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
+  expect(held.place.x).toBeLessThan(zero + 20);
+  expect(held.line).toBe(2);
+  await look(page, `${name}-hold`);
+  await click(page, 'Increase: Feed');
+  await click(page, 'Increase: Feed');
+  await page.getByRole('button', { name: /^Feed 120 %/ }).waitFor();
+  expect((await daemon.status()).place.x).toBe(held.place.x);
+  await click(page, 'Resume');
+  await daemon.until((status) => status.state === 'Run' && Math.abs(status.overrides.feed - 1.2) < 1e-6);
+  const ended = await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
+  expect(ended.place.x).toBeCloseTo(zero, 2);
+  // A stop brakes, and the place is known.
+  await open(all, 'long.ngc', 'G21 G90\nG1 X60 F600\nM2\n');
+  await start(all);
+  await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > zero + 2);
+  await click(page, 'Stop');
+  const stopped = await daemon.until((status) => status.job?.state === 'stopped' && status.state === 'Idle');
+  expect(stopped.lost_place).toBe(false);
+  expect(stopped.place.x).toBeLessThan(zero + 60);
+  await look(page, `${name}-stopped`);
+}
+
+describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
+  it('with Grbl 1.1h on an Uno is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
+    const all = await uno([], ['21=1']);
+    const { board, daemon, page, errors } = all;
+    expect(await whyDisabled(page, 'Home')).toContain('$22=0');
+    await look(page, 'uno-start');
+    expect(await violations(page)).toEqual([]);
+    await jogByKey(all, 'uno');
+    await zeroHere(all);
+    await runHoldOverrideStop(all, 'uno');
+    // A limit switch amid a program.
+    await start(all);
+    await daemon.until((status) => status.state === 'Run' && status.line >= 2);
+    await sleep(500);
+    board.say('limit X 1');
+    await page.getByText('Alarm', { exact: true }).waitFor();
+    await look(page, 'uno-alarm');
+    console.log(await page.locator('.state').innerText());
+    expect(await violations(page)).toEqual([]);
+    board.say('limit X 0');
+    await page.goto(`${daemon.address}#/jog`);
+    await page.getByRole('button', { name: 'Zero X' }).waitFor();
+    await look(page, 'uno-alarm-jog');
+    await click(page, 'Reset');
+    await sleep(3000);
+    console.log(await page.locator('.state').innerText(), await daemon.status());
+    await look(page, 'uno-unlock-jog');
+    expect(errors).toEqual([]);
+    await all.end();
+  });
+});
