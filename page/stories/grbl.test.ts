@@ -150,6 +150,44 @@ async function runHoldOverrideStop(all: Bench, name: string): Promise<void> {
   await look(page, `${name}-stopped`);
 }
 
+// The board has forgotten where it is. A person vouches for the place, and it moves again.
+async function confirmPlace({ daemon, page }: Bench): Promise<void> {
+  await page.goto(`${daemon.address}#/jog`);
+  await page.getByText('Jog it to a known position and confirm it').waitFor();
+  expect(await whyDisabled(page, 'Start')).toContain('The machine position is unknown');
+  await click(page, 'Confirm position');
+  await agree(page, 'Confirm position');
+  await daemon.until((status) => !status.lost_place);
+}
+
+async function homeByPage({ daemon, page }: Bench): Promise<void> {
+  await page.goto(`${daemon.address}#/jog`);
+  await click(page, 'Home');
+  await agree(page, 'Home');
+  await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle', 120_000);
+  await page.getByText('Homed', { exact: true }).waitFor();
+}
+
+// A program is under way when something befalls the board. The page tells it, and nothing moves by itself.
+async function breakOff(all: Bench, happens: string, code: string): Promise<void> {
+  const { board, daemon, page } = all;
+  const from = await xOf(daemon);
+  await start(all);
+  await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) < from - 2);
+  board.say(happens);
+  await page.getByText('Board disconnected', { exact: true }).waitFor();
+  const { job, lost_place: lost, speed } = await daemon.status();
+  expect(job?.why_sentence?.code).toBe(code);
+  expect(lost).toBe(true);
+  expect(speed).toBe(0);
+  expect(await page.locator('.state').innerText()).toContain('was at line 2 of the program');
+}
+async function resetByPage({ daemon, page }: Bench): Promise<void> {
+  await click(page, 'Reset');
+  await daemon.until((status) => status.state === 'Idle' && status.lost_place);
+  expect(await whyDisabled(page, 'Start')).toContain('The machine position is unknown. Home the machine');
+}
+
 describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
   it('with Grbl 1.1h on an Uno is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
     const all = await uno([], ['21=1']);
@@ -161,22 +199,72 @@ describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
     await zeroHere(all);
     await runHoldOverrideStop(all, 'uno');
     // A limit switch amid a program.
+    const from = await xOf(daemon);
     await start(all);
-    await daemon.until((status) => status.state === 'Run' && status.line >= 2);
-    await sleep(500);
+    await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > from + 2);
     board.say('limit X 1');
     await page.getByText('Alarm', { exact: true }).waitFor();
+    expect(await page.locator('.state').innerText()).toContain('a limit switch closed');
     await look(page, 'uno-alarm');
-    console.log(await page.locator('.state').innerText());
     expect(await violations(page)).toEqual([]);
     board.say('limit X 0');
-    await page.goto(`${daemon.address}#/jog`);
-    await page.getByRole('button', { name: 'Zero X' }).waitFor();
-    await look(page, 'uno-alarm-jog');
     await click(page, 'Reset');
-    await sleep(3000);
-    console.log(await page.locator('.state').innerText(), await daemon.status());
-    await look(page, 'uno-unlock-jog');
+    await daemon.until((status) => status.state === 'Idle');
+    await look(page, 'uno-reset');
+    await confirmPlace(all);
+    await look(page, 'uno-unlocked');
+    await jogByKey(all, 'uno-again');
+    expect(errors).toEqual([]);
+    await all.end();
+  });
+
+  it('with Grbl 1.1h on an Uno homes, probes, and goes on after an unplugged line and a power cut', async () => {
+    const switches = ['--switch-at', 'X:500', '--switch-at', 'Y:500', '--switch-at', 'Z:250'];
+    const all = await uno([...switches, '--probe-at', 'Z:-1250'], ['22=1', '24=100', '25=500']);
+    const { daemon, page, errors } = all;
+    await look(page, 'uno-unhomed');
+    await homeByPage(all);
+    await look(page, 'uno-homed');
+    // The surface is found, and is Z0.
+    await click(page, 'Probe …');
+    await agree(page, 'Probe');
+    await expect.poll(async () => (await daemon.status()).work_offset?.z).toBeLessThan(-1);
+    await daemon.until((status) => status.state === 'Idle');
+    await look(page, 'uno-probed');
+    await open(all, 'far.ngc', 'G21 G90\nG1 X-80 F600\nM2\n');
+    await breakOff(all, 'unplug 4', 'grbl.no-answer');
+    await look(page, 'uno-unplugged');
+    expect(await violations(page)).toEqual([]);
+    await sleep(4000);
+    await resetByPage(all);
+    await homeByPage(all);
+    await page.goto(`${daemon.address}#/run`);
+    await breakOff(all, 'power', 'grbl.restarted');
+    await look(page, 'uno-power');
+    await resetByPage(all);
+    await homeByPage(all);
+    // From the line at which it was.
+    await open(all, 'short.ngc', 'G21 G90\nG1 X-8 F1200\nG1 Y-5\nM2\n');
+    await start(all);
+    await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
+    expect(errors).toEqual([]);
+    await all.end();
+  });
+
+  it('with grblHAL is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
+    const all = await grblHal(['22=1']);
+    const { daemon, page, errors } = all;
+    await look(page, 'hal-start');
+    console.log(await page.locator('.state').innerText(), (await daemon.status()).lost_place);
+    await jogByKey(all, 'hal');
+    await zeroHere(all);
+    await runHoldOverrideStop(all, 'hal');
+    await page.goto(`${daemon.address}#/jog`);
+    await click(page, 'Home');
+    await agree(page, 'Home');
+    await page.getByText('Alarm', { exact: true }).waitFor();
+    console.log(await page.locator('.state').innerText());
+    await look(page, 'hal-alarm');
     expect(errors).toEqual([]);
     await all.end();
   });

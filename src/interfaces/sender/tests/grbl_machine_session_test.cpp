@@ -158,6 +158,7 @@ TEST_F(GrblSessions, a_released_key_stops_a_jog_soon) {
     ASSERT_TRUE(run.ask(request::RenewKeepAlive{}));
   }
   EXPECT_NEAR(run.grbl.speed(), 40, 1) << "it reaches its speed";
+  EXPECT_NEAR(run.session.status().speed_now.value(), 40, 1) << "as the board reports it";
   const double was = run.grbl.place()[Axis::x];
   const Seconds released = run.session.now();
   ASSERT_TRUE(run.ask(request::Stop{}));

@@ -126,6 +126,7 @@ class GrblMachineSession final : public MachineSession {
   void connect_again(bool on_open_line);
   void prepare();
   bool rests() const;
+  MmPerSecond speed_now() const;
   void unlock();
 
   void poll_idle();
