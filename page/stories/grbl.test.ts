@@ -153,7 +153,7 @@ async function runHoldOverrideStop(all: Bench, name: string): Promise<void> {
 // The board has forgotten where it is. A person vouches for the place, and it moves again.
 async function confirmPlace({ daemon, page }: Bench): Promise<void> {
   await page.goto(`${daemon.address}#/jog`);
-  await page.getByText(/jog it to a known position and confirm it/i).waitFor();
+  await page.locator('.state-next', { hasText: /jog it to a known position and confirm it/i }).waitFor();
   expect(await whyDisabled(page, 'Start')).toContain('The machine position is unknown');
   await click(page, 'Confirm position');
   await agree(page, 'Confirm position');
@@ -236,7 +236,7 @@ describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
     await expect.poll(async () => (await daemon.status()).work_offset?.z).toBeLessThan(-1);
     await daemon.until((status) => status.state === 'Idle');
     await look(page, 'uno-probed');
-    await open(all, 'far.ngc', 'G21 G90\nG1 X-80 F600\nM2\n');
+    await open(all, 'far.ngc', 'G21 G90\nG1 X-30 F600\nM2\n');
     await breakOff(all, 'unplug 4', 'grbl.no-answer');
     await look(page, 'uno-unplugged');
     expect(await violations(page)).toEqual([]);
@@ -248,10 +248,15 @@ describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
     await look(page, 'uno-power');
     await resetByPage(all);
     await homeByPage(all);
-    // From the line at which it was.
-    await open(all, 'short.ngc', 'G21 G90\nG1 X-8 F1200\nG1 Y-5\nM2\n');
-    await start(all);
-    await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
+    // At the line at which it was.
+    await page.goto(`${daemon.address}#/run`);
+    await page.locator('.text-line', { hasText: 'G1 X-30' }).click();
+    await page.locator('.picked-line:visible').getByRole('button', { name: /Start at line 2/ }).click();
+    await page.getByRole('dialog').locator('li').first().waitFor();
+    await look(page, 'uno-restart');
+    await agree(page, 'Start');
+    const ended = await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
+    expect(ended.place.x).toBeCloseTo(-30, 2);
     expect(errors).toEqual([]);
     await all.end();
   });

@@ -61,7 +61,7 @@ function nextOf({ status, program, canHome, broken }: Facts): string {
   if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');
   const next = say(state === 'Alarm' && !canHome ? 'state.Alarm.switchless' : `state.${state}.next`);
   const trouble = reportWords(status.trouble, status.trouble_sentence);
-  return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
+  return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble.charAt(0).toUpperCase()}${trouble.slice(1)}. ${next}`;
 }
 
 export function stateWords(facts: Facts): StateWords {
