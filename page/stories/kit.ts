@@ -82,6 +82,9 @@ export class Peer {
     for (const end = Date.now() + 20_000; !ready() && Date.now() < end; ) await sleep(50);
     return new Peer(child);
   }
+  say(line: string): void {
+    this.process.stdin?.write(`${line}\n`);
+  }
   end = (): Promise<void> => kill(this.process, 'SIGKILL');
 }
 

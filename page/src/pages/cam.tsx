@@ -11,6 +11,7 @@ import { token } from '../machine/token';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { ProgressBar } from '../parts/progress_bar';
+import { SelectField } from '../parts/select';
 import { Choice } from '../parts/view_dialog';
 import { forms, taken, usualOf, withUnit, type Field, type Form } from './cam_forms';
 import { BoardLayers, BoardSteps } from './cam_board';
@@ -108,19 +109,7 @@ function OneField({ form, field }: { form: Form; field: Field }) {
       </label>
     );
   }
-  return (
-    <label class="form-field">
-      <span class="dim">{say(field.title)}</span>
-      <select value={words} onChange={(event) => set(form, field.option, event.currentTarget.value)}>
-        <option value="">{field.without !== null && say(field.without)}</option>
-        {choices.map(([one, title]) => (
-          <option key={one} value={one}>
-            {title}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
+  return <SelectField title={say(field.title)} value={words} all={choices} none={field.without !== null ? say(field.without) : ''} set={(to) => set(form, field.option, to)} />;
 }
 
 function Fields({ form, fields }: { form: Form; fields: readonly Field[] }) {

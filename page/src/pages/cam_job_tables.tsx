@@ -4,6 +4,7 @@ import { isKey, say, type Key } from '../core/language';
 import { cam, operations as commands, partKinds, toolKeys, type CamOption, type ToolKey } from '../machine/cam';
 import { edit, type JobFile, type Value } from '../machine/job_file';
 import { Button } from '../parts/button';
+import { SelectField, type Choices } from '../parts/select';
 import { Typed } from '../parts/typed';
 import { forms, type Field } from './cam_forms';
 import { drawingsOf, textOf, usersOf, valueOf, withDrawing } from './cam_job_values';
@@ -33,22 +34,9 @@ function Cell({ table, values, name, title, row, usual = '' }: CellProps & { row
 }
 
 // `usual`: the words of the default, which is not in the file.
-function ChoiceCell({ table, values, name, title, all, usual }: CellProps & { all: readonly (readonly [string, string])[]; usual: string | null }) {
-  const value = textOf(values?.[name]);
-  const known = value === '' || all.some(([one]) => one === value) ? all : [...all, [value, value] as const];
-  return (
-    <label class="form-field">
-      <span class="dim">{title}</span>
-      <select value={value} data-path={`${table}.${name}`} onChange={(event) => put(`${table}.${name}`, event.currentTarget.value === '' ? undefined : event.currentTarget.value)}>
-        {(usual !== null || value === '') && <option value="">{usual ?? ''}</option>}
-        {known.map(([one, shown]) => (
-          <option key={one} value={one}>
-            {shown}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
+function ChoiceCell({ table, values, name, title, all, usual }: CellProps & { all: Choices; usual: string | null }) {
+  const set = (to: string): void => put(`${table}.${name}`, to === '' ? undefined : to);
+  return <SelectField title={title} value={textOf(values?.[name])} all={all} none={usual} data-path={`${table}.${name}`} set={set} />;
 }
 
 // `usual`: what counts where the file has nothing.

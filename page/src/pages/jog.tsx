@@ -143,7 +143,7 @@ function JogPanel() {
 
 function SetUpPanel() {
   const why = whyNoSetUp();
-  const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
+  const hasSwitches = machine.value?.axes.some((one) => one.homes) ?? false;
   const hasXy = ['x', 'y'].every((axis) => axes.value.includes(axis));
   const xyz = axes.value.filter((axis) => 'xyz'.includes(axis));
   return (
@@ -166,7 +166,7 @@ function SetUpPanel() {
         <Button
           kind={status.value?.trust === 'homed' ? 'plain' : 'accent'}
           icon="home"
-          why={whyUnable('home') || (canHome ? why : say('jog.home.none'))}
+          why={whyUnable('home') || (hasSwitches ? why : say('jog.home.none'))}
           onClick={home}
         >
           {say('jog.home')}

@@ -317,6 +317,15 @@ std::optional<MachineSession::ProgramResults> GrblMachineSession::program_result
   return ProgramResults{.parameters = work_->program->saved_parameters(), .tools = work_->program->tools()};
 }
 
+// As the board reports it. From two positions it would be inexact, because a report is late by an unknown time.
+MmPerSecond GrblMachineSession::speed_now() const {
+  if (state_ == MachineState::alarm || state_ == MachineState::fault) return MmPerSecond(0);
+  const auto& report = sender_.report();
+  if (!report || !report->feed) return live_.speed();
+  constexpr double mm_per_inch = 25.4;
+  return MmPerSecond(*report->feed * (sender_.machine().in_inches() ? mm_per_inch : 1) / seconds_per_minute);
+}
+
 MachineStatus GrblMachineSession::status() const {
   MachineStatus status;
   status.version = news_.version;
@@ -325,7 +334,7 @@ MachineStatus GrblMachineSession::status() const {
   status.position = position_;
   status.lost_place = lost_place().has_value();
   status.now_at = live_.at();
-  status.speed_now = live_.speed();
+  status.speed_now = speed_now();
   status.ahead = position_.place;
   status.inputs = inputs_of(heard_.pins);
   status.overrides = overrides_;

@@ -213,17 +213,21 @@ void GrblMachineSession::poll_jog() {
     work.stopped = true;
   }
   if (work.jog.cancelled_at) {
-    const bool jogs = !sender_.report() || sender_.report()->state == "Jog" || !sender_.all_answered();
-    if (jogs && now() - *work.jog.cancelled_at > between_cancels) {
+    const Seconds since = now() - *work.jog.cancelled_at;
+    const bool jogs = !sender_.report() || sender_.report()->state == "Jog";
+    if (jogs && since > between_cancels) {
       sender_.cancel_jog();
       work.jog.cancelled_at = now();
+      work.jog.freed = false;
     }
     // A report that came after the cancel.
-    if (!jogs && rests() && now() - *work.jog.cancelled_at > GrblSender::between_urgent_questions) {
-      position_.place = *sender_.place();
-      end_work(Outcome::stopped);
-    }
-    return;
+    if (jogs || since <= GrblSender::between_urgent_questions) return;
+    // If a cancel meets the end of a jog, Grbl 1.1 reports Idle but executes no line until a cycle start. To a machine
+    // at rest that means nothing.
+    if (sender_.report()->state == "Idle" && !std::exchange(work.jog.freed, true)) sender_.resume();
+    if (!rests()) return;
+    position_.place = *sender_.place();
+    return end_work(Outcome::stopped);
   }
   if (!(work.jog.length > Mm(0))) return end_work(Outcome::done);
   // One line at a time lies in the board's buffer: a cancel does not clear it there.

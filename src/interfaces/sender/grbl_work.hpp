@@ -56,6 +56,7 @@ struct GrblMachineSession::Work {
     Seconds lease{0};
     Seconds lease_end{0};
     std::optional<Seconds> cancelled_at;
+    bool freed = false;  // a cycle start has followed the last cancel
   };
 
   // Whether this is a program, which can be held and resumed.

@@ -76,6 +76,7 @@ export const faults = {
   'mdi.unsupported.jog': 'the console cannot jog: use the Setup tab',
   'mdi.unsupported.check': 'the console has no check mode: open the program in the Files tab',
   'mdi.unsupported.setting': 'settings are in the machine file: change them in the Machine tab',
+  'mdi.unsupported.board-setting': 'the board has its own settings: read them in the Machine tab, part Board',
   'jobs.interrupted': 'a job was interrupted: resume or discard it first',
   'jobs.interrupted.zero': 'an interrupted job needs its work zero: resume or discard it first',
   'jobs.waits': '{name} is waiting at line {line}: continue or stop it first',

@@ -78,6 +78,7 @@ export const faults: Same<typeof en> = {
   'mdi.unsupported.jog': 'la console ne permet pas le déplacement manuel : utilisez l’onglet Réglage',
   'mdi.unsupported.check': 'la console n’a pas de mode vérification : ouvrez le programme dans l’onglet Fichiers',
   'mdi.unsupported.setting': 'les réglages sont dans le fichier machine : modifiez-les dans l’onglet Machine',
+  'mdi.unsupported.board-setting': 'la carte a ses propres réglages : lisez-les dans l’onglet Machine, partie Carte',
   'jobs.interrupted': 'un usinage a été interrompu : reprenez-le ou abandonnez-le d’abord',
   'jobs.interrupted.zero': 'un usinage interrompu dépend de son origine pièce : reprenez-le ou abandonnez-le d’abord',
   'jobs.waits': '{name} attend à la ligne {line} : continuez-le ou arrêtez-le d’abord',

@@ -78,6 +78,7 @@ export const faults: Same<typeof en> = {
   'mdi.unsupported.jog': 'la console non permette il movimento manuale: usa la pagina Preparazione',
   'mdi.unsupported.check': 'la console non ha una modalità di verifica: apri il programma nella pagina File',
   'mdi.unsupported.setting': 'le impostazioni sono nel file macchina: cambiale nella pagina Macchina',
+  'mdi.unsupported.board-setting': 'la scheda ha impostazioni proprie: leggile nella pagina Macchina, parte Scheda',
   'jobs.interrupted': 'un lavoro è stato interrotto: prima riprendilo o abbandonalo',
   'jobs.interrupted.zero': 'un lavoro interrotto ha bisogno del suo zero pezzo: prima riprendilo o abbandonalo',
   'jobs.waits': '{name} attende alla riga {line}: prima continualo o fermalo',

@@ -78,6 +78,7 @@ export const faults: Same<typeof en> = {
   'mdi.unsupported.jog': '控制台不能点动：请使用“对刀”页',
   'mdi.unsupported.check': '控制台没有检查模式：请在“文件”页打开程序',
   'mdi.unsupported.setting': '设置在机床文件中：请在“机床”页修改',
+  'mdi.unsupported.board-setting': '控制板有自己的设置：请在“机床”页的“控制板”部分读取',
   'jobs.interrupted': '有作业被中断：请先续加工或放弃',
   'jobs.interrupted.zero': '中断的作业仍需要原来的工件零点：请先续加工或放弃该作业',
   'jobs.waits': '{name} 在第 {line} 行等待：请先继续或停止',

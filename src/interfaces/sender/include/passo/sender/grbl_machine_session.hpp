@@ -165,6 +165,7 @@ class GrblMachineSession final : public MachineSession {
   void look_for_device();
   void prepare();
   bool rests() const;
+  MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
 
