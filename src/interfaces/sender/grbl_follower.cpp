@@ -384,8 +384,9 @@ std::optional<GrblFollower::Trouble> GrblFollower::check_modes(std::string_view 
             fmt::format("M{}", expected.spindle));
     const bool knows_feed = mode[0] == 'F' && expected.feed >= 0 && !expected.by_time;
     const double unit = in_inches ? 25.4 : 1;
-    compare(knows_feed && std::abs(*value * unit - expected.feed) > 0.51 * unit, mode,
-            fmt::format("F{:.0f}", expected.feed / unit));
+    // FluidNC tells F in millimetres also if all else is in inches.
+    const double beside = std::min(std::abs(*value * unit - expected.feed) / unit, std::abs(*value - expected.feed));
+    compare(knows_feed && beside > 0.51, mode, fmt::format("F{:.0f}", expected.feed / unit));
     const bool knows_speed = mode[0] == 'S' && expected.speed >= 0;
     compare(knows_speed && std::abs(*value - expected.speed) > 0.51, mode, fmt::format("S{:.0f}", expected.speed));
   }

@@ -25,6 +25,7 @@ void GrblSender::follow(const Point& zero, Seconds ahead) {
   marks_.expected.clear();
   marks_.lines.clear();
   marks_.heard = false;
+  marks_.told.clear();
   marks_.since = 0;
   marks_.sure_line = 0;
   marks_.sent = now_;
@@ -71,12 +72,21 @@ void GrblSender::fail_and_stop(GrblFollower::Trouble trouble) {
 
 void GrblSender::hear_modes(std::string_view modes) {
   if (stage_ != Stage::ready || !has_work()) return;
+  // Only the next answer shows whether a mark has asked for them.
+  if (machine_.tells_modes_unasked()) {
+    marks_.told = modes;
+    return;
+  }
   const UnacknowledgedLines::Line* const oldest = window_.oldest();
   if (oldest == nullptr || !oldest->marks || marks_.heard) {
     if (oldest != nullptr && oldest->text == mark) return;  // asked by somebody else
     return fail_and_stop("grbl.lost-lines",
                          "the machine has answered fewer lines than it was sent: a line was lost or broken on the way");
   }
+  check_modes(modes);
+}
+
+void GrblSender::check_modes(std::string_view modes) {
   marks_.heard = true;
   if (auto trouble = follower_->check_modes(modes, marks_.expected.front(), machine_.in_inches())) {
     fail_and_stop(std::move(*trouble));
@@ -84,6 +94,9 @@ void GrblSender::hear_modes(std::string_view modes) {
 }
 
 void GrblSender::answer_mark() {
+  if (const std::string told = std::exchange(marks_.told, {}); !told.empty() && stage_ == Stage::ready) {
+    check_modes(told);
+  }
   const bool heard = std::exchange(marks_.heard, false);
   if (!marks_.expected.empty()) marks_.expected.pop_front();
   if (!marks_.lines.empty()) {

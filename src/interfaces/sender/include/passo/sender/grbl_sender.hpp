@@ -172,6 +172,7 @@ class GrblSender {
   std::string send_lines(Seconds now);
   bool wants_mark() const;
   void hear_modes(std::string_view modes);
+  void check_modes(std::string_view modes);
   void answer_mark();
   void follow_report(const GrblReport& report);
   void send_overrides();
@@ -217,6 +218,7 @@ class GrblSender {
     std::deque<GrblLineModes> expected;  // modes at each mark that is not answered yet
     std::deque<std::uint32_t> lines;     // the last line before each of them
     bool heard = false;                  // the modes of the oldest one have come
+    std::string told;                    // the last modes since the last answer, of a board that tells them unasked
     Seconds sent{0};                     // time of the last one
     std::size_t since = 0;               // lines sent since
     std::uint32_t sure_line = 0;         // the last line before the last mark that was right
