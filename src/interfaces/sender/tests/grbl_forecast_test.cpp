@@ -1,7 +1,10 @@
 #include "passo/sender/grbl_forecast.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <regex>
 #include <string>
 
 #include <fmt/format.h>
@@ -73,6 +76,36 @@ TEST(GrblForecast, tells_what_the_connection_costs_and_which_feed_it_carries) {
   EXPECT_GT(faster.time.value(), 20'000 / line) << "the last byte of a line must have arrived";
   EXPECT_LT(faster.time.value(), 20'000 / line * 1.02);
   EXPECT_NEAR(faster.unhindered.value(), 2000.0 / 80 + 80.0 / 500, 0.01);
+}
+
+// The programs of ../shared/peers/motion-mm on grblHAL's simulator, whose times stand in the README there. The
+// simulator reads its input at 115,200 baud, also from the network: the 122,327 bytes of p02 alone take 10.6 s.
+TEST(GrblForecast, is_within_a_percent_of_grblhal) {
+  const std::filesystem::path folder = std::filesystem::path(PASSO_SOURCE_DIR) / "../shared/peers/motion-mm";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/peers/motion-mm beside this checkout";
+  std::ifstream readme(folder / "README.md");
+  static const std::regex pattern(R"(\| (p\d\d) .*\| ([0-9.]+) \|$)");  // the last column
+  int compared = 0;
+  for (std::string row; std::getline(readme, row);) {
+    std::smatch found;
+    if (!std::regex_match(row, found, pattern)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (!entry.path().filename().string().starts_with(found[1].str() + "_")) continue;
+      GrblLimits limits = router();
+      limits.acceleration[Axis::z] = MmPerSecond2(500);
+      limits.blocks = 100;
+      GrblForecast forecast(limits, {.bytes_per_second = 11520, .buffer = 1023}, {}, {});
+      std::ifstream program(entry.path());
+      for (std::string line; std::getline(program, line);) {
+        if (!line.empty() && line[0] != '(' && line[0] != '%') forecast.add(line, 0);
+      }
+      const double ratio = forecast.finish().time.value() / std::stod(found[2]);
+      fmt::print("{:.4f} of grblHAL's time: {}\n", ratio, entry.path().filename().string());
+      EXPECT_NEAR(ratio, 1, 0.01) << entry.path().filename();
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 6);
 }
 
 }  // namespace
