@@ -52,6 +52,10 @@ std::vector<std::string> GrblMachine::take_questions() {
   return {questions.begin(), questions.end()};
 }
 
+bool GrblMachine::measures_motors() const {
+  return row().measures_motors && options.find('C') != std::string::npos;
+}
+
 bool GrblMachine::tells_modes_unasked() const {
   const int bit = row().unasked_modes;
   if (bit <= 0) return bit == GrblFirmware::at_any_time;

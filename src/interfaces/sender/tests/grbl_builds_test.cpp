@@ -152,7 +152,7 @@ TEST(GrblBuilds, each_is_recognized_and_runs_a_program_without_a_fault) {
     run(pair);
     EXPECT_FALSE(pair.sender.fault()) << pair.sender.fault()->code << ": " << pair.sender.fault()->message;
     EXPECT_FALSE(pair.board.overflowed());
-    EXPECT_EQ(pair.board.moves().size(), program().size());
+    EXPECT_GE(pair.board.moves().size(), program().size()) << "long moves are sent in pieces";
     EXPECT_EQ(pair.board.moves().back().end.at('X'), 60);
   }
 }

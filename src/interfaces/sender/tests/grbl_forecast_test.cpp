@@ -58,6 +58,29 @@ TEST(GrblForecast, measures_arcs_along_their_chords) {
   EXPECT_NEAR(forecast.finish().time.value(), circle / 10 + 10.0 / 500, 0.005);
 }
 
+// GrblCode writes the F with which the tool has the programmed feed, here 10 mm/s.
+TEST(GrblForecast, knows_that_a_core_xy_measures_its_motors) {
+  GrblMachine machine;
+  machine.axes = "XYZ";
+  for (const char* line : {"[OPT:VC,15,128]", "$11=0.010", "$12=0.002", "$100=400", "$101=400", "$102=400", "$110=6000",
+                           "$111=6000", "$112=6000", "$120=100000", "$121=100000", "$122=100000"}) {
+    machine.hear(line);
+  }
+  const auto time = [&](const char* line) {
+    GrblForecast forecast(limits_of(machine), network, {}, {});
+    forecast.add(line, 1);
+    return forecast.finish().time.value();
+  };
+  EXPECT_NEAR(time("G1F848.528X100Y0Z0"), 10, 1e-3);
+  EXPECT_NEAR(time("G1F848.528X100Y100Z0"), std::sqrt(2) * 10, 1e-3);
+  EXPECT_NEAR(time("G1F600X0Y0Z50"), 5, 1e-3);
+  EXPECT_NEAR(time("G3F848.528X-20Y0Z0I-10J0"), std::numbers::pi, 5e-3);
+  EXPECT_NEAR(time("G93G1F6X100Y100Z20"), 10, 1e-3);
+  // $110 and $111 are the motors' speeds: 100 mm/s. Along a diagonal one motor makes the whole way.
+  EXPECT_NEAR(time("G0X100Y0Z0"), 1, 2e-3);
+  EXPECT_NEAR(time("G0X100Y100Z0"), 2, 2e-3);
+}
+
 // 0.1 mm per line at 100 mm/s: a thousand lines a second, and the connection carries half of them.
 TEST(GrblForecast, tells_what_the_connection_costs_and_which_feed_it_carries) {
   constexpr double line = 11520 / 24.0;  // lines per second

@@ -44,6 +44,8 @@ struct GrblMachine {
   bool is_known() const { return row().name == firmware; }
   // Returns whether M7 exists, as far as the board tells it.
   bool has_mist() const;
+  // Returns whether it was built for a CoreXY, and plans and measures the motion of its motors.
+  bool measures_motors() const;
   // Returns whether [GC:…] may come that nobody has asked for.
   bool tells_modes_unasked() const;
   // Returns whether grblHAL has an option: "TC" (tool changes), "ATC", "SD" (files), "HOME" (single axes).
