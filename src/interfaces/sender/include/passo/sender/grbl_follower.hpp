@@ -107,7 +107,8 @@ class GrblFollower {
     double time = 0;        // s, at its highest speed
   };
 
-  double speed_of(const Point& from, const Point& to, MmPerSecond feed) const;
+  double measured_speed(const Point& way, MmPerSecond feed) const;
+  double speed_of(const Point& way, MmPerSecond feed) const;
   double braking_time(const GrblLineMotion& line) const;
   double duration_of(const GrblLineMotion& line) const;
   std::vector<std::string> straight_pieces(const std::string& text, const GrblLineMotion& line, int count) const;
