@@ -44,6 +44,15 @@ bool BlockExecutor::keep_modal_state(CodeNumber number) {
 }
 
 void BlockExecutor::leave_sub(const OperationSource& source) {
+  restore_after_sub(source);
+  if (block_.ended || !tools_.changes_by_macro(state_.call_depth)) return;
+  block_.source = source;
+  block_.word = {};
+  tools_.go_on_after_macro();
+  cycle_ = &tools_;
+}
+
+void BlockExecutor::restore_after_sub(const OperationSource& source) {
   const auto left = static_cast<std::size_t>(state_.call_depth) + 1;
   if (left >= snapshots_.size() || !std::exchange(snapshots_[left].valid, false)) return;
   if (!snapshots_[left].restore_at_return) return;
