@@ -12,6 +12,7 @@
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
 #include "surface_radius_reader.hpp"
+#include "tool_change_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
 
@@ -74,6 +75,7 @@ class MachineReader {
   void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_homing(const TomlEntry* entry);
+  void read_tool_change(const TomlEntry& entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
@@ -116,6 +118,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
+  const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -127,6 +130,7 @@ MachineDescription MachineReader::read() {
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   read_homing(homing);
+  if (tool_change != nullptr) read_tool_change(*tool_change);
   return std::move(machine_);
 }
 
@@ -236,6 +240,22 @@ void MachineReader::read_homing(const TomlEntry* entry) {
   machine_.homing = std::move(order.axes);
   machine_.homing_turns = std::move(order.turns);
   if (reader) finish(*reader);
+}
+
+// Called when all axes are known.
+void MachineReader::read_tool_change(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "tool_change", entry.place, reporter_);
+  const TomlEntry* rack = reader.table("rack", "a table [tool_change.rack]", Need::optional);
+  std::optional<TableReader> own;
+  if (rack != nullptr) {
+    own.emplace(std::get<TomlTable>(rack->value.content), reader.full_name("rack"), rack->place, reporter_);
+  }
+  const auto& entries = std::get<TomlTable>(entry.value.content).entries;
+  const auto macro = std::ranges::find(entries, "macro", &TomlEntry::key);
+  machine_.tool_change = passo::read_tool_change(reader, own ? &*own : nullptr,
+                                                 macro != entries.end() ? &macro->value : nullptr, machine_.axes);
+  finish(reader);
+  if (own) finish(*own);
 }
 
 void MachineReader::read_axes(const TomlEntry& entry) {
