@@ -95,7 +95,7 @@ void BlockExecutor::start(const InterpreterOptions& options) {
     block_.options.spindles = static_cast<int>(options.settings->number("TRAJ", "SPINDLES").value_or(options.spindles));
   }
   state_.on_machine = options.on_machine;
-  state_.changes_tools = options.tool_change != nullptr;
+  state_.measured.by_plan = options.tool_change != nullptr;
   state_.spindle_count = std::clamp(block_.options.spindles, 1, static_cast<int>(most_spindles));
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
   state_.tools = options.tools;
@@ -116,7 +116,7 @@ void BlockExecutor::roll_back() {
   block_.missing_feed_told = missing_feed_was_told_;
   drilling_.roll_back();
   cycle_ = nullptr;
-  rest_waits_ = false;
+  static_cast<void>(tools_.take_begun());
   reopen();  // the program had not ended when its last line came
 }
 
@@ -180,8 +180,7 @@ bool BlockExecutor::execute_words() {
     for (const ModalGroup group : {macro, input_output, tool_change}) {
       if (!run(group)) return false;
     }
-    rest_waits_ = tools_.take_begun();
-    if (rest_waits_) return begin(tools_, true);
+    if (tools_.has_begun()) return begin(tools_, true);
     if (!execute_after_words()) return false;
   }
   block_.word = all;
@@ -194,7 +193,6 @@ bool BlockExecutor::execute_motion() {
 
 // The words of an M6 with a cycle, once the tool is changed.
 bool BlockExecutor::execute_after_change() {
-  rest_waits_ = false;
   if (!execute_after_words()) return false;
   block_.word = place_of_words(reporter_.block());
   return execute_motion();

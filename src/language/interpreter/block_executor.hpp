@@ -143,7 +143,6 @@ class BlockExecutor : private CodeFamily {
 
   SymbolTable& symbols_;
   CycleCodes* cycle_ = nullptr;           // the active cycle
-  bool rest_waits_ = false;               // the words after M6 are executed when the tool was changed
   std::vector<ModalSnapshot> snapshots_;  // by call depth
   std::vector<double> assigned_;
   bool missing_feed_was_told_ = false;  // its value at keep()

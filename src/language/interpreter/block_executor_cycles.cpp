@@ -29,12 +29,10 @@ void BlockExecutor::go_on() {
     if (!compensated || !more) state_.position = cycle.position();
     if (more || cycle.awaits()) return;
     if (compensated) state_.cutter_shift = cutter_.shift(state_.position);
+    const bool has_changed = tools_.take_begun();
     if (!std::exchange(cycle_, nullptr)->finish()) return;
-    if (tools_.take_macro_call()) {
-      rest_waits_ = false;
-      return subprograms_.call_change_macro(words_.span(ModalGroup::tool_change));
-    }
-    if (rest_waits_ && (!execute_after_change() || cycle_ != nullptr)) return;
+    if (tools_.take_macro_call()) return subprograms_.call_change_macro(words_.span(ModalGroup::tool_change));
+    if (has_changed && (!execute_after_change() || cycle_ != nullptr)) return;
   }
   if (words_.code(ModalGroup::stopping) != nullptr) stops_.run(words_.code(ModalGroup::stopping)->number);
 }

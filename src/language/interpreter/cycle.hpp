@@ -30,8 +30,8 @@ class Cycle : public Source<Operation> {
   }
   // Returns the tool position after the step of the last returned operation, in work coordinates.
   const Point& position() const { return position_; }
-  // Whether the next step depends on the outcome of a probe move, so that next() returns false until apply(). `outcome`:
-  // null: it is unknown, as in a check.
+  // Whether the next step depends on the outcome of a probe move, so that next() returns false until apply().
+  // `outcome`: null: it is unknown, as in a check.
   virtual bool awaits() const { return false; }
   virtual void apply(const ProbeOutcome* /*outcome*/) {}
 

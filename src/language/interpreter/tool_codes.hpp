@@ -19,7 +19,8 @@ class ToolCodes final : public CycleCodes {
 
   bool select();
   bool change(CodeNumber code);
-  // Returns whether the last M6 began a cycle. Called once for each block.
+  // Whether an M6 has begun a cycle whose block has other words, which wait for its end.
+  bool has_begun() const { return begun_; }
   bool take_begun() { return std::exchange(begun_, false); }
   // Returns whether the tool is now to be changed by the lines of the machine file. Called once after each cycle.
   bool take_macro_call() { return std::exchange(calls_macro_, false); }

@@ -22,7 +22,6 @@ namespace passo {
 namespace {
 
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
-
 constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
 
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
@@ -31,16 +30,13 @@ constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
 constexpr NumberKey direction_setup_key{"direction_setup_us", 0, 15, "0.65"};
 constexpr NumberKey direction_hold_key{"direction_hold_us", 0, 15, "0.65"};
 constexpr NumberKey items_key{"held_items", 8, 240, "240"};
-
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey tool_diameter_key{"diameter_mm", 0, 1000, "3"};
-
 constexpr NumberKey counts_key{"encoder_counts_per_turn", 4, 1e6, "4096"};
 constexpr NumberKey run_up_key{"run_up_s", 0, 1000, "0.5"};
 constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
 constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
 constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
-
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
@@ -75,7 +71,6 @@ class MachineReader {
   void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_homing(const TomlEntry* entry);
-  void read_tool_change(const TomlEntry& entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
@@ -130,7 +125,8 @@ MachineDescription MachineReader::read() {
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   read_homing(homing);
-  if (tool_change != nullptr) read_tool_change(*tool_change);
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
 
@@ -240,22 +236,6 @@ void MachineReader::read_homing(const TomlEntry* entry) {
   machine_.homing = std::move(order.axes);
   machine_.homing_turns = std::move(order.turns);
   if (reader) finish(*reader);
-}
-
-// Called when all axes are known.
-void MachineReader::read_tool_change(const TomlEntry& entry) {
-  TableReader reader(std::get<TomlTable>(entry.value.content), "tool_change", entry.place, reporter_);
-  const TomlEntry* rack = reader.table("rack", "a table [tool_change.rack]", Need::optional);
-  std::optional<TableReader> own;
-  if (rack != nullptr) {
-    own.emplace(std::get<TomlTable>(rack->value.content), reader.full_name("rack"), rack->place, reporter_);
-  }
-  const auto& entries = std::get<TomlTable>(entry.value.content).entries;
-  const auto macro = std::ranges::find(entries, "macro", &TomlEntry::key);
-  machine_.tool_change = passo::read_tool_change(reader, own ? &*own : nullptr,
-                                                 macro != entries.end() ? &macro->value : nullptr, machine_.axes);
-  finish(reader);
-  if (own) finish(*own);
 }
 
 void MachineReader::read_axes(const TomlEntry& entry) {

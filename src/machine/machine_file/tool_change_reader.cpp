@@ -268,9 +268,21 @@ void ToolChangeReader::check_pockets(TableReader& rack) {
 
 }  // namespace
 
-std::shared_ptr<const ToolChangePlan> read_tool_change(TableReader& reader, TableReader* rack, const TomlValue* macro,
-                                                       const std::vector<AxisDescription>& axes) {
-  return ToolChangeReader(reader, rack, macro, axes).read();
+std::shared_ptr<const ToolChangePlan> read_tool_change(const TomlEntry& entry, const std::vector<AxisDescription>& axes,
+                                                       const TomlReporter& reporter,
+                                                       const std::function<void(TableReader&)>& end) {
+  const TomlTable& table = std::get<TomlTable>(entry.value.content);
+  TableReader reader(table, "tool_change", entry.place, reporter);
+  const TomlEntry* const rack = reader.table("rack", "a table [tool_change.rack]", Need::optional);
+  std::optional<TableReader> own;
+  if (rack != nullptr) {
+    own.emplace(std::get<TomlTable>(rack->value.content), reader.full_name("rack"), rack->place, reporter);
+  }
+  const TomlEntry* const macro = find(table, "macro");
+  auto plan = ToolChangeReader(reader, own ? &*own : nullptr, macro != nullptr ? &macro->value : nullptr, axes).read();
+  end(reader);
+  if (own) end(*own);
+  return plan;
 }
 
 }  // namespace passo

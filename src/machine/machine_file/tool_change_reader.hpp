@@ -1,7 +1,9 @@
 // Reads [tool_change] of a machine file: how the machine changes and measures its tools.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -9,9 +11,9 @@
 
 namespace passo {
 
-// Call it when all axes are known. Returns null if there was an error. `rack`: the table [tool_change.rack], or null.
-// `macro`: the value of the key macro, or null.
-std::shared_ptr<const ToolChangePlan> read_tool_change(TableReader& reader, TableReader* rack, const TomlValue* macro,
-                                                       const std::vector<AxisDescription>& axes);
+// Call it when all axes are known. Returns null if there was an error. `end` is called with each table that was read.
+std::shared_ptr<const ToolChangePlan> read_tool_change(const TomlEntry& entry, const std::vector<AxisDescription>& axes,
+                                                       const TomlReporter& reporter,
+                                                       const std::function<void(TableReader&)>& end);
 
 }  // namespace passo
