@@ -181,7 +181,7 @@ GrblProgramPath::GrblProgramPath(ProgramReader program, const MachineDescription
                                  std::vector<ProbeOutcome> known_probes)
     : answers_(results_, std::move(known_probes)),
       path_options_(path_options(machine, program.name(), options.start)),
-      interpreter_(std::move(program), options, diagnostics, answers_),
+      interpreter_(std::move(program), on_machine(machine, options), diagnostics, answers_),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics, answers_),
       until_error_(builder_, diagnostics) {

@@ -105,6 +105,8 @@ class BlockExecutor : private CodeFamily {
   bool execute_words();
   bool execute_before_words();
   bool execute_after_words();
+  bool execute_after_change();
+  bool execute_motion();
   bool run(ModalGroup group);
 
   // Words and groups, in the order in which they are executed.
@@ -118,6 +120,7 @@ class BlockExecutor : private CodeFamily {
 
   // Saving and restoring the modal state.
   bool keep_modal_state(CodeNumber code);
+  void restore_after_sub(const OperationSource& source);
   void restore(const ModalSnapshot& saved);
   void restore_spindles(const ModalSnapshot& saved);
   void restore_switches(const ModalSnapshot& saved);

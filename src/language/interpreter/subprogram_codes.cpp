@@ -2,6 +2,7 @@
 // … #26. The table is Fanuc's (argument specification I).
 #include "subprogram_codes.hpp"
 
+#include "program_lines.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -51,6 +52,14 @@ bool SubprogramCodes::program_words(SubprogramJump& found) {
   }
   return whole_word('P', 0, highest_program, found.program) &&
          (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
+}
+
+void SubprogramCodes::call_change_macro(Span span) {
+  SubprogramJump call;
+  call.kind = Kind::macro;
+  call.span = span;
+  call.program = change_macro_number;
+  jump_ = call;
 }
 
 void SubprogramCodes::call_macro(bool readable) {

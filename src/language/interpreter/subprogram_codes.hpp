@@ -21,6 +21,8 @@ class SubprogramCodes : private CodeFamily {
   bool end_macro_calls(CodeNumber code);
   // Must be called after the block was executed. If the block moved, requests the macro of G66.
   void call_modal_macro();
+  // Requests the program that changes tools. `span`: M6.
+  void call_change_macro(Span span);
   // Returns the jump requested by the last block.
   std::optional<SubprogramJump> take_jump() { return std::exchange(jump_, std::nullopt); }
 

@@ -29,6 +29,11 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   return options;
 }
 
+InterpreterOptions on_machine(const MachineDescription& machine, InterpreterOptions options) {
+  options.tool_change = machine.tool_change;
+  return options;
+}
+
 namespace {
 
 AccelerationCurve falling_limit(const AxisDescription& axis) {

@@ -12,6 +12,7 @@
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
 #include "surface_radius_reader.hpp"
+#include "tool_change_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
 
@@ -21,7 +22,6 @@ namespace passo {
 namespace {
 
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
-
 constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
 
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
@@ -30,16 +30,13 @@ constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
 constexpr NumberKey direction_setup_key{"direction_setup_us", 0, 15, "0.65"};
 constexpr NumberKey direction_hold_key{"direction_hold_us", 0, 15, "0.65"};
 constexpr NumberKey items_key{"held_items", 8, 240, "240"};
-
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey tool_diameter_key{"diameter_mm", 0, 1000, "3"};
-
 constexpr NumberKey counts_key{"encoder_counts_per_turn", 4, 1e6, "4096"};
 constexpr NumberKey run_up_key{"run_up_s", 0, 1000, "0.5"};
 constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
 constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
 constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
-
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
@@ -116,6 +113,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
+  const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -127,6 +125,8 @@ MachineDescription MachineReader::read() {
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   read_homing(homing);
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
 

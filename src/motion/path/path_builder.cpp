@@ -158,7 +158,10 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::SetMist& mist) { return set_output(commanded_.mist, mist.on); },
           [&](const operation::SetFlood& flood) { return set_output(commanded_.flood, flood.on); },
           [&](const operation::Dwell& dwell) { return act(Action::Kind::dwell, dwell.time); },
-          [&](const operation::ChangeTool& change) { return act(Action::Kind::tool_change, Seconds(0), change.tool); },
+          [&](const operation::ChangeTool& change) {
+            act(Action::Kind::tool_change, Seconds(0), change.tool);
+            return std::get<Action>(item).by_machine = change.by_machine, true;
+          },
           [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop, Seconds(0), hand_.at_stop()); },
           [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
           [&](const operation::ProgramEnd&) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,8 @@
 #include "passo/units/units.hpp"
 
 namespace passo {
+
+struct ToolChangePlan;
 
 inline constexpr std::size_t most_motors = 8;  // motors of one board; the same number as wire's max_motors
 
@@ -192,6 +195,7 @@ struct MachineDescription {
   std::vector<AxisDescription> axes;   // in the order of the board's motors
   std::vector<Axis> homing = {};       // the axes that are homed, in the order of homing
   std::vector<int> homing_turns = {};  // group of each of them: axes with the same number seek their switches together
+  std::shared_ptr<const ToolChangePlan> tool_change = {};  // what M6 does; null: it waits for the operator
 
   bool has_rotary_axis() const {
     return std::ranges::any_of(axes, [](const AxisDescription& axis) { return is_rotary(axis.axis); });
