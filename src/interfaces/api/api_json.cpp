@@ -315,6 +315,7 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"moves", program.check.moves},
                {"block_delete", program.block_delete},
                {"deleted_lines", program.deleted_lines},
+               {"small", program.is_small},
                {"height_map", program.height_map.has_value()}};
   if (with_findings) json["findings"] = as_json(program.findings);
   return json;

@@ -9,6 +9,7 @@
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
 #include "machine_file_sentences.hpp"
+#include "park_reader.hpp"
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
 #include "surface_radius_reader.hpp"
@@ -73,6 +74,7 @@ class MachineReader {
   void read_silence(const TomlEntry& entry);
   void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
+  void read_park_of(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -113,6 +115,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
   const TomlEntry* silence = top.table("silence", "a table [silence]", Need::optional);
   const TomlEntry* work = top.table("work", "a table [work]", Need::optional);
+  const TomlEntry* park = top.table("park", "a table [park]", Need::optional);
   const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
@@ -126,6 +129,7 @@ MachineDescription MachineReader::read() {
   if (work != nullptr) look_at_work(*work);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
+  if (park != nullptr) read_park_of(*park);
   read_homing(homing);
   return std::move(machine_);
 }
@@ -224,6 +228,13 @@ void MachineReader::read_pins(const TomlEntry* inputs, const TomlEntry* outputs)
     read_outputs(reader, machine_.pins);
     finish(reader);
   }
+}
+
+// Called when all axes are known.
+void MachineReader::read_park_of(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "park", entry.place, reporter_);
+  machine_.park = read_park(reader, machine_.axes);
+  finish(reader);
 }
 
 // Called when all axes are known.

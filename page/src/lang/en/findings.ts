@@ -175,6 +175,10 @@ export const findings = {
   'machine.unknown-key': '{where} has no key {key}',
   'machine.unknown-table': '{where} has no table {key}',
   'machine.homing.shared-switch': 'the two motors of axis {axis} share limit switch {input}',
+  'machine.park.outside': 'the park position {axis} {place} is outside the travel',
+  'machine.park.no-plane': 'a park position needs the axes X and Y',
+  'machine.park.no-place': 'programs shall end at the park position, but there is none',
+  'machine.park.no-z': 'Z moves first at the end of a program, but the machine has no axis Z',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': 'the bores are {apart} mm apart; they should be {way} mm apart',
 } as const;

@@ -176,6 +176,10 @@ export const findings: Same<typeof en> = {
   'machine.unknown-key': '{where} n’a pas de clé {key}',
   'machine.unknown-table': '{where} n’a pas de table {key}',
   'machine.homing.shared-switch': 'les deux moteurs de l’axe {axis} partagent le fin de course {input}',
+  'machine.park.outside': 'la position de parcage {axis} {place} est hors de la course',
+  'machine.park.no-plane': 'une position de parcage demande les axes X et Y',
+  'machine.park.no-place': 'les programmes doivent finir à la position de parcage, mais aucune n’est définie',
+  'machine.park.no-z': 'Z se déplace d’abord à la fin d’un programme, mais la machine n’a pas d’axe Z',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': 'les alésages sont à {apart} mm l’un de l’autre au lieu de {way} mm',
 };

@@ -176,6 +176,10 @@ export const findings: Same<typeof en> = {
   'machine.unknown-key': 'la chiave {key} non è prevista in {where}',
   'machine.unknown-table': 'la tabella {key} non è prevista in {where}',
   'machine.homing.shared-switch': 'i due motori dell’asse {axis} condividono il finecorsa {input}',
+  'machine.park.outside': 'la posizione di parcheggio {axis} {place} è fuori dalla corsa',
+  'machine.park.no-plane': 'una posizione di parcheggio richiede gli assi X e Y',
+  'machine.park.no-place': 'i programmi devono finire alla posizione di parcheggio, ma non ce n’è una',
+  'machine.park.no-z': 'alla fine di un programma Z si muove per primo, ma la macchina non ha l’asse Z',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': 'i fori distano {apart} mm invece di {way} mm',
 };

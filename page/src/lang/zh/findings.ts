@@ -176,6 +176,10 @@ export const findings: Same<typeof en> = {
   'machine.unknown-key': '{where} 没有参数 {key}',
   'machine.unknown-table': '{where} 没有表 {key}',
   'machine.homing.shared-switch': '{axis} 轴的两个电机共用限位开关 {input}',
+  'machine.park.outside': '停放位置 {axis} {place} 超出行程',
+  'machine.park.no-plane': '停放位置需要 X 轴和 Y 轴',
+  'machine.park.no-place': '程序应在停放位置结束，但没有定义停放位置',
+  'machine.park.no-z': '程序结束时 Z 轴先移动，但机床没有 Z 轴',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': '两孔相距 {apart} mm，应为 {way} mm',
 };

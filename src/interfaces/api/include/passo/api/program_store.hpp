@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "passo/activity/job_outline.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/api/program_path.hpp"
 #include "passo/base/result.hpp"
@@ -48,6 +49,8 @@ struct StoredProgram {
   std::uint64_t path = 0;               // fingerprint of its path, after a successful check
   Diagnostics findings;
   ProgramPath path_points;                 // path of the last check, for viewers
+  JobOutline outline{};                    // outline of the last check, for framing
+  bool is_small = false;                   // made on request, e.g. to frame a job; not for lists
   std::optional<HeightMap> height_map{};   // height map of the surface to which the program is to be levelled
   std::vector<std::size_t> line_starts{};  // offsets in the text, one for each fixed number of lines
 
@@ -71,6 +74,8 @@ class ProgramStore {
 
   // Adds a program. Returns null if there is no room.
   const StoredProgram* add(std::string name, Dialect dialect, std::string text);
+  // Adds a program that was made on request.
+  const StoredProgram* add_small(std::string name, std::string text);
   const StoredProgram* find(std::uint64_t id) const;
   // Returns false if there is no such program.
   bool remove(std::uint64_t id);
