@@ -4,6 +4,7 @@ import { language, say, sayCount } from '../core/language';
 import { clockText, durationText } from '../core/time';
 import { goTo } from '../core/route';
 import { status } from '../machine/connection';
+import { frameJob, whyNoFrame } from '../machine/framing';
 import { shown, timeOf } from '../machine/programs';
 import { loadsOfShown } from '../machine/studies';
 import { lookOf, overallVerdict } from '../machine/verdict';
@@ -63,6 +64,13 @@ export function JobProgress() {
           </b>
         </div>
       </div>
+      {now === null && (
+        <div class="row">
+          <Button icon="frame" why={whyNoFrame(program)} onClick={() => frameJob(program)}>
+            {say('framing.do')} …
+          </Button>
+        </div>
+      )}
       <p class="dim job-line">
         {now === null
           ? sayCount('files.lines', program.lines)

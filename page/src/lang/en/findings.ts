@@ -179,6 +179,11 @@ export const findings = {
   'machine.park.no-plane': 'a park position needs the axes X and Y',
   'machine.park.no-place': 'programs shall end at the park position, but there is none',
   'machine.park.no-z': 'Z moves first at the end of a program, but the machine has no axis Z',
+  'framing.value': '{name}: expected {low} to {high}, not {value}',
+  'framing.no-feeds': 'the program has no feed moves, so there is nothing to frame',
+  'framing.no-plane': 'framing needs the axes X and Y',
+  'goto.outside': '{axis} would go to {place} in machine coordinates, outside its travel of {low} to {high}',
+  'goto.no-park': 'the machine file has no park position: the table [park] with place_mm',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': 'the bores are {apart} mm apart; they should be {way} mm apart',
 } as const;

@@ -180,6 +180,11 @@ export const findings: Same<typeof en> = {
   'machine.park.no-plane': 'une position de parcage demande les axes X et Y',
   'machine.park.no-place': 'les programmes doivent finir à la position de parcage, mais aucune n’est définie',
   'machine.park.no-z': 'Z se déplace d’abord à la fin d’un programme, mais la machine n’a pas d’axe Z',
+  'framing.value': '{name} : valeur {value} au lieu de {low} à {high}',
+  'framing.no-feeds': 'le programme n’a pas de déplacement en avance : il n’y a pas de contour',
+  'framing.no-plane': 'le contour demande les axes X et Y',
+  'goto.outside': '{axis} irait à {place} en coordonnées machine, hors de sa course de {low} à {high}',
+  'goto.no-park': 'le fichier machine n’a pas de position de parcage : la table [park] avec place_mm',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': 'les alésages sont à {apart} mm l’un de l’autre au lieu de {way} mm',
 };

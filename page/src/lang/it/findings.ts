@@ -180,6 +180,11 @@ export const findings: Same<typeof en> = {
   'machine.park.no-plane': 'una posizione di parcheggio richiede gli assi X e Y',
   'machine.park.no-place': 'i programmi devono finire alla posizione di parcheggio, ma non ce n’è una',
   'machine.park.no-z': 'alla fine di un programma Z si muove per primo, ma la macchina non ha l’asse Z',
+  'framing.value': '{name}: valore {value} invece di {low} a {high}',
+  'framing.no-feeds': 'il programma non ha movimenti di lavoro: non c’è un contorno',
+  'framing.no-plane': 'il contorno richiede gli assi X e Y',
+  'goto.outside': '{axis} andrebbe a {place} in coordinate macchina, fuori dalla corsa da {low} a {high}',
+  'goto.no-park': 'il file macchina non ha una posizione di parcheggio: la tabella [park] con place_mm',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': 'i fori distano {apart} mm invece di {way} mm',
 };

@@ -180,6 +180,11 @@ export const findings: Same<typeof en> = {
   'machine.park.no-plane': '停放位置需要 X 轴和 Y 轴',
   'machine.park.no-place': '程序应在停放位置结束，但没有定义停放位置',
   'machine.park.no-z': '程序结束时 Z 轴先移动，但机床没有 Z 轴',
+  'framing.value': '{name}：应为 {low} 至 {high}，而不是 {value}',
+  'framing.no-feeds': '程序没有进给移动，没有可走的边框',
+  'framing.no-plane': '走边框需要 X 轴和 Y 轴',
+  'goto.outside': '{axis} 将移到机床坐标 {place}，超出行程 {low} 至 {high}',
+  'goto.no-park': '机床文件中没有停放位置：含 place_mm 的表 [park]',
   // What a probing cycle aborts with, which is a text of the program
   'probing.bores-apart': '两孔相距 {apart} mm，应为 {way} mm',
 };
