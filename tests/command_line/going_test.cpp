@@ -18,18 +18,18 @@ class Going : public passo::test::CommandLine {
  protected:
   // The router with a park position.
   std::string parking_router(const std::string& more = "") const {
-    return write("router.toml", read(checkout + "/examples/machines/router.toml") +
-                                    "\n[park]\nplace_mm = [-390, 290]\n" + more);
+    return write("router.toml",
+                 read(checkout + "/examples/machines/router.toml") + "\n[park]\nplace_mm = [-390, 290]\n" + more);
   }
 };
 
-constexpr const char* job = "G21 G90\nM3 S9000\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F600\nG1 X40\nG1 Y30\nG1 X10 Y10\nG0 Z5\nM2\n";
+constexpr const char* job =
+    "G21 G90\nM3 S9000\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F600\nG1 X40\nG1 Y30\nG1 X10 Y10\nG0 Z5\nM2\n";
 
 TEST_F(Going, frames_a_job_and_runs_the_frame_without_a_warning) {
   const std::string program = write("part.ngc", job);
   const std::string offsets = write("work.var", "5221\t20\n5222\t0\n5223\t-30\n");
-  const Outcome made =
-      passo("frame " + program + on_router + "-v " + offsets + " --height 2 -o " + path("frame.ngc"));
+  const Outcome made = passo("frame " + program + on_router + "-v " + offsets + " --height 2 -o " + path("frame.ngc"));
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   const Outcome ran = passo("run " + path("frame.ngc") + on_router + " --json");

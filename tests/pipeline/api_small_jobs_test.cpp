@@ -1,11 +1,15 @@
-// Framing a job and going to a place by the API.
+// Framing a job, going to a place, and macros by the API.
+#include <filesystem>
+#include <fstream>
+
 #include "api_kit.hpp"
 #include <gmock/gmock.h>
 
 namespace passo::test {
 namespace {
 
-constexpr const char* square = "G21 G90\nM3 S9000\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F600\nG1 X40\nG1 Y30\nG1 X10 Y10\nG0 Z5\nM2\n";
+constexpr const char* square =
+    "G21 G90\nM3 S9000\nG0 Z5\nG0 X10 Y10\nG1 Z-1 F600\nG1 X40\nG1 Y30\nG1 X10 Y10\nG0 Z5\nM2\n";
 
 std::string code_of_error(const Json& answer) {
   return answer.contains("error") ? answer["error"]["code"].get<std::string>() : std::string();
@@ -96,7 +100,7 @@ TEST(ApiFraming, is_refused_with_the_reason) {
   ApiRun lost(KnownPosition{});
   lost.own();
   const std::uint64_t other = checked_program(lost);
-  EXPECT_EQ(code_of_error(lost.post(fmt::format("/programs/{}/frame", other), "{}")), "goto.place-unknown");
+  EXPECT_EQ(code_of_error(lost.post(fmt::format("/programs/{}/frame", other), "{}")), "run.place-unknown");
 }
 
 TEST(ApiFraming, accepts_machine_zero_if_it_is_told_so) {
@@ -142,6 +146,59 @@ TEST(ApiGoing, is_refused_with_the_reason) {
   EXPECT_EQ(code_of_error(run.post("/go", R"({"to": "g28"})")), "goto.outside");
   run.key = "stranger";
   EXPECT_EQ(code_of_error(run.post("/go", R"({"to": "g30"})")), "owner.not-you");
+}
+
+// A folder with a macro that moves by a value, one that leaves the travel, one that calls itself, and a subroutine.
+std::string macro_folder() {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_api_macros";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "move.ngc") << "; title = \"Move\"\n; key = \"F6\"\n; [value.way]\n; unit = \"mm\"\n"
+                                        "; least = 1\n; most = 500\nG21 G91\nM110 P#<way>\n";
+  std::ofstream(folder / "again.ngc")
+      << "; title = \"Again\"\no<again> sub\no<again> call\no<again> endsub\no<again> call\n";
+  std::ofstream(folder / "m110.ngc") << "o<m110> sub\nG0 X#1\no<m110> endsub\n";
+  std::ofstream(folder / "wrong.ngc") << "; title = \"Wrong\"\n; colour = 1\n";
+  return folder.string();
+}
+
+TEST(ApiMacros, are_listed_with_their_values_and_run_as_jobs) {
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, nullptr, nullptr, nullptr, macro_folder());
+  run.own();
+  const Json all = run.get("/macros");
+  ASSERT_EQ(all["macros"].size(), 2U) << all;
+  const Json& move = all["macros"][1];
+  EXPECT_EQ(move["title"], "Move");
+  EXPECT_EQ(move["key"], "F6");
+  EXPECT_EQ(move["values"][0]["high"], 500.0);
+  EXPECT_EQ(move["values"][0]["default"], Json());
+  expect_members(openapi()["components"]["schemas"]["Macro"], move, "Macro");
+  EXPECT_EQ(all["findings"][0]["code"], "macro.unknown-key");
+  const Json job = run.post("/macros", R"({"name": "move", "values": {"way": 30}})");
+  ASSERT_EQ(run.status, 202U) << job;
+  ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::done; })) << run.get("/status");
+  EXPECT_NEAR(run.get("/status")["place"]["x"].get<double>(), 30, 0.01) << "through M110 of the folder";
+}
+
+TEST(ApiMacros, move_nothing_if_they_are_wrong) {
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, nullptr, nullptr, nullptr, macro_folder());
+  run.own();
+  const auto code = [&](const std::string& body) { return code_of_error(run.post("/macros", body)); };
+  EXPECT_EQ(code(R"({"name": "move"})"), "macro.missing-value");
+  EXPECT_EQ(code(R"({"name": "move", "values": {"way": 501}})"), "macro.wrong-value");
+  EXPECT_EQ(code(R"({"name": "move", "values": {"way": 1, "feed": 1}})"), "macro.unknown-value");
+  EXPECT_EQ(code(R"({"name": "move", "values": {"way": "far"}})"), "http.bad-body");
+  EXPECT_EQ(code(R"({"name": "m110"})"), "macro.none");
+  EXPECT_EQ(code(R"({"name": "../move"})"), "macro.none");
+  // What only the check finds: recursion, and a move out of the travel.
+  for (const char* body : {R"({"name": "again"})", R"({"name": "move", "values": {"way": 450}})"}) {
+    run.post("/macros", body);
+    ASSERT_EQ(run.status, 202U) << body;
+    ASSERT_TRUE(run.turn_until([&] { return run.api.job().state == JobState::failed; })) << body;
+  }
+  EXPECT_NEAR(run.get("/status")["place"]["x"].get<double>(), 0, 1e-9);
+  ApiRun none;
+  EXPECT_EQ(none.get("/macros")["macros"], Json::array());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ import { axes } from '../machine/place';
 import { goToPlace, home, makeZero, places, vouchForPlace, whyNotPlace } from '../machine/set_up';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
+import { Macros } from '../parts/macros';
 import { Position } from '../parts/position';
 import { Probing } from '../parts/probing';
 import { Slider } from '../parts/slider';
@@ -175,8 +176,6 @@ function SetUpPanel() {
   );
 }
 
-const placeIcons = { zero: 'zero', park: 'done', g28: 'home', g30: 'home' } as const;
-
 function GoToPanel() {
   const why = whyNoSetUp();
   return (
@@ -184,7 +183,7 @@ function GoToPanel() {
       <h2>{say('goto.title')}</h2>
       <div class="set-up-buttons">
         {places.map((place) => (
-          <Button key={place} icon={placeIcons[place]} why={whyNotPlace(place) || why} onClick={() => goToPlace(place)}>
+          <Button key={place} why={whyNotPlace(place) || why} onClick={() => goToPlace(place)}>
             {say(`goto.${place}`)}
           </Button>
         ))}
@@ -200,6 +199,7 @@ export function JogPage() {
         <Position />
         <SetUpPanel />
         <GoToPanel />
+        <Macros />
       </div>
       <JogPanel />
       <Probing />

@@ -64,6 +64,11 @@ export function JobProgress() {
           </b>
         </div>
       </div>
+      <p class="dim job-line">
+        {now === null
+          ? sayCount('files.lines', program.lines)
+          : say('run.of.lines', { line: now.line, lines: program.lines.toLocaleString(language.value) })}
+      </p>
       {now === null && (
         <div class="row">
           <Button icon="frame" why={whyNoFrame(program)} onClick={() => frameJob(program)}>
@@ -71,11 +76,6 @@ export function JobProgress() {
           </Button>
         </div>
       )}
-      <p class="dim job-line">
-        {now === null
-          ? sayCount('files.lines', program.lines)
-          : say('run.of.lines', { line: now.line, lines: program.lines.toLocaleString(language.value) })}
-      </p>
     </section>
   );
 }

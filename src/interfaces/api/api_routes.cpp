@@ -66,6 +66,9 @@ constexpr ApiRoute routes[] = {
     {"POST", "/machine/file/draft", "draftMachineFile", anybody, json, &MachineFileApi::draft},
     {"POST", "/machine/files", "keepMachineFile", owner, json, &PortsApi::keep_machine},
 
+    {"GET", "/macros", "listMacros", anybody, none, &SmallJobsApi::list_macros},
+    {"POST", "/macros", "runMacro", owner, json, &SmallJobsApi::run_macro},
+
     {"POST", "/mdi", "runLine", owner, json, &MachineApi::run_line},
     {"POST", "/operator-done", "confirmOperatorDone", owner, none, &MachineApi::operator_done},
     {"POST", "/outputs", "switchOutputs", owner, json, &MachineApi::switch_outputs},

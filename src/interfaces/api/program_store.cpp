@@ -104,6 +104,7 @@ InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
   options.parameters = parameters_;
   begin_with_g54(options.parameters);
   options.tools = tools_;
+  options.sub_folders = sub_folders_;
   return options;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "api_answers.hpp"
+#include "api_json.hpp"
 #include "json_members.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +22,31 @@ std::optional<std::string> take_text(Json& body, const char* key) {
   std::string text = found->get<std::string>();
   body.erase(key);
   return text;
+}
+
+Json as_json(const Macro& macro) {
+  Json values = Json::array();
+  for (const MacroValue& one : macro.values) {
+    values.push_back({{"name", one.name},
+                      {"title", one.title},
+                      {"unit", one.unit},
+                      {"low", one.low},
+                      {"high", one.high},
+                      {"whole", one.is_whole},
+                      {"default", one.usual ? Json(*one.usual) : Json()}});
+  }
+  return {{"name", macro.name}, {"title", macro.title}, {"key", macro.key}, {"values", std::move(values)}};
+}
+
+// Nothing: the body has something else than numbers.
+std::optional<MacroValues> macro_values(const Json& body) {
+  if (!body.is_object()) return {};
+  MacroValues values;
+  for (const auto& [name, value] : body.items()) {
+    if (!value.is_number()) return {};
+    values[name] = value.get<double>();
+  }
+  return values;
 }
 
 // Nobody has set it, so the frame would show where a job lies only by accident.
@@ -58,7 +83,8 @@ WebAnswer SmallJobsApi::frame(const ApiCall& call) {
   jobs_.step_aside();
   if (auto refused = refuse()) return std::move(*refused);
   if (program->state != UploadState::good) {
-    return error_answer(409, "framing.unchecked", "the program has not been checked from here, or has errors: check it first");
+    return error_answer(409, "framing.unchecked",
+                        "the program has not been checked from here, or has errors: check it first");
   }
   if (!accepts_zero && is_unset(shared_.programs.work_frame())) {
     return error_answer(409, "framing.no-zero",
@@ -84,6 +110,37 @@ WebAnswer SmallJobsApi::go_to(const ApiCall& call) {
   auto text = go_to_program(*destination, shared_.machine, programs.parameters(), programs.work_frame());
   if (!text) return error_answer(409, text.error().code, text.error());
   return run("go to " + std::string(name_of(*destination)), std::move(*text));
+}
+
+const MacroFolder& SmallJobsApi::macros() {
+  const std::string& folder = shared_.options.macro_folder;
+  const bool may_read = !has_read_macros_ || !shared_.session.busy();
+  if (!folder.empty() && may_read) macros_ = read_macro_folder(folder);
+  has_read_macros_ = true;
+  return macros_;
+}
+
+WebAnswer SmallJobsApi::list_macros(const ApiCall&) {
+  Json list = Json::array();
+  for (const Macro& one : macros().macros) list.push_back(as_json(one));
+  return json_answer(200, {{"macros", std::move(list)}, {"findings", as_json(macros_.findings)}});
+}
+
+WebAnswer SmallJobsApi::run_macro(const ApiCall& call) {
+  Json body = call.members();
+  const auto name = take_text(body, "name");
+  if (!name) return bad_body("expected {\"name\": …, \"values\": {…}}");
+  const auto values = macro_values(body.value("values", Json::object()));
+  body.erase("values");
+  if (!values || !body.empty()) return bad_body("values: expected an object with a number for each value");
+  jobs_.step_aside();
+  if (auto refused = refuse()) return std::move(*refused);
+  const auto& all = macros().macros;
+  const auto macro = std::ranges::find(all, *name, &Macro::name);
+  if (macro == all.end()) return error_answer(404, "macro.none", "there is no macro of this name");
+  auto text = macro_program(*macro, *values);
+  if (!text) return error_answer(409, text.error().code, text.error());
+  return run("macro " + macro->name, std::move(*text));
 }
 
 WebAnswer SmallJobsApi::run(std::string name, std::string text) {

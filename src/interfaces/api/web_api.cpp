@@ -72,6 +72,7 @@ class WebApi::Parts {
                                                                                                              programs,
                                                                                                              offsets} {
     programs.judge_paths(options.path_judge);
+    if (!options.macro_folder.empty()) programs.set_sub_folders({options.macro_folder});
     mdi.begin_anew();
     if (BoardMachineSession* const own = session.as_board_session()) {
       own->board().sent_segments().keep(machine.board.clock);

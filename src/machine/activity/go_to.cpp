@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "passo/interpreter/saved_offsets.hpp"
 #include "small_program.hpp"
+
+#include "passo/interpreter/saved_offsets.hpp"
 
 namespace passo {
 namespace {

@@ -23,8 +23,8 @@ const AxisDescription* axis_in(const MachineDescription& machine, Axis axis) {
 
 std::optional<Sentence> outside_travel(const MachineDescription& machine, Axis axis, double place) {
   constexpr double rounding = 1e-6;  // mm
-  constexpr SentenceRow outside{"goto.outside",
-                                "{axis} would go to {place} in machine coordinates, outside its travel of {low} to {high}"};
+  constexpr SentenceRow outside{
+      "goto.outside", "{axis} would go to {place} in machine coordinates, outside its travel of {low} to {high}"};
   const AxisDescription* const found = axis_in(machine, axis);
   if (found == nullptr || (place >= found->travel_low - rounding && place <= found->travel_high + rounding)) return {};
   return outside.with({{"axis", std::string(1, letter_of(axis))},
@@ -36,7 +36,8 @@ std::optional<Sentence> outside_travel(const MachineDescription& machine, Axis a
 std::string comment_of(std::string_view text) {
   constexpr std::size_t longest = 120;
   std::string comment(text.substr(0, longest));
-  std::ranges::replace_if(comment, [](char c) { return c < ' ' || c > '~' || c == '(' || c == ')' || c == '%'; }, '_');
+  std::ranges::replace_if(
+      comment, [](char c) { return c < ' ' || c > '~' || c == '(' || c == ')' || c == '%'; }, '_');
   return comment;
 }
 

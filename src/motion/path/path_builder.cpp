@@ -74,7 +74,8 @@ bool PathBuilder::next(PathItem& item) {
     held_.pop_front();
     return true;
   }
-  bool has_item = next_chord(item) || next_spline_piece(item) || next_probe_step(item) || next_tap_step(item) || next_end_step(item);
+  bool has_item = next_chord(item) || next_spline_piece(item) || next_probe_step(item) || next_tap_step(item) ||
+                  next_end_step(item);
   while (!has_item && next_operation()) has_item = add(operation_, item);
   if (!has_item && !options_.open_ended) switch_off();
   // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
@@ -224,8 +225,7 @@ bool PathBuilder::next_end_step(PathItem& item) {
   }
   if (end_step_ != EndStep::end) return false;
   end_step_ = EndStep::none;
-  item = Action{
-      .kind = Action::Kind::program_end, .outputs = outputs(), .heeds = heeds(), .source = operation_.source};
+  item = Action{.kind = Action::Kind::program_end, .outputs = outputs(), .heeds = heeds(), .source = operation_.source};
   return true;
 }
 

@@ -82,6 +82,7 @@ export const faults = {
   'framing.unchecked': 'the program has not been checked from here, or has errors: check it first',
   'framing.no-zero': 'the work zero is not set, so the job lies at machine zero: set the work zero first',
   'goto.place-unknown': 'the machine position is unknown: home the machine, or confirm its position',
+  'macro.none': 'there is no macro of this name',
   'waits.own-zero': 'the program has set a zero or a tool offset itself, which overrides what you have just set: stop the program, then restart it from a line of your choice',
   'waits.other-zero': 'the program uses {system}, but another work zero was changed: set {system}, or restore the other one',
   'programs.no-room': 'there are too many programs: delete some first',

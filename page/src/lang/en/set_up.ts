@@ -28,9 +28,9 @@ export const set_up = {
   // Going to places, framing, questions with values
   'goto.title': 'Go to',
   'goto.zero': 'Work zero',
-  'goto.park': 'Park position',
-  'goto.g28': 'Home G28',
-  'goto.g30': 'Home G30',
+  'goto.park': 'Park',
+  'goto.g28': 'G28',
+  'goto.g30': 'G30',
   'goto.ask': 'Go to: {place}?',
   'goto.facts': 'Z first rises to {top} (machine coordinates). Then the other axes move at rapid speed.',
   'goto.facts.home': 'At the end, Z moves to the stored height.',
@@ -51,6 +51,11 @@ export const set_up = {
   'framing.feed': 'Feed rate',
   'ask.range': '{low} to {high}',
   'ask.wrong': '{name}: {range}',
+  // Macros
+  'macro.title': 'Macros',
+  'macro.ask': 'Run the macro {title}?',
+  'macro.facts': 'It is checked first, and runs like a program. Keep clear of the machine.',
+  'macro.run': 'Run',
   // Probing
   'probe.title': 'Probing',
   'probe.which': 'Probing cycle',

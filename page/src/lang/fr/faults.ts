@@ -84,6 +84,7 @@ export const faults: Same<typeof en> = {
   'framing.unchecked': 'le programme n’a pas été vérifié d’ici, ou a des erreurs : vérifiez-le d’abord',
   'framing.no-zero': 'l’origine pièce n’est pas définie, l’usinage part du zéro machine : définissez-la d’abord',
   'goto.place-unknown': 'la position de la machine est inconnue : faites la prise d’origine, ou confirmez la position',
+  'macro.none': 'il n’y a pas de macro de ce nom',
   'waits.own-zero': 'le programme a lui-même défini une origine ou un correcteur d’outil, qui l’emporte sur ce que vous venez de définir : arrêtez le programme, puis redémarrez-le à une ligne de votre choix',
   'waits.other-zero': 'le programme utilise {system}, mais une autre origine pièce a été modifiée : définissez {system}, ou rétablissez l’autre',
   'programs.no-room': 'il y a trop de programmes : supprimez-en quelques-uns d’abord',

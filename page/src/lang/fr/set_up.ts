@@ -31,9 +31,9 @@ export const set_up: Same<typeof en> = {
   // Going to places, framing, questions with values
   'goto.title': 'Aller à',
   'goto.zero': 'Origine pièce',
-  'goto.park': 'Position de parcage',
-  'goto.g28': 'Retrait G28',
-  'goto.g30': 'Retrait G30',
+  'goto.park': 'Parcage',
+  'goto.g28': 'G28',
+  'goto.g30': 'G30',
   'goto.ask': 'Aller à : {place} ?',
   'goto.facts': 'Z monte d’abord à {top} (coordonnées machine). Puis les autres axes se déplacent en rapide.',
   'goto.facts.home': 'À la fin, Z va à la hauteur mémorisée.',
@@ -54,6 +54,11 @@ export const set_up: Same<typeof en> = {
   'framing.feed': 'Avance',
   'ask.range': '{low} à {high}',
   'ask.wrong': '{name} : {range}',
+  // Macros
+  'macro.title': 'Macros',
+  'macro.ask': 'Exécuter la macro {title} ?',
+  'macro.facts': 'Elle est d’abord vérifiée, puis exécutée comme un programme. Restez à l’écart de la machine.',
+  'macro.run': 'Exécuter',
   // Probing
   'probe.title': 'Palpage',
   'probe.which': 'Cycle de palpage',

@@ -84,6 +84,7 @@ export const faults: Same<typeof en> = {
   'framing.unchecked': 'il programma non è stato verificato da qui, o ha errori: verificalo prima',
   'framing.no-zero': 'lo zero pezzo non è impostato, il lavoro parte dallo zero macchina: impostalo prima',
   'goto.place-unknown': 'la posizione della macchina è sconosciuta: esegui l’azzeramento assi, o conferma la posizione',
+  'macro.none': 'non c’è una macro con questo nome',
   'waits.own-zero': 'il programma ha impostato da sé uno zero o una correzione utensile, che prevale su quanto hai appena impostato: ferma il programma, poi riavvialo da una riga a tua scelta',
   'waits.other-zero': 'il programma usa {system}, ma è stato cambiato un altro zero pezzo: imposta {system}, o ripristina l’altro',
   'programs.no-room': 'ci sono troppi programmi: prima eliminane alcuni',

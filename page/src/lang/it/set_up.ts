@@ -31,9 +31,9 @@ export const set_up: Same<typeof en> = {
   // Going to places, framing, questions with values
   'goto.title': 'Vai a',
   'goto.zero': 'Zero pezzo',
-  'goto.park': 'Posizione di parcheggio',
-  'goto.g28': 'Riferimento G28',
-  'goto.g30': 'Riferimento G30',
+  'goto.park': 'Parcheggio',
+  'goto.g28': 'G28',
+  'goto.g30': 'G30',
   'goto.ask': 'Andare a: {place}?',
   'goto.facts': 'Prima Z sale a {top} (coordinate macchina). Poi gli altri assi si muovono in rapido.',
   'goto.facts.home': 'Alla fine Z va all’altezza memorizzata.',
@@ -54,6 +54,11 @@ export const set_up: Same<typeof en> = {
   'framing.feed': 'Avanzamento',
   'ask.range': 'da {low} a {high}',
   'ask.wrong': '{name}: {range}',
+  // Macros
+  'macro.title': 'Macro',
+  'macro.ask': 'Eseguire la macro {title}?',
+  'macro.facts': 'Prima viene verificata, poi eseguita come un programma. Tieniti lontano dalla macchina.',
+  'macro.run': 'Esegui',
   // Probing
   'probe.title': 'Tastatura',
   'probe.which': 'Ciclo di tastatura',

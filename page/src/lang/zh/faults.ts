@@ -84,6 +84,7 @@ export const faults: Same<typeof en> = {
   'framing.unchecked': '程序尚未从此处检查，或有错误：请先检查',
   'framing.no-zero': '尚未设置工件零点，加工位于机床零点：请先设置工件零点',
   'goto.place-unknown': '机床位置未知：请先回零，或确认位置',
+  'macro.none': '没有该名称的宏',
   'waits.own-zero': '程序自行设定过零点或刀具偏置，会覆盖您刚才的设定：请停止程序，再从您选择的行启动',
   'waits.other-zero': '程序使用 {system}，而改动的是另一个工件零点：请设定 {system}，或恢复另一个零点',
   'programs.no-room': '程序太多：请先删除一些',

@@ -31,9 +31,9 @@ export const set_up: Same<typeof en> = {
   // Going to places, framing, questions with values
   'goto.title': '移到',
   'goto.zero': '工件零点',
-  'goto.park': '停放位置',
-  'goto.g28': 'G28 参考点',
-  'goto.g30': 'G30 参考点',
+  'goto.park': '停放',
+  'goto.g28': 'G28',
+  'goto.g30': 'G30',
   'goto.ask': '移到：{place}？',
   'goto.facts': 'Z 先升到 {top}（机床坐标），然后其他轴以快移速度移动。',
   'goto.facts.home': '最后 Z 移到已存储的高度。',
@@ -54,6 +54,11 @@ export const set_up: Same<typeof en> = {
   'framing.feed': '进给速度',
   'ask.range': '{low} 至 {high}',
   'ask.wrong': '{name}：{range}',
+  // Macros
+  'macro.title': '宏',
+  'macro.ask': '运行宏 {title}？',
+  'macro.facts': '先检查，然后像程序一样运行。请远离机床。',
+  'macro.run': '运行',
   // Probing
   'probe.title': '探测',
   'probe.which': '探测循环',

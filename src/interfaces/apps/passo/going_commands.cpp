@@ -67,16 +67,17 @@ int frame(const FrameArguments& arguments) {
   JobOutline outline;
   Diagnostics findings;
   const std::string name = program->name();
-  const ProgramCheck check =
-      check_program(std::move(*program), *machine, *options, findings, [&](const PathItem& item) { outline.add(item); });
+  const ProgramCheck check = check_program(std::move(*program), *machine, *options, findings,
+                                           [&](const PathItem& item) { outline.add(item); });
   if (!check.good) {
     show(findings);
     return exit_bad_program;
   }
   if (!arguments.machine_zero && !outline.empty() && outline.work_zero() == Point()) {
     return fail(Sentence{.code = "framing.no-zero",
-                         .text = "the work zero is not set, so the job lies at machine zero: give the parameter file with "
-                                 "--parameters, or accept this with --machine-zero"});
+                         .text =
+                             "the work zero is not set, so the job lies at machine zero: give the parameter file with "
+                             "--parameters, or accept this with --machine-zero"});
   }
   const auto text = framing_program(outline, arguments.framing, *machine, name);
   return text ? write_text(arguments.output, *text) : fail(text.error());

@@ -52,8 +52,7 @@ TEST(ParkFile, is_refused_where_the_machine_cannot_go) {
   EXPECT_EQ(first_code(with_z + "[park]\nplace_mm = [10, 201]\n"), "machine.park");
   EXPECT_EQ(first_code(with_z + "[park]\nplace_mm = [-151, 0]\n"), "machine.park");
   EXPECT_EQ(first_code(sound_machine + "[park]\nplace_mm = [10, 10]\n"), "machine.park") << "without Y";
-  EXPECT_EQ(first_code(with_plane + "[park]\nplace_mm = [10, 10]\nat_end = \"park\"\n"), "machine.park")
-      << "without Z";
+  EXPECT_EQ(first_code(with_plane + "[park]\nplace_mm = [10, 10]\nat_end = \"park\"\n"), "machine.park") << "without Z";
   EXPECT_EQ(first_code(with_z + "[park]\nat_end = \"park\"\n"), "machine.park") << "without a place";
   EXPECT_EQ(first_code(with_z + "[park]\nat_end = \"home\"\n"), "machine.park");
   EXPECT_EQ(first_code(with_z + "[park]\nplace_mm = 10\n"), "machine.wrong-type");

@@ -84,6 +84,8 @@ class ProgramStore {
   // Begins to check a program from this start position. Only one check runs at a time; a new one replaces it. A program
   // that was already found error-free from this position is not checked again, unless its path was dropped.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
+  // Sets the folders with subroutine files for all programs.
+  void set_sub_folders(std::vector<std::string> folders) { sub_folders_ = std::move(folders); }
   // Sets a function that returns a judge for each check. Null: the board can execute every path.
   void judge_paths(std::function<PathJudge()> new_judge) { new_judge_ = std::move(new_judge); }
   bool checks() const { return checker_ != nullptr; }
@@ -117,6 +119,7 @@ class ProgramStore {
   std::uint64_t last_id_ = 0;
   SavedParameters parameters_;
   ToolTable tools_;
+  std::vector<std::string> sub_folders_;
   std::uint64_t checked_ = 0;  // the program being checked
   std::unique_ptr<ProgramChecker> checker_;
   std::function<PathJudge()> new_judge_;

@@ -23,7 +23,7 @@ namespace passo {
 struct Framing {
   static constexpr double usual_feed = 2000;
 
-  bool hull = false;  // the convex hull; otherwise the rectangle of the extents
+  bool hull = false;                     // the convex hull; otherwise the rectangle of the extents
   std::optional<double> height = {};     // work Z of the moves around the job; empty: the clearance height
   std::optional<double> clearance = {};  // work Z of the moves there and back; empty: the highest Z of the job
   std::optional<double> feed = {};       // empty: usual_feed
