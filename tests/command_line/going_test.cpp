@@ -35,6 +35,9 @@ TEST_F(Going, frames_a_job_and_runs_the_frame_without_a_warning) {
   const Outcome ran = passo("run " + path("frame.ngc") + on_router + " --json");
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
+  const Outcome on_grbl = passo("check " + path("frame.ngc") + on_router + "--board grbl");
+  EXPECT_EQ(on_grbl.code, 0) << on_grbl.err;
+  EXPECT_EQ(on_grbl.err, "");
   const auto axes = nlohmann::json::parse(ran.out)["axes"];
   EXPECT_NEAR(axes[0]["position_mm"].get<double>(), 30, 0.01) << axes;
   EXPECT_NEAR(axes[2]["position_mm"].get<double>(), -25, 0.01) << axes;

@@ -97,7 +97,7 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   EXPECT_GE(seen.size(), 49U);
 
   for (const char* source :
-       {"machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
+       {"machine/machine_file/board_reader", "machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
         "machine/machine_file/machine_reader", "machine/machine_file/homing_reader", "machine/machine_file/pins_reader",
         "machine/machine_file/park_reader", "machine/machine_file/screw_reader", "machine/machine_file/torque_reader",
         "core/toml/table_reader", "core/toml/toml_document"}) {
