@@ -78,6 +78,23 @@ TEST_F(Going, goes_to_homes_and_the_work_zero_of_a_parameter_file) {
   EXPECT_THAT(zero.out, HasSubstr("G53 G0 Z59.0000\nG53 G0 X3.0000 Y4.0000\n%\n"));
 }
 
+TEST_F(Going, makes_a_program_of_a_macro) {
+  const std::string macro = write("face.ngc",
+                                  "; title = \"Face\"\n; [value.width]\n; least = 1\n; most = 400\n; default = 100\n"
+                                  "G21 G91 G0 X#<width>\n");
+  const Outcome made = passo("macro " + macro + " width=120 -o " + path("out.ngc"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Outcome ran = passo("run " + path("out.ngc") + on_router + " --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  EXPECT_NEAR(nlohmann::json::parse(ran.out)["axes"][0]["position_mm"].get<double>(), 120, 0.01);
+  EXPECT_THAT(passo("macro " + macro).out, HasSubstr("#<width> = 100.000000\n"));
+  for (const char* wrong : {"width=401", "width=", "width=1x", "depth=1", "=1"}) {
+    EXPECT_EQ(passo("macro " + macro + " " + wrong).code, 2) << wrong;
+  }
+  EXPECT_EQ(passo("macro " + write("plain.ngc", "G0 X1\nM2\n")).code, 2);
+}
+
 TEST_F(Going, leaves_the_tool_parked_at_the_end_if_the_machine_file_says_so) {
   const auto place = [&](const std::string& more, const std::string& text) {
     const Outcome ran = passo("run " + write("end.ngc", text) + " -m " + parking_router(more) + " --json");

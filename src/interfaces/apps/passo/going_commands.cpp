@@ -1,5 +1,9 @@
-// passo frame and passo go.
+// passo frame, passo go and passo macro.
 #include "going_commands.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
 
 #include "cam_job.hpp"
 #include "named_files.hpp"
@@ -7,7 +11,9 @@
 #include <fmt/format.h>
 
 #include "passo/activity/program.hpp"
+#include "passo/diagnostics/file_bytes.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
+#include "passo/macro/macro.hpp"
 
 namespace passo {
 namespace {
@@ -47,6 +53,17 @@ Frame first_frame(const SavedParameters& parameters) {
   frame.follow({operation::SetWorkOffset{.offset = saved_point(parameters, work_offset_parameter(known))}, {}});
   frame.follow({operation::SetRotation{saved_value(parameters, rotation_parameter(known))}, {}});
   return frame;
+}
+
+// NAME=VALUE. Returns whether it is one.
+bool add_value(std::string_view text, MacroValues& values) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string_view::npos) return false;
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, value);
+  values[std::string(text.substr(0, equals))] = value;
+  return error == std::errc() && rest == end && std::isfinite(value);
 }
 
 }  // namespace
@@ -95,6 +112,29 @@ int go(const GoArguments& arguments) {
   if (!options) return exit_bad_program;
   const SavedParameters saved = parameters_in_mm(*options);
   const auto text = go_to_program(arguments.destination, *machine, saved, first_frame(saved));
+  return text ? write_text(arguments.output, *text) : fail(text.error());
+}
+
+int macro(const MacroArguments& arguments) {
+  NamedFiles files;
+  files.reads("the macro", arguments.macro);
+  files.writes("--output", arguments.output);
+  if (!files.are_apart()) return exit_bad_program;
+  MacroValues values;
+  for (const std::string& one : arguments.values) {
+    if (!add_value(one, values)) {
+      return fail(exit_bad_program, fmt::format("expected NAME=VALUE, e.g. width=100, not '{}' [macro.value]", one));
+    }
+  }
+  Diagnostics findings;
+  const auto bytes =
+      read_bytes(arguments.macro, {.area = "macro", .expected = "a macro", .most = Macro::longest}, findings);
+  const auto read =
+      bytes ? parse_macro(*bytes, std::filesystem::path(arguments.macro).stem().string(), arguments.macro, findings)
+            : std::nullopt;
+  show(findings);
+  if (!read) return exit_bad_program;
+  const auto text = macro_program(*read, values);
   return text ? write_text(arguments.output, *text) : fail(text.error());
 }
 

@@ -1,7 +1,8 @@
-// passo frame and passo go: small programs that frame a job, and that go to a known place.
+// passo frame, passo go and passo macro: small programs that frame a job, go to a known place, or do what a macro does.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 
@@ -31,7 +32,15 @@ struct GoArguments {
 };
 int go(const GoArguments& arguments);
 
+struct MacroArguments {
+  std::string macro;                // file
+  std::vector<std::string> values;  // NAME=VALUE
+  std::string output;               // empty: standard output
+};
+int macro(const MacroArguments& arguments);
+
 void add_frame_options(CLI::App& command, FrameArguments& arguments);
 void add_go_options(CLI::App& command, GoArguments& arguments);
+void add_macro_options(CLI::App& command, MacroArguments& arguments);
 
 }  // namespace passo

@@ -26,6 +26,16 @@ Examples:
 
 See docs/manual/running.md.)";
 
+constexpr const char* macro_examples =
+    R"(A macro is a program whose first lines are comments with its title and the values that it asks for.
+
+Examples:
+  passo macro face.ngc width=120 feed=900 | passo run - -m router.toml        make a program of a macro, and run it
+  passo macro face.ngc width=120 -o face-120.ngc                              values that are left out have their defaults
+  passo serve --macros FOLDER                                                 macros as buttons of the web interface
+
+See docs/manual/page.md.)";
+
 }  // namespace
 
 void add_frame_options(CLI::App& command, FrameArguments& arguments) {
@@ -59,6 +69,13 @@ void add_go_options(CLI::App& command, GoArguments& arguments) {
                    "file of numbered parameters (.var): work offsets, home positions");
     one.add_option("-o,--output", arguments.output, "file for the program (default: standard output)");
   }
+}
+
+void add_macro_options(CLI::App& command, MacroArguments& arguments) {
+  command.add_option("MACRO", arguments.macro, "file with the macro (.ngc)")->required();
+  command.add_option("VALUES", arguments.values, "NAME=VALUE for each value of the macro (default: its default)");
+  command.add_option("-o,--output", arguments.output, "file for the program (default: standard output)");
+  command.footer(macro_examples);
 }
 
 }  // namespace passo

@@ -117,6 +117,7 @@ const std::vector<Command>& all_commands() {
        options_of<FrameArguments, add_frame_options, frame>},
       {"go", "generate a program that goes to the park position, a home or the work zero, Z first",
        options_of<GoArguments, add_go_options, go>},
+      {"macro", "generate a program from a macro and its values", options_of<MacroArguments, add_macro_options, macro>},
       {"level", "apply a height map to a program, or show a height map",
        options_of<LevelArguments, add_level_options, level>},
       {"cam", "generate programs from drawings and pictures: parts, pockets, circuit boards, reliefs", nullptr,
