@@ -38,8 +38,7 @@ void add_side(Iterator first, Iterator last, std::vector<Spot>& corners) {
 
 std::vector<Spot> hull_of_spots(std::vector<Spot> spots) {
   std::ranges::sort(spots);
-  const auto same = std::ranges::unique(spots);
-  spots.erase(same.begin(), same.end());
+  spots.erase(std::unique(spots.begin(), spots.end()), spots.end());
   if (spots.size() < 2) return spots;
   std::vector<Spot> corners;
   add_side(spots.begin(), spots.end(), corners);
