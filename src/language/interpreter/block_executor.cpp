@@ -59,7 +59,7 @@ const std::array<BlockExecutor::GroupFunction, modal_group_count> BlockExecutor:
   does(spindle, own<&BlockExecutor::run_spindle_group>);
   does(coolant, of<&BlockExecutor::modes_, &ModeCodes::switch_coolant>);
   does(overrides, of<&BlockExecutor::modes_, &ModeCodes::switch_overrides>);
-  does(user, of<&BlockExecutor::input_output_, &InputOutputCodes::run_user_code>);
+  does(user, own<&BlockExecutor::run_user_code>);
   does(cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>);
   does(tool_length, of<&BlockExecutor::tools_, &ToolCodes::set_length>);
   does(work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>);
@@ -444,6 +444,10 @@ bool BlockExecutor::moves_straight() const {
   if (block_.motion == nullptr && !speaks_grbl()) return false;
   const CodeNumber number = block_.motion != nullptr ? block_.motion->number : state_.modal[motion];
   return number == code(0) || number == code(1);
+}
+
+bool BlockExecutor::run_user_code(CodeNumber number) {
+  return subprograms_.has_user_code(number) ? subprograms_.call_user_code(number) : input_output_.run_user_code(number);
 }
 
 bool BlockExecutor::run_non_modal(CodeNumber number) {

@@ -113,6 +113,7 @@ class BlockExecutor : private CodeFamily {
   bool set_spindle_speed();
   bool run_spindle_group(CodeNumber code);
   bool run_non_modal(CodeNumber code);
+  bool run_user_code(CodeNumber code);
   bool moves_straight() const;
   bool move(CodeNumber code);
   bool move_by(CodeNumber code);

@@ -182,6 +182,15 @@ std::string describe_tool_change(const ToolChangePlan& plan) {
   return line + "\n";
 }
 
+std::string describe_park(const ParkDescription& park) {
+  if (!park.place && park.at_end == ParkDescription::AtEnd::stay) return "";
+  std::string line = "park            ";
+  line += park.place ? fmt::format("X {:g} Y {:g} (machine)", (*park.place)[Axis::x], (*park.place)[Axis::y])
+                     : std::string("no position");
+  constexpr const char* ends[] = {"stay where they are", "raise the tool", "park the tool"};
+  return line + fmt::format("; programs that end {}\n", ends[static_cast<std::size_t>(park.at_end)]);
+}
+
 }  // namespace
 
 std::string describe(const MachineDescription& machine) {
@@ -197,6 +206,7 @@ std::string describe(const MachineDescription& machine) {
   out += describe_pins(machine.pins);
   out += describe_homing(machine);
   if (machine.tool_change) out += describe_tool_change(*machine.tool_change);
+  out += describe_park(machine.park);
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) {
     out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor) +
            describe_alarm(machine.axes[motor]);
