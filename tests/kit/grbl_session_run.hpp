@@ -20,7 +20,8 @@ class StrictGrblPort final : public GrblPort {
   explicit StrictGrblPort(StrictGrbl& grbl) : grbl_(grbl) {}
 
   bool unplugged = false;
-  std::string sent;  // all bytes
+  bool is_usb = false;  // it is seen when it is plugged in again
+  std::string sent;     // all bytes
 
   Seconds now() const override { return now_; }
   void send(std::string_view bytes) override {
@@ -36,6 +37,7 @@ class StrictGrblPort final : public GrblPort {
     return unplugged ? std::string() : came;
   }
   bool is_broken() const override { return broken_; }
+  bool has_returned() override { return is_usb && !unplugged; }
   bool open_again() override {
     broken_ = unplugged;
     return !unplugged;

@@ -230,6 +230,31 @@ SerialPortList list_serial_ports(const std::string& root) {
   return list;
 }
 
+const SerialPort* find_serial_port(const SerialPortList& list, const std::string& device) {
+  std::error_code none;
+  const fs::path real = fs::weakly_canonical(device, none);
+  const auto found = std::find_if(list.ports.begin(), list.ports.end(), [&](const SerialPort& one) {
+    return one.device == device || one.lasting_name == device || (!none && real == one.device);
+  });
+  return found == list.ports.end() ? nullptr : &*found;
+}
+
+const SerialPort* find_returned_port(const SerialPortList& list, const SerialPort& before) {
+  const SerialPort* found = nullptr;
+  bool is_one_of_several = false;
+  for (const SerialPort& one : list.ports) {
+    const bool is_alike = one.vendor == before.vendor && one.product == before.product &&
+                          one.serial_number == before.serial_number && one.product_name == before.product_name &&
+                          one.manufacturer == before.manufacturer;
+    if (!is_alike) continue;
+    if (one.device == before.device) return &one;
+    if (!one.users.empty()) continue;
+    is_one_of_several = found != nullptr;
+    found = &one;
+  }
+  return is_one_of_several ? nullptr : found;
+}
+
 std::string describe_users(const SerialPort& port) {
   std::string words;
   for (const PortUser& user : port.users) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -70,7 +71,8 @@ std::string range_words(const FirmwareSetting& setting) {
 
 Failure<std::string> wrong(const FirmwareSetting& setting, std::string_view value, const std::string& expected) {
   const std::string title = setting.title.empty() ? "" : fmt::format(" ({})", setting.title);
-  return Failure{fmt::format("{}={}: {}{} is {}", setting.name, value, setting.name, title, expected)};
+  return Failure{
+      fmt::format("{}={}: {}{} is {}", setting.name, shown_value(setting, value), setting.name, title, expected)};
 }
 
 // The highest value of a sum of bits; nothing if their number is not known.
@@ -96,6 +98,18 @@ std::optional<int> read_setting_number(std::string_view name) {
   const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
   if (error != std::errc() || end != name.data() + name.size() || number < 0) return {};
   return number;
+}
+
+bool names_password(std::string_view name) {
+  std::string lower(name);
+  for (char& letter : lower) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return lower.find("password") != std::string::npos || lower.ends_with("/psk") || lower.ends_with("/token");
+}
+
+// Always as many asterisks, which do not tell the length.
+std::string shown_value(const FirmwareSetting& setting, std::string_view value) {
+  const bool is_hidden = setting.kind == Kind::password && !value.empty();
+  return is_hidden ? "********" : std::string(value);
 }
 
 void SettingDescriptions::hear(std::string_view line) {
@@ -194,7 +208,12 @@ std::string settings_text(const GrblMachine& machine, std::span<const FirmwareSe
   if (machine.firmware != "Grbl") text += fmt::format("[FIRMWARE:{}]\n", machine.firmware);
   if (!machine.kinematics.empty()) text += fmt::format("[KINEMATICS:{}]\n", machine.kinematics);
   text += fmt::format("[AXS:{}:{}]\n", machine.axes.size(), machine.axes);
-  for (const FirmwareSetting& setting : settings) text += fmt::format("{}={}\n", setting.name, setting.value);
+  const bool hides = std::ranges::any_of(
+      settings, [](const FirmwareSetting& one) { return one.kind == Kind::password && !one.value.empty(); });
+  if (hides) text += "; passwords are not saved: write those with asterisks again after a restore\n";
+  for (const FirmwareSetting& setting : settings) {
+    text += fmt::format("{}={}\n", setting.name, shown_value(setting, setting.value));
+  }
   return text;
 }
 

@@ -67,7 +67,7 @@ void FirmwareSettings::take(const GrblAnswer& answer) {
     case Stage::idle: return;
     case Stage::writing:
       if (answer.error.empty()) return ask_for_settings(Stage::reading_back);
-      end_change(fmt::format("the board rejects {}: {}", answer.line, answer.error));
+      end_change(fmt::format("the board rejects {}={}: {}", wanted_.front().name, shown_of_wanted(), answer.error));
       return begin_next();
     case Stage::undoing: return ask_for_settings(Stage::reading_old);
     case Stage::saving:
@@ -96,8 +96,12 @@ void FirmwareSettings::take_settings(const GrblAnswer& answer) {
     if (!line.starts_with('$') || equals == std::string::npos || equals < 2) continue;
     FirmwareSetting setting{.name = line.substr(0, equals), .value = line.substr(equals + 1)};
     if (!descriptions_.describe(setting, machine.axes)) describe_by_table(setting, machine.axes);
-    // FluidNC stores the content of reports; the other numbers show what its YAML file says.
-    setting.read_only = is_yaml && setting.name != "$10";
+    if (setting.kind == FirmwareSetting::Kind::unknown && names_password(setting.name)) {
+      setting.kind = FirmwareSetting::Kind::password;
+    }
+    setting.value = shown_value(setting, setting.value);
+    // FluidNC stores the content of reports, and settings with names; the other numbers show what its YAML file says.
+    setting.read_only = is_yaml && setting.name != "$10" && read_setting_number(setting.name);
     settings_.push_back(std::move(setting));
   }
 }
@@ -108,7 +112,7 @@ void FirmwareSettings::take_read_back() {
   change.after = now == nullptr ? "" : now->value;
   if (stage_ == Stage::reading_old) {
     const bool is_old = is_same_value(change.after, change.before);
-    end_change(fmt::format("the board has made another value of {}={}; {} is {} {}", change.name, change.wanted,
+    end_change(fmt::format("the board has made another value of {}={}; {} is {} {}", change.name, shown_of_wanted(),
                            change.name, change.after,
                            is_old ? "again" : "now, and the old value could not be restored"));
     return begin_next();
@@ -130,8 +134,19 @@ void FirmwareSettings::take_read_back() {
   begin_next();
 }
 
+// The wanted value for people.
+std::string FirmwareSettings::shown_of_wanted() const {
+  const SettingChange& change = wanted_.front();
+  FirmwareSetting setting{.name = change.name, .value = {}};
+  if (const FirmwareSetting* const known = find(change.name)) setting = *known;
+  if (names_password(change.name)) setting.kind = FirmwareSetting::Kind::password;
+  return shown_value(setting, change.wanted);
+}
+
 void FirmwareSettings::end_change(std::string trouble) {
+  std::string shown = shown_of_wanted();
   SettingChange change = std::move(wanted_.front());
+  change.wanted = std::move(shown);
   wanted_.pop_front();
   if (!trouble.empty() && change.after.empty()) change.after = change.before;
   change.trouble = std::move(trouble);

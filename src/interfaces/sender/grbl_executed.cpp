@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "passo/geometry/euclid.hpp"
 
@@ -12,13 +13,34 @@ namespace {
 constexpr double reported_within = 0.03;  // mm
 constexpr int samples = 16;
 
-double distance_to_line(const Point& from, const Point& to, const Point& place) {
+// Where the line from one point to the other is nearest to a place, as a share of the line.
+double share_of_line(const Point& from, const Point& to, const Point& place) {
   const Point way = to - from;
   const double length = length_of(way);
-  if (!(length > 0)) return distance(from, place);
+  if (!(length > 0)) return 1;
   double along = 0;
   for (const Axis axis : all_axes) along += way[axis] / length * (place[axis] - from[axis]);
-  return distance(from + way * (std::clamp(along, 0.0, length) / length), place);
+  return std::clamp(along, 0.0, length) / length;
+}
+
+double distance_to_line(const Point& from, const Point& to, const Point& place) {
+  return distance(from + (to - from) * share_of_line(from, to, place), place);
+}
+
+// The share of a curve at the point that is nearest to a place.
+double share_along(const Curve& curve, const Point& place) {
+  if (curve.shape() == Curve::Shape::line) return share_of_line(curve.start(), curve.end(), place);
+  double nearest = std::numeric_limits<double>::infinity();
+  double share = 0;
+  Point from = curve.start();
+  for (int i = 0; i < samples; ++i) {
+    const Point to = curve.at(curve.length() * (static_cast<double>(i + 1) / samples));
+    const double away = distance_to_line(from, to, place);
+    if (away < nearest) share = (i + share_of_line(from, to, place)) / samples;
+    nearest = std::min(nearest, away);
+    from = to;
+  }
+  return share;
 }
 
 // Chords of a curved piece leave it by this much.
@@ -43,13 +65,34 @@ double grbl_distance(const Curve& curve, const Point& place) {
 }
 
 void GrblExecuted::add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines) {
-  pieces_.push_back({.curve = curve, .source = source, .time = time, .lines = lines});
+  pieces_.push_back({.curve = curve, .source = source, .time = time, .dwell = dwell_, .lines = lines});
+  dwell_ = Seconds(0);
 }
 
 void GrblExecuted::pass() {
   now_ = pieces_.front().source;
-  time_ += pieces_.front().time;
+  time_ += pieces_.front().dwell + pieces_.front().time;
   pieces_.pop_front();
+  share_ = 0;
+}
+
+// The machine does not go back on a piece.
+void GrblExecuted::take_share(const Point& place) {
+  share_ = std::max(share_, share_along(pieces_.front().curve, place));
+}
+
+Seconds GrblExecuted::time(std::optional<Seconds> dwell_left) const {
+  if (pieces_.empty()) return time_;
+  const Piece& first = pieces_.front();
+  const Seconds time = time_ + (has_begun() ? first.dwell + first.time * share_ : Seconds(0));
+  if (!dwell_left) return time;
+  const Seconds after = pieces_.size() > 1 ? pieces_[1].dwell : dwell_;
+  const Seconds dwell = has_begun() ? after : first.dwell;
+  return time + std::max(Seconds(0), dwell - *dwell_left);
+}
+
+bool GrblExecuted::has_begun() const {
+  return share_ * pieces_.front().curve.length().value() > reported_within;
 }
 
 void GrblExecuted::hear(std::uint64_t answered, std::size_t blocks, const Point& place) {
@@ -63,6 +106,7 @@ void GrblExecuted::hear(std::uint64_t answered, std::size_t blocks, const Point&
     if (grbl_distance(pieces_[i].curve, place) > reach_of(pieces_[i].curve)) continue;
     for (std::size_t passed = 0; passed < i; ++passed) pass();
     now_ = pieces_.front().source;
+    take_share(place);
     held -= i;
     break;
   }
@@ -71,6 +115,7 @@ void GrblExecuted::hear(std::uint64_t answered, std::size_t blocks, const Point&
 
 void GrblExecuted::finish() {
   while (!pieces_.empty()) pass();
+  time_ += std::exchange(dwell_, Seconds(0));
   last_line_ = now_.line;
 }
 

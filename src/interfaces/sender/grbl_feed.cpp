@@ -30,8 +30,8 @@ GrblFeed::GrblFeed(Source<PathItem>& path, StoredResults& answers, const GrblTar
       waits_at_optional_(waits_at_optional) {}
 
 void GrblFeed::begin_at(const ResumePoint& point, const std::vector<PathItem>& lead_in) {
-  for (const PathItem& item : lead_in) write(item);
   from_ = point;
+  for (const PathItem& item : lead_in) write(item);
 }
 
 std::optional<GrblFeed::Line> GrblFeed::next() {
@@ -84,10 +84,10 @@ bool GrblFeed::reaches(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->source.line != from_->line) return false;
   if (grbl_distance(segment->curve, from_->point) > same_place + segment->tolerance.value()) return false;
-  from_.reset();
   Segment to_start = *segment;
   to_start.curve = Curve::line(segment->curve.end(), segment->curve.start());
   write(to_start);
+  from_.reset();
   return true;
 }
 
@@ -181,7 +181,7 @@ GrblProgramPath::GrblProgramPath(ProgramReader program, const MachineDescription
                                  std::vector<ProbeOutcome> known_probes)
     : answers_(results_, std::move(known_probes)),
       path_options_(path_options(machine, program.name(), options.start)),
-      interpreter_(std::move(program), options, diagnostics, answers_),
+      interpreter_(std::move(program), on_machine(machine, options), diagnostics, answers_),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics, answers_),
       until_error_(builder_, diagnostics) {

@@ -20,6 +20,7 @@ constexpr std::size_t most_kept_changes = 4096;
 constexpr std::uint64_t items_of_a_turn = 2000;
 // How long a lost connection is looked for before it is a fault.
 constexpr Seconds longest_reopening{10};
+constexpr Seconds between_looks_for_device{0.5};
 constexpr double same_report = 2e-3;  // mm: reports have three decimals
 
 // Inputs as bits of BoardInput: a board reports letters.
@@ -108,7 +109,7 @@ void GrblMachineSession::poll(Seconds most) {
   }
   if (state_ == MachineState::fault) {
     static_cast<void>(port_.receive(std::isfinite(most.value()) ? most : between_looks));
-    return;
+    return look_for_device();
   }
   exchange(busy() ? std::min(most, between_looks) : most);
   hear_report();
@@ -117,6 +118,17 @@ void GrblMachineSession::poll(Seconds most) {
   if (state_ == MachineState::check) return poll_check();
   if (busy()) return poll_work();
   poll_idle();
+}
+
+// A device that was unplugged is opened when it has returned. What it was doing is not continued, and its place stays
+// lost until somebody homes it or vouches for it.
+void GrblMachineSession::look_for_device() {
+  if (!port_.is_broken() || now() < recovery_.next_look) return;
+  recovery_.next_look = now() + between_looks_for_device;
+  if (!port_.has_returned() || !port_.open_again()) return;
+  trouble_ = {};
+  connect_again(false);
+  move_to(MachineEvent::reset);
 }
 
 void GrblMachineSession::hear(std::string_view line) {
@@ -192,15 +204,20 @@ void GrblMachineSession::go_online() {
   position_.place = *place;
   live_.rest_at(*place);
   // A board that is locked at its start, or in an alarm, does not know where it is.
-  if (locked_ || loses_place_) {
-    position_.trust = Trust::unknown;
-    position_.is_lost = true;
+  if (locked_ || recovery_.lacks_place) {
+    lose_place();
   } else if (position_.trust == Trust::unknown) {
     position_.trust = Trust::commanded;
     position_.is_lost = false;
   }
   overrides_ = {};
   move_to(MachineEvent::ready);
+}
+
+void GrblMachineSession::lose_place() {
+  position_.trust = Trust::unknown;
+  position_.is_lost = true;
+  recovery_.homed = {};
 }
 
 // In an alarm that is over, e.g. after the start of a machine with switches.
@@ -300,6 +317,15 @@ std::optional<MachineSession::ProgramResults> GrblMachineSession::program_result
   return ProgramResults{.parameters = work_->program->saved_parameters(), .tools = work_->program->tools()};
 }
 
+// As the board reports it. From two positions it would be inexact, because a report is late by an unknown time.
+MmPerSecond GrblMachineSession::speed_now() const {
+  if (state_ == MachineState::alarm || state_ == MachineState::fault) return MmPerSecond(0);
+  const auto& report = sender_.report();
+  if (!report || !report->feed) return live_.speed();
+  constexpr double mm_per_inch = 25.4;
+  return MmPerSecond(*report->feed * (sender_.machine().in_inches() ? mm_per_inch : 1) / seconds_per_minute);
+}
+
 MachineStatus GrblMachineSession::status() const {
   MachineStatus status;
   status.version = news_.version;
@@ -308,7 +334,7 @@ MachineStatus GrblMachineSession::status() const {
   status.position = position_;
   status.lost_place = lost_place().has_value();
   status.now_at = live_.at();
-  status.speed_now = live_.speed();
+  status.speed_now = speed_now();
   status.ahead = position_.place;
   status.inputs = inputs_of(heard_.pins);
   status.overrides = overrides_;
@@ -328,8 +354,7 @@ MachineStatus GrblMachineSession::status() const {
     status.executes = work.progress.executed.source();
     status.executes.to = work.progress.executed.last_line();
     if (work.start && work.start->nominal_time > Seconds(0)) {
-      status.progress =
-          std::min(1.0, (work.progress.skipped + work.progress.executed.time()) / work.start->nominal_time);
+      status.progress = std::min(1.0, work.progress.time() / work.start->nominal_time);
     }
     if (waits && work.feed->asks() == GrblFeed::Asks::operator_stop) {
       const Action& stop = work.feed->stop();

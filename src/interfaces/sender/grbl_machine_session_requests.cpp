@@ -40,13 +40,14 @@ MachineAbilities GrblMachineSession::abilities() const {
   lack(Ability::any_override, "any-override",
        "this board changes feed and spindle speed by 10 to 200 %, and rapids to 100, 50 or 25 %");
   lack(Ability::single_block, "single-block", "this board plans ahead over several lines; use hold");
-  lack(Ability::home_axis, "home-axis", "this board homes all its axes together");
+  if (!board_.homes_single_axes()) lack(Ability::home_axis, "home-axis", "this board homes all its axes together");
   lack(Ability::set_position, "set-position",
        "this board keeps its own position: home it, or set the zero of the work");
   lack(Ability::thread, "thread", "this board cannot follow the spindle");
   const auto homing = board_.settings.find(setting_of_homing);
   if (homing != board_.settings.end() && homing->second == 0) {
     lack(Ability::home, "home", "homing is off on this board ($22=0)");
+    lack(Ability::home_axis, "home", "homing is off on this board ($22=0)");
   }
   return abilities;
 }
@@ -96,7 +97,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
                                                     *work->findings, std::move(work->start->known_probes));
   if (work->watchers.operations) {
     work->program->operations().watch([&one = *work](const Operation& operation) {
-      if (!one.feed->skips()) one.watchers.operations(operation);
+      if (!one.feed->leads_in()) one.watchers.operations(operation);
     });
   }
   prepare();
@@ -159,13 +160,15 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive&) 
   return at_once();
 }
 
-GrblMachineSession::Answer GrblMachineSession::handle(request::Home&) {
+GrblMachineSession::Answer GrblMachineSession::handle(request::Home& home) {
   if (auto refusal = refuse(MachineEvent::begin_home)) return Failure{*refusal};
-  if (!abilities().can(Ability::home)) return refuse_ability(Ability::home);
+  const Ability needed = home.axis ? Ability::home_axis : Ability::home;
+  if (!abilities().can(needed)) return refuse_ability(needed);
   auto work = std::make_unique<Work>();
   work->kind = ActivityKind::homing;
   work->stage = Work::Stage::moves;
-  sender_.add("$H", 0, longest_grbl_homing);
+  work->homes = home.axis;
+  sender_.add(home.axis ? fmt::format("$H{}", letter_of(*home.axis)) : "$H", 0, longest_grbl_homing);
   return begin(MachineEvent::begin_home, std::move(work));
 }
 
@@ -339,7 +342,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SetPosition& set)
   if (!all_finite(set.position.place)) return refused(RefusalReason::bad_place);
   if (distance(set.position.place, position_.place) > same_position) return refuse_ability(Ability::set_position);
   unlock();
-  loses_place_ = false;
+  recovery_ = {};
   position_.trust = Trust::commanded;
   position_.is_lost = false;
   ++news_.version;

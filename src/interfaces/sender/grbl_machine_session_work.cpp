@@ -61,9 +61,13 @@ void GrblMachineSession::make_feed() {
   work.progress.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
   work.feed->watch([&work, limits](const PathItem& item) {
+    // The way to the point where the program begins is no part of it.
+    const Seconds time = work.feed->leads_in() ? Seconds(0) : nominal_time_of(item, limits);
     if (const auto* segment = std::get_if<Segment>(&item)) {
-      work.progress.executed.add(segment->curve, segment->source, nominal_time_of(item, limits),
+      work.progress.executed.add(segment->curve, segment->source, time,
                                  work.progress.lines_before + work.feed->lines_written());
+    } else {
+      work.progress.executed.add_dwell(time);
     }
     if (work.watchers.path) work.watchers.path(item);
   });
@@ -82,6 +86,7 @@ void GrblMachineSession::poll_feed() {
     if (!line) break;
     sender_.add(line->text, line->line, line->silence);
   }
+  work_->progress.dwell_left = sender_.dwell_left();
   if (rests() && feed.asks() != GrblFeed::Asks::nothing) answer_question();
   if (busy() && work_->stage == Work::Stage::moves) update_holds();
 }
@@ -208,17 +213,21 @@ void GrblMachineSession::poll_jog() {
     work.stopped = true;
   }
   if (work.jog.cancelled_at) {
-    const bool jogs = !sender_.report() || sender_.report()->state == "Jog" || !sender_.all_answered();
-    if (jogs && now() - *work.jog.cancelled_at > between_cancels) {
+    const Seconds since = now() - *work.jog.cancelled_at;
+    const bool jogs = !sender_.report() || sender_.report()->state == "Jog";
+    if (jogs && since > between_cancels) {
       sender_.cancel_jog();
       work.jog.cancelled_at = now();
+      work.jog.freed = false;
     }
     // A report that came after the cancel.
-    if (!jogs && rests() && now() - *work.jog.cancelled_at > GrblSender::between_urgent_questions) {
-      position_.place = *sender_.place();
-      end_work(Outcome::stopped);
-    }
-    return;
+    if (jogs || since <= GrblSender::between_urgent_questions) return;
+    // If a cancel meets the end of a jog, Grbl 1.1 reports Idle but executes no line until a cycle start. To a machine
+    // at rest that means nothing.
+    if (sender_.report()->state == "Idle" && !std::exchange(work.jog.freed, true)) sender_.resume();
+    if (!rests()) return;
+    position_.place = *sender_.place();
+    return end_work(Outcome::stopped);
   }
   if (!(work.jog.length > Mm(0))) return end_work(Outcome::done);
   // One line at a time lies in the board's buffer: a cancel does not clear it there.
@@ -230,12 +239,27 @@ void GrblMachineSession::poll_jog() {
   end_work(Outcome::done);
 }
 
+// After the homing of a single axis the place is known if it was before, or when all axes have been homed.
+bool GrblMachineSession::knows_place_after(std::optional<Axis> homed) {
+  if (!homed) return true;
+  if (position_.trust != Trust::unknown) return false;
+  recovery_.homed.add(*homed);
+  const bool any_home = !machine_.homing.empty();
+  return std::ranges::all_of(machine_.axes, [&](const AxisDescription& axis) {
+    return recovery_.homed.has(axis.axis) || (any_home && !axis.home);
+  });
+}
+
 void GrblMachineSession::poll_home() {
   if (!rests()) return;
   locked_ = false;
-  loses_place_ = false;
-  position_ = {.place = *sender_.place(), .trust = Trust::homed};
+  position_.place = *sender_.place();
   live_.rest_at(position_.place);
+  if (knows_place_after(work_->homes)) {
+    recovery_ = {};
+    position_.trust = Trust::homed;
+    position_.is_lost = false;
+  }
   // Homing may move the zero of the work: startup lines ($N0) run after it.
   ask_for_offsets();
   end_work(Outcome::done);
@@ -259,10 +283,7 @@ void GrblMachineSession::end_resync() {
   live_.rest_at(position_.place);
   locked_ = is_locked;
   overrides_ = {};
-  if (is_locked) {
-    position_.trust = Trust::unknown;
-    position_.is_lost = true;
-  }
+  if (is_locked) lose_place();
   if (work_->drops && !work_->fault) {
     work_->drops = false;
     work_->lines->drop(position_.place);
@@ -343,7 +364,7 @@ void GrblMachineSession::stop_by_reset() {
   const auto& report = sender_.report();
   const bool stands = rests() || (report && report->rests() && (!busy() || work_->hold.asked));
   const KnownPosition before = position_;
-  const bool was_lost = loses_place_;
+  const bool was_lost = recovery_.lacks_place;
   const std::string words = "the machine was reset by hand";
   break_off(
       MachineEvent::stop_at_once,
@@ -353,7 +374,7 @@ void GrblMachineSession::stop_by_reset() {
        .last_line = 0});
   if (!stands) return;
   position_ = before;
-  loses_place_ = was_lost;
+  recovery_.lacks_place = was_lost;
 }
 
 // The board may have moved further, or lost steps.
@@ -363,9 +384,8 @@ void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   connection_.asks_offsets = false;
   trouble_ = {sentence, fault};
   if (state_ != MachineState::offline) {
-    position_.trust = Trust::unknown;
-    position_.is_lost = true;
-    loses_place_ = true;
+    lose_place();
+    recovery_.lacks_place = true;
   }
   if (busy()) {
     const MachineFault kind =

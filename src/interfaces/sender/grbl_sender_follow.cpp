@@ -13,15 +13,6 @@ constexpr std::size_t lines_between_marks = 24;
 constexpr Seconds between_marks{0.5};
 constexpr std::string_view mark = "$G\n";
 
-// grblHAL may send [GC:…] whenever its modes change ($10).
-bool tells_modes_unasked(const GrblMachine& machine) {
-  constexpr int reports = 10;
-  constexpr unsigned parser_state = 1U << 9U;
-  const auto found = machine.settings.find(reports);
-  return found != machine.settings.end() && found->second >= 0 && found->second <= 0xffff &&
-         (static_cast<unsigned>(found->second) & parser_state) != 0;
-}
-
 }  // namespace
 
 void GrblSender::follow(const Point& zero, Seconds ahead) {
@@ -84,7 +75,7 @@ void GrblSender::hear_modes(std::string_view modes) {
     return;
   }
   const bool is_asked_by_others = oldest != nullptr && oldest->text == mark;
-  if (is_asked_by_others || tells_modes_unasked(machine_)) return;
+  if (is_asked_by_others || machine_.tells_modes_unasked()) return;
   fail_and_stop("grbl.lost-lines",
                 "the machine has answered fewer lines than it was sent: a line was lost or broken on the way");
 }

@@ -26,8 +26,12 @@ struct GrblMachineSession::Work {
 
   struct Progress {
     GrblExecuted executed;
-    Seconds skipped{0};              // nominal time of what comes before the point where the program begins
+    Seconds skipped{0};  // nominal time of what comes before the point where the program begins
+    std::optional<Seconds> dwell_left;
     std::uint64_t lines_before = 0;  // lines sent before this work
+
+    // Nominal time from the beginning of the program.
+    Seconds time() const { return skipped + executed.time(dwell_left); }
   };
   // Where the machine stood, and its work zero, when it came to the stop at which the program waits.
   struct Stop {
@@ -52,6 +56,7 @@ struct GrblMachineSession::Work {
     Seconds lease{0};
     Seconds lease_end{0};
     std::optional<Seconds> cancelled_at;
+    bool freed = false;  // a cycle start has followed the last cancel
   };
 
   // Whether this is a program, which can be held and resumed.
@@ -67,6 +72,7 @@ struct GrblMachineSession::Work {
   bool stopped = false;  // by a request
   bool drops = false;    // the queued lines are dropped
   std::optional<ActivityFault> fault = {};
+  std::optional<Axis> homes = {};  // the only axis that is homed
 
   // A program, lines of a client, or a probe move: each is a path.
   std::optional<request::Start> start;

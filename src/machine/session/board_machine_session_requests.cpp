@@ -228,8 +228,19 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::RenewKeepAlive&
   return at_once();
 }
 
-BoardMachineSession::Answer BoardMachineSession::handle(request::Home&) {
+MachineAbilities BoardMachineSession::abilities() const {
+  MachineAbilities abilities;
+  abilities.lack(Ability::home_axis,
+                 {.code = "ability.grbl.home-axis", .text = "this board homes all its axes together"});
+  return abilities;
+}
+
+BoardMachineSession::Answer BoardMachineSession::handle(request::Home& home) {
   if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
+  if (home.axis) {
+    const Sentence& why = *abilities().why_not(Ability::home_axis);
+    return Failure{Refusal{RefusalReason::board_cannot, {{"why", why.text}, {"why.code", why.code}}}};
+  }
   if (machine_.homing.empty()) {
     return refusal(RefusalReason::no_switches);
   }

@@ -50,6 +50,11 @@ class SerialPorts : public testing::Test {
     return {};
   }
 
+  void unplug(const std::string& name) const {
+    fs::remove(root_ / "sys/class/tty" / name);
+    fs::remove(root_ / "dev" / name);
+  }
+
   const fs::path root_ = fs::temp_directory_path() / ("passo-ports-" + std::to_string(getpid()));
   const test::SystemFiles files_{root_};
   std::string uno_;  // the folder of its USB device
@@ -143,6 +148,49 @@ TEST_F(SerialPorts, of_a_program_with_several_signs_have_one_user) {
   files_.begin(31, "picocom", "ttyUSB0");
   write("var/lock/LCK..ttyUSB0", "        31\n");
   EXPECT_EQ(describe_users(port("ttyUSB0")), "in use by picocom (process 31)");
+}
+
+TEST_F(SerialPorts, are_found_again_under_another_name) {
+  const SerialPort before = port("ttyACM0");
+  EXPECT_EQ(find_serial_port(list(), before.lasting_name)->device, before.device);
+  EXPECT_EQ(find_returned_port(list(), before)->device, before.device);
+  unplug("ttyACM0");
+  EXPECT_EQ(find_returned_port(list(), before), nullptr);
+  // Another Uno, and the same one at another socket.
+  files_.plug_in("ttyACM1", {.bus = "1-4",
+                             .vendor = "2341",
+                             .product = "0043",
+                             .manufacturer = "Arduino (www.arduino.cc)",
+                             .product_name = "Arduino Uno",
+                             .serial_number = "9999"});
+  EXPECT_EQ(find_returned_port(list(), before), nullptr);
+  files_.plug_in("ttyACM2", {.bus = "1-5",
+                             .vendor = "2341",
+                             .product = "0043",
+                             .manufacturer = "Arduino (www.arduino.cc)",
+                             .product_name = "Arduino Uno",
+                             .serial_number = "7543"});
+  const SerialPortList now = list();
+  ASSERT_NE(find_returned_port(now, before), nullptr);
+  EXPECT_EQ(find_returned_port(now, before)->device, (root_ / "dev/ttyACM2").string());
+}
+
+// A CH340 has no serial number: two of them cannot be told apart.
+TEST_F(SerialPorts, are_not_guessed_among_devices_that_are_alike) {
+  const SerialPort before = port("ttyUSB0");
+  unplug("ttyUSB0");
+  const test::SystemFiles::Usb twin{
+      .bus = "1-6", .vendor = "1a86", .product = "7523", .product_name = "USB Serial", .is_converter = true};
+  files_.plug_in("ttyUSB1", twin);
+  const SerialPortList one = list();
+  ASSERT_NE(find_returned_port(one, before), nullptr);
+  files_.begin(812, "cncjs", "ttyUSB1");
+  EXPECT_EQ(find_returned_port(list(), before), nullptr) << "another program drives it";
+  fs::remove_all(root_ / "proc/812");
+  test::SystemFiles::Usb other = twin;
+  other.bus = "1-7";
+  files_.plug_in("ttyUSB2", other);
+  EXPECT_EQ(find_returned_port(list(), before), nullptr);
 }
 
 TEST_F(SerialPorts, may_be_busy_unnoticed_if_open_files_are_secret) {

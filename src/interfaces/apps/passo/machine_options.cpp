@@ -96,6 +96,8 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
                      "file with the token that HTTP clients must give; required if other computers can reach HOST");
   command.add_option("--http-name", arguments.http_names,
                      "host name under which browsers reach this server, e.g. through a proxy; can be repeated");
+  command.add_option("--macros", arguments.macros,
+                     "folder with macros (.ngc) for buttons and keys, and with subroutines for all programs");
   command.add_option("--data", arguments.data, "folder for the job queue, the job history and the alarms");
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");

@@ -172,9 +172,43 @@ TEST(FirmwareSettings, a_password_is_written_and_not_compared) {
   SettingsPair pair(test::grblhal());
   ASSERT_TRUE(pair.read());
   EXPECT_EQ(pair.write("$74", "secret").trouble, "");
+  const SettingChange hidden = pair.write("$74", "secret");
+  EXPECT_EQ(hidden.wanted, "********");
+  EXPECT_EQ(hidden.after, "********");
   EXPECT_EQ(pair.write("$398", "500").trouble, "");
   EXPECT_TRUE(pair.settings.needs_restart());
   EXPECT_EQ(pair.write("$398", "5").trouble, "$398=5: $398 (Planner buffer blocks) is 30 to 1000");
+}
+
+// A firmware that tells its passwords.
+TEST(FirmwareSettings, passwords_are_never_shown) {
+  test::FirmwareTraits traits = test::fluidnc();
+  traits.settings.emplace_back("Sta/Password", "secret one");
+  traits.settings.emplace_back("Sta/SSID", "workshop");
+  traits.store = [](const std::string&, std::string& value) { return value == "too short" ? 80 : 0; };
+  SettingsPair pair(traits);
+  ASSERT_TRUE(pair.read());
+  // FluidNC writes these by name.
+  const FirmwareSetting& password = *pair.settings.find("$Sta/Password");
+  EXPECT_EQ(password.kind, Kind::password);
+  EXPECT_EQ(password.value, "********");
+  EXPECT_EQ(pair.settings.find("$Sta/SSID")->value, "workshop");
+  EXPECT_FALSE(password.read_only);
+  const SettingChange change = pair.write("$Sta/Password", "secret two");
+  EXPECT_EQ(change.trouble, "");
+  EXPECT_EQ(pair.board.setting("Sta/Password"), "secret two");
+  const SettingChange refused = pair.write("$Sta/Password", "too short");
+  EXPECT_THAT(refused.trouble, HasSubstr("rejects $Sta/Password=********"));
+  for (const SettingChange& one : {change, refused}) {
+    for (const std::string& text : {one.before, one.wanted, one.after}) EXPECT_EQ(text, "********");
+  }
+  const std::string file = settings_text(pair.sender.machine(), pair.settings.all());
+  EXPECT_THAT(file, HasSubstr("; passwords are not saved"));
+  EXPECT_THAT(file, HasSubstr("$Sta/Password=********"));
+  EXPECT_THAT(file, Not(HasSubstr("secret")));
+  const auto read = parse_settings_text(file);
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(differences(*read, pair.settings.all()).empty()) << "asterisks are not written back";
 }
 
 TEST(FirmwareSettings, an_alarm_ends_all_open_changes) {

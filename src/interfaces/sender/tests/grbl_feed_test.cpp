@@ -67,7 +67,7 @@ TEST_F(GrblFeeds, begin_at_a_line_after_the_way_there) {
   const auto part = program(text);
   std::vector<std::uint32_t> skipped;
   part->path.operations().watch([&](const Operation& operation) {
-    if (part->feed.skips()) skipped.push_back(operation.source.line);
+    if (part->feed.leads_in()) skipped.push_back(operation.source.line);
   });
   options_.start[Axis::x] = 50;
   const auto way = reentry_at_line(ProgramReader::from_text("part.ngc", text), machine_, options_, {.line = 4});

@@ -51,6 +51,14 @@ struct SerialPortList {
 // there; empty: the computer's.
 SerialPortList list_serial_ports(const std::string& root = "");
 
+// Returns the port of a device or of one of its links; null if it is not listed.
+const SerialPort* find_serial_port(const SerialPortList& list, const std::string& device);
+
+// A device that was unplugged may return under another name: ttyUSB0 as ttyUSB1. Returns the port at which the device
+// of `before` is now, by its USB ids, its serial number and its texts. If several ports could be it, the one with the
+// earlier name is it; null if there is none, or if the only others are in use.
+const SerialPort* find_returned_port(const SerialPortList& list, const SerialPort& before);
+
 // Returns "in use by cncjs (process 4711)". The port has a user.
 std::string describe_users(const SerialPort& port);
 

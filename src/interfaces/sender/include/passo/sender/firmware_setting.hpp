@@ -29,7 +29,7 @@ struct FirmwareSetting {
     axes,    // the same, one for each axis of the board
     choice,  // the position in `choices`, from 0
     text,
-    password,  // read as asterisks
+    password,  // the value is never shown: see shown_value()
   };
   std::string name;          // "$110"
   std::string value;         // as the board writes it
@@ -51,6 +51,11 @@ std::string_view name_of(FirmwareSetting::Kind kind);
 
 // Returns 110 of "$110"; nothing if it is no number.
 std::optional<int> read_setting_number(std::string_view name);
+
+// Returns whether a setting is a password by its name, as FluidNC's $Sta/Password.
+bool names_password(std::string_view name);
+// Returns the value of a setting for people and files: asterisks for a password.
+std::string shown_value(const FirmwareSetting& setting, std::string_view value);
 
 // Fills in what the table says about a setting of Grbl 1.1. `axes`: the letters of the board's axes.
 void describe_by_table(FirmwareSetting& setting, std::string_view axes);
@@ -84,6 +89,7 @@ struct NamedSetting {
 };
 
 // A file of settings: $n=value, one a line, below what the board says of itself. `passo machine --from` reads it too.
+// Passwords are not in it: the file has asterisks, which are not written back.
 std::string settings_text(const GrblMachine& machine, std::span<const FirmwareSetting> settings);
 // Reads such a file, or a board's answer to $$ saved by another program. The error names the line and what was
 // expected. At most 2,000 settings.

@@ -25,9 +25,9 @@ namespace passo {
 
 // What has become of a write().
 struct SettingChange {
-  std::string name;    // "$110"
-  std::string before;  // empty: the board does not have the setting
-  std::string wanted;
+  std::string name;                    // "$110"
+  std::string before;                  // empty: the board does not have the setting
+  std::string wanted;                  // asterisks for a password
   std::string after;                   // as read back
   std::string trouble;                 // why it was not written, a sentence without a full stop; empty: it was
   std::vector<std::string> also = {};  // other settings that the board has changed with it: "$20: 1 -> 0"
@@ -64,6 +64,7 @@ class FirmwareSettings {
   void take_settings(const GrblAnswer& answer);
   void take_read_back();
   void ask_for_settings(Stage stage);
+  std::string shown_of_wanted() const;
   void end_change(std::string trouble);
   void end_all(const std::string& trouble);
 

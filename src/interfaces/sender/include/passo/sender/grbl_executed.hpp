@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "passo/geometry/curve.hpp"
 #include "passo/interpreter/operation.hpp"
@@ -23,6 +24,8 @@ class GrblExecuted {
  public:
   // Adds a piece of path, whose last line is the `lines`-th of all lines of the sender. `time`: its nominal time.
   void add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines);
+  // Adds a dwell before the next piece.
+  void add_dwell(Seconds time) { dwell_ += time; }
   // `answered`: how many lines were answered; `blocks`: how many of them the machine may still hold.
   void hear(std::uint64_t answered, std::size_t blocks, const Point& place);
   // The machine is idle, and has answered all lines.
@@ -32,22 +35,28 @@ class GrblExecuted {
   const OperationSource& source() const { return now_; }
   // The last line that the machine may be executing.
   std::uint32_t last_line() const { return last_line_; }
-  // The nominal time of the executed pieces.
-  Seconds time() const { return time_; }
+  // The nominal time of what is executed, including the part of the present piece. `dwell_left`: how long the machine
+  // still dwells at the end of that piece.
+  Seconds time(std::optional<Seconds> dwell_left = {}) const;
 
  private:
   struct Piece {
     Curve curve;
     OperationSource source;
     Seconds time{0};
+    Seconds dwell{0};  // before it
     std::uint64_t lines = 0;
   };
   void pass();
+  void take_share(const Point& place);
+  bool has_begun() const;  // the first piece
 
   std::deque<Piece> pieces_;
   OperationSource now_;
   std::uint32_t last_line_ = 0;
   Seconds time_{0};
+  Seconds dwell_{0};  // after the last piece
+  double share_ = 0;  // executed part of the first piece, 0 to 1
 };
 
 }  // namespace passo

@@ -51,8 +51,8 @@ class GrblFeed {
 
   // Skips the path before that point. The lead-in comes first.
   void begin_at(const ResumePoint& point, const std::vector<PathItem>& lead_in);
-  // Whether the path has not come to that point yet.
-  bool skips() const { return from_.has_value(); }
+  // Whether the path has not come to that point yet: what is written leads there.
+  bool leads_in() const { return from_.has_value(); }
   // Receives each item when its lines are written.
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
   // Receives each item before the point at which the path begins.

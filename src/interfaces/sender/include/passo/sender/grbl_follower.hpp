@@ -54,6 +54,9 @@ class GrblFollower {
   // How long the board moves from now on if it gets nothing more.
   Seconds time_in_board(Seconds now);
 
+  // How long the board still dwells, if it does not move: with what follows before the next motion. Empty: it moves.
+  std::optional<Seconds> dwell_left(Seconds now);
+
   // False after a line that led to an unknown place.
   bool knows_path() const { return !lost_; }
   // The feed override, as a factor.
@@ -104,7 +107,8 @@ class GrblFollower {
     double time = 0;        // s, at its highest speed
   };
 
-  double speed_of(const Point& from, const Point& to, MmPerSecond feed) const;
+  double measured_speed(const Point& way, MmPerSecond feed) const;
+  double speed_of(const Point& way, MmPerSecond feed) const;
   double braking_time(const GrblLineMotion& line) const;
   double duration_of(const GrblLineMotion& line) const;
   std::vector<std::string> straight_pieces(const std::string& text, const GrblLineMotion& line, int count) const;

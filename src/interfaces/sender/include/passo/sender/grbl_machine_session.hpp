@@ -10,7 +10,8 @@
 // ends. Nothing is sent twice: what a lost connection, a restart or an alarm has interrupted ends there. A restart, a
 // lost connection and a timeout lead to the state fault, an alarm of the board to the state alarm; both end with
 // ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again. In motion it stops the machine at
-// once, and the position is lost.
+// once, and the position is lost. A USB device that was unplugged and returns is opened without a request, also under
+// another name.
 #pragma once
 
 #include <cstdint>
@@ -91,6 +92,12 @@ class GrblMachineSession final : public MachineSession {
     std::optional<Point> at;
     bool touched = false;
   };
+  // After a lost connection, an alarm or a restart.
+  struct Recovery {
+    bool lacks_place = false;
+    AxisSet homed;         // single axes, since then
+    Seconds next_look{0};  // for a device that was unplugged
+  };
   struct Heard {
     std::uint64_t reports = 0;  // so far
     std::string pins;
@@ -154,9 +161,12 @@ class GrblMachineSession final : public MachineSession {
   void take_board();
   void go_online();
   void connect_again(bool on_open_line);
+  void look_for_device();
   void prepare();
   bool rests() const;
+  MmPerSecond speed_now() const;
   void unlock();
+  void lose_place();
 
   void poll_idle();
   void poll_check();
@@ -168,6 +178,7 @@ class GrblMachineSession final : public MachineSession {
   void poll_jog();
   void send_jog_piece();
   void poll_home();
+  bool knows_place_after(std::optional<Axis> homed);
   void resync();
   void end_resync();
   void end_program();
@@ -192,7 +203,7 @@ class GrblMachineSession final : public MachineSession {
   MachineState state_ = MachineState::offline;
   Connection connection_;
   bool locked_ = false;  // the board is in an alarm that $X or $H ends
-  bool loses_place_ = false;
+  Recovery recovery_;
   bool lent_ = false;  // the sender, for the settings
   KnownPosition position_;
   LivePosition live_;

@@ -17,6 +17,8 @@ class GrblPort {
   virtual std::string receive(Seconds most) = 0;
   // The connection is lost.
   virtual bool is_broken() const = 0;
+  // Whether the device of a lost connection was unplugged and is there again. Opens nothing.
+  virtual bool has_returned() { return false; }
   // Opens a lost connection again, under another name if the device has one. Returns false if it is not there yet.
   virtual bool open_again() = 0;
 };

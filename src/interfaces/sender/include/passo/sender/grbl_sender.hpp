@@ -93,6 +93,8 @@ class GrblSender {
   void follow(const Point& zero, Seconds ahead = default_ahead);
   // Ends that, at rest: from here on the machine may be moved by others, e.g. with a pendant.
   void stop_following() { follower_.reset(); }
+  // Returns how long the machine still dwells; empty: it moves, or nothing is known.
+  std::optional<Seconds> dwell_left() { return follower_ ? follower_->dwell_left(now_) : std::nullopt; }
   // Returns how long the machine moves if it gets nothing more. Without follow(): 0.
   Seconds time_in_machine() { return follower_ ? follower_->time_in_board(now_) : Seconds(0); }
   // Adds a line whose answer take_reply() returns, in the order of the questions. A rejection is no fault.

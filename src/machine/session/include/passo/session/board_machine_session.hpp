@@ -73,6 +73,7 @@ class BoardMachineSession final : public MachineSession {
   std::optional<ProgramResults> program_results() const override;
   std::optional<Refusal> closed_limit() const override;
   std::optional<Refusal> lost_place() const override;
+  MachineAbilities abilities() const override;
   BoardMachineSession* as_board_session() override { return this; }
   const BoardMachineSession* as_board_session() const override { return this; }
 

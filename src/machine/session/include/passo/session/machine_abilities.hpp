@@ -1,7 +1,7 @@
 // MachineAbilities: what a machine cannot do, each with the reason as a sentence. What is not listed, it can do.
 //
-// A machine on a board of ours has all abilities. A board that plans its own motion lacks some, and clients show the
-// reason where the ability would be used.
+// A machine on a board of ours has all abilities but one: it homes all axes together. A board that plans its own motion
+// lacks some, and clients show the reason where the ability would be used.
 #pragma once
 
 #include <cstddef>

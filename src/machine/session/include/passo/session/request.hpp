@@ -73,8 +73,10 @@ struct Jog {
   Seconds lease{0.25};  // duration of the first keep-alive timeout, and of each renewal
 };
 struct RenewKeepAlive {};
-// Homes the machine.
-struct Home {};
+// Homes the machine, or one axis of it (Ability::home_axis).
+struct Home {
+  std::optional<Axis> axis = {};
+};
 // Makes one move that ends where the probe is triggered or opens.
 struct Probe {
   Point target;  // machine coordinates
