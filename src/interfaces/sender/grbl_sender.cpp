@@ -381,7 +381,6 @@ void GrblSender::answer(std::optional<std::string_view> error) {
   UnacknowledgedLines::Line line = *window_.take_answered();
   last_.answered = last_.progress = now_;
   if (line.marks) return answer_mark();
-  marks_.told.clear();
   if (line.asks) return window_.keep_reply(std::move(line), error ? words_of_error(*error) : "");
   if (!error) {
     window_.note_held(line.line, machine_.blocks + 8);
