@@ -99,6 +99,11 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
     words = describe(*session.fault(), arguments.program.program);
   } else if (answered.refused) {
     words = describe(*answered.refused);
+  } else if (answered.fault && answered.fault->fault == MachineFault::program_waits && interrupted_by() == 0) {
+    words = filled(
+        "{program} waits at {wait}, but there is no terminal to ask the operator: run it in a terminal, or with --yes "
+        "when everything is prepared [run.waits]",
+        answered.fault->arguments);
   } else if (answered.fault && interrupted_by() == 0) {
     words = fmt::format("{} [{}]", answered.fault->message(), answered.fault->code());
   }
