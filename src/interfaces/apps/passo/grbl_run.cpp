@@ -1,6 +1,7 @@
 #include "grbl_run.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -255,7 +256,9 @@ int home_grbl(const HomeArguments& arguments) {
   const auto opened = GrblConnection::open(arguments.board, code);
   if (!opened) return code;
   const Seconds begun = opened->now();
-  if (!opened->home(code)) return code;
+  const std::optional<Axis> axis =
+      arguments.axis.empty() ? std::nullopt : axis_of(static_cast<char>(std::toupper(arguments.axis.front())));
+  if (!opened->home(code, axis)) return code;
   const Point place = opened->sender().place().value_or(Point());
   const double time = (opened->now() - begun).value();
   if (arguments.json) {
