@@ -36,17 +36,55 @@ std::unique_ptr<GrblConnection> GrblConnection::open(const std::string& board, i
     return nullptr;
   }
   std::unique_ptr<GrblConnection> opened(new GrblConnection(board, std::move(*claim), std::move(*port)));
-  GrblSender& sender = opened->sender_;
-  while (!sender.ready() && !sender.fault() && interrupted_by() == 0) opened->poll(between_looks);
-  if (sender.ready()) {
-    const GrblMachine& machine = sender.machine();
-    if (!machine.is_known())
-      note(fmt::format("{}: Passo does not know the firmware {} {}, and treats it as Grbl 1.1", board, machine.firmware,
-                       machine.version));
-    return opened;
+  if (!opened->greet(code)) return nullptr;
+  const GrblMachine& machine = opened->sender_.machine();
+  if (!machine.is_known())
+    note(fmt::format("{}: Passo does not know the firmware {} {}, and treats it as Grbl 1.1", board, machine.firmware,
+                     machine.version));
+  return opened;
+}
+
+bool GrblConnection::greet(int& code) {
+  while (!sender_.ready() && !sender_.fault() && interrupted_by() == 0) poll(between_looks);
+  if (sender_.ready()) return true;
+  code = give_up();
+  return false;
+}
+
+// The sender is silent meanwhile, and asks the board again afterwards.
+bool GrblConnection::upload(FileUpload upload, int& code) {
+  bool ended = false;
+  while (!ended) {
+    if (interrupted_by() != 0) upload.cancel();
+    const std::string bytes = upload.take_bytes(now());
+    port_->receive({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    ended = upload.ended();
+    if (port_->broken()) {
+      code = fail(exit_failed, board_ + ": the connection is lost [grbl.line-lost]");
+      return false;
+    }
+    if (!port_->run(between_looks)) continue;
+    const auto came = port_->replies();
+    upload.receive({reinterpret_cast<const char*>(came.data()), came.size()}, now());
   }
-  code = opened->give_up();
-  return nullptr;
+  if (!upload.trouble().empty()) {
+    code = interrupted_by() != 0 ? exit_of_signal()
+                                 : fail(exit_failed, fmt::format("{}: {} [board.upload]", board_, upload.trouble()));
+    return false;
+  }
+  sender_ = GrblSender::on_open_line(now());
+  return greet(code);
+}
+
+std::optional<GrblAnswer> GrblConnection::ask(const std::string& line, Seconds most, int& code) {
+  sender_.ask(line, most);
+  std::optional<GrblAnswer> answer;
+  while (!answer && !sender_.fault() && interrupted_by() == 0) {
+    poll(between_looks);
+    answer = sender_.take_reply();
+  }
+  if (!answer) code = give_up();
+  return answer;
 }
 
 int GrblConnection::give_up() const {
@@ -85,8 +123,12 @@ std::string_view GrblConnection::news_of_wait() {
   return std::exchange(last_wait_, wait) == wait ? std::string_view() : wait;
 }
 
-bool GrblConnection::home(int& code) {
-  sender_.add("$H", 0, longest_homing);
+bool GrblConnection::home(int& code, std::optional<Axis> axis) {
+  if (axis && !sender_.machine().homes_single_axes()) {
+    code = fail(exit_failed, board_ + ": this board homes all its axes together [home.single-axis]");
+    return false;
+  }
+  sender_.add(axis ? fmt::format("$H{}", letter_of(*axis)) : "$H", 0, longest_homing);
   // Homing may move the zero of the work: startup lines ($N0) run after it.
   const bool homed = poll_until_rest();
   if (homed) sender_.ask_for_offsets();

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "board_claim.hpp"
 
+#include "passo/sender/file_upload.hpp"
 #include "passo/sender/grbl_sender.hpp"
 #include "passo/transport/stream_port.hpp"
 
@@ -37,14 +39,20 @@ class GrblConnection {
   std::string_view news_of_wait();
   // Shows why the machine is not idle with all lines executed. Returns the exit code.
   [[nodiscard]] int give_up() const;
-  // Unlocks the machine by homing it. Returns false, with a message, on failure.
-  [[nodiscard]] bool home(int& code);
+  // Unlocks the machine by homing it, or one axis. Returns false, with a message, on failure.
+  [[nodiscard]] bool home(int& code, std::optional<Axis> axis = {});
+  // Sends a file. Returns false, with a message and `code`, if the board has not received it.
+  [[nodiscard]] bool upload(FileUpload upload, int& code);
+  // Asks a question, and waits for the answer. Empty, with a message and `code`, if there is none.
+  std::optional<GrblAnswer> ask(const std::string& line, Seconds most, int& code);
   // Returns "X1.000 Y2.000 Z0.000", all axes of the machine, machine coordinates; or that the position is unknown.
   std::string place_words() const;
 
  private:
   GrblConnection(std::string board, BoardClaim claim, std::unique_ptr<StreamPort> port)
       : board_(std::move(board)), claim_(std::move(claim)), port_(std::move(port)), sender_(port_->elapsed()) {}
+
+  [[nodiscard]] bool greet(int& code);
 
   std::string board_;
   BoardClaim claim_;
