@@ -47,6 +47,18 @@ export async function home(): Promise<void> {
   if (yes) await moveAs('/home');
 }
 
+// On boards that can home a single axis.
+export async function homeAxis(axis: string): Promise<void> {
+  const name = axis.toUpperCase();
+  const yes = await confirm({
+    title: say('jog.home.ask'),
+    facts: [say('jog.home.axis.facts', { axis: name })],
+    yes: say('jog.home.axis', { axis: name }),
+    kind: 'go',
+  });
+  if (yes) await moveAs('/home', { axis });
+}
+
 // Nobody knows where the machine stands, so nothing but a jog or homing moves it until a person vouches for the place.
 export async function vouchForPlace(): Promise<void> {
   const place = status.value?.place;

@@ -9,7 +9,7 @@ import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
 import { fieldHasKeys, jogShare, jogSpeed, jogStep, movesNow, pressByPointer, windowHasFocus, type Direction } from '../machine/jog';
 import { axes } from '../machine/place';
-import { goToPlace, home, makeZero, places, vouchForPlace, whyNotPlace } from '../machine/set_up';
+import { goToPlace, home, homeAxis, makeZero, places, vouchForPlace, whyNotPlace } from '../machine/set_up';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
 import { Macros } from '../parts/macros';
@@ -167,6 +167,13 @@ function SetUpPanel() {
         >
           {say('jog.home')}
         </Button>
+        {canHome &&
+          whyUnable('home-axis') === '' &&
+          axes.value.map((axis) => (
+            <Button key={`home-${axis}`} icon="home" why={why} onClick={() => homeAxis(axis)}>
+              {say('jog.home.axis', { axis: axis.toUpperCase() })}
+            </Button>
+          ))}
         {status.value?.lost_place === true && (
           <Button icon="done" why={why} onClick={vouchForPlace}>
             {say('jog.here')}

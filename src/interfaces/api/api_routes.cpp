@@ -27,7 +27,7 @@ constexpr ApiRoute routes[] = {
     {"GET", "/health", "getHealth", anybody, none, &MachineApi::health},
     {"POST", "/go", "goToPlace", owner, json, &SmallJobsApi::go_to},
     {"POST", "/hold", "hold", anybody, json, &MachineApi::hold},
-    {"POST", "/home", "home", owner, none, &MachineApi::home},
+    {"POST", "/home", "home", owner, json, &MachineApi::home},
     {"GET", "/history", "listHistory", anybody, none, &JobsApi::list_history, Needs::history},
     {"GET", "/homing", "getHoming", anybody, none, &MachineApi::homing},
     {"GET", "/log", "getLog", anybody, none, &JobsApi::log},

@@ -36,6 +36,14 @@ std::optional<bool> JsonMembers::flag(const std::string& key) {
   return {};
 }
 
+std::optional<Axis> JsonMembers::axis(const std::string& key, const MachineDescription& machine) {
+  const auto* const value = find(key);
+  if (value == nullptr) return {};
+  const auto axis = value->is_string() ? axis_of(value->get<std::string>(), machine) : std::nullopt;
+  if (!axis) fail(key, "an axis of the machine, e.g. \"x\"");
+  return axis;
+}
+
 Point JsonMembers::place(const std::string& key, const MachineDescription& machine, const Point& start) {
   Point place = start;
   const auto* const value = find(key);

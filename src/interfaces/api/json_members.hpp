@@ -17,6 +17,8 @@ class JsonMembers {
 
   std::optional<double> number(const std::string& key);
   std::optional<bool> flag(const std::string& key);
+  // Reads the name of an axis of the machine.
+  std::optional<Axis> axis(const std::string& key, const MachineDescription& machine);
   // Reads coordinates for some of the machine's axes; the others are taken from `start`.
   Point place(const std::string& key, const MachineDescription& machine, const Point& start);
   void fail(const std::string& key, const std::string& expected);

@@ -87,9 +87,12 @@ WebAnswer MachineApi::stop(const ApiCall& call) {
   return jobs_.parked() && !shared_.session.busy() ? jobs_.stop_parked() : ask(request::Stop{});
 }
 
-WebAnswer MachineApi::home(const ApiCall&) {
+WebAnswer MachineApi::home(const ApiCall& call) {
+  JsonMembers members(call.members());
+  const request::Home home{.axis = members.axis("axis", shared_.machine)};
+  if (!members.end()) return bad_body(members.reason());
   jobs_.step_aside();
-  return ask(request::Home{});
+  return ask(home);
 }
 
 WebAnswer MachineApi::jog(const ApiCall& call) {

@@ -41,6 +41,14 @@ const StoredProgram* ProgramTimes::next(const MotionFactors& factors) const {
 void ProgramTimes::poll() {
   MotionTimer* const timer = shared_.options.timer;
   if (timer == nullptr) return;
+  const std::uint64_t basis = timer->basis();
+  if (std::exchange(basis_, basis) != basis) {
+    static_cast<void>(timer->take_times());
+    timed_ = 0;
+    times_.reset();
+    is_timing_ = false;
+  }
+  if (basis == 0) return;
   if (const std::optional<MotionTimes> times = timer->take_times()) record(*times);
   const Overrides overrides = shared_.session.status().overrides;
   const MotionFactors factors{.feed = std::max(overrides.feed, least_feed), .rapids = overrides.rapids};

@@ -32,6 +32,7 @@ class ProgramTimes {
   bool is_timing_ = false;
   std::optional<MotionTimes> times_;  // the result for that program
   MotionFactors times_factors_;       // the factors with which they were planned
+  std::uint64_t basis_ = 0;           // of the timer
 };
 
 }  // namespace passo

@@ -14,6 +14,11 @@ namespace {
 
 constexpr std::size_t build_words_from = 3;  // after "$I="
 
+// "$HX"
+std::optional<Axis> single_axis_of(std::string_view text) {
+  return text.size() == 3 && text.starts_with("$H") ? axis_of(text[2]) : std::nullopt;
+}
+
 // Units, distances and places: no other code belongs into a jog.
 bool is_jog(std::string_view words) {
   if (words.find_first_of("IJKLMPRST$") != std::string_view::npos) return false;
@@ -61,7 +66,8 @@ void GrblController::handle_command(const std::string& text) {
     return answer(GrblError::none);
   }
   if (text.starts_with("$I=")) return handle_build_info(text.substr(build_words_from));
-  if (text == "$H") return home();
+  if (text == "$H") return home({});
+  if (const auto axis = single_axis_of(text); axis && session_.abilities().can(Ability::home_axis)) return home(axis);
   if (text == "$SLP") return sleep();
   if (text.starts_with("$N")) return handle_startup_line(text);
   if (text.starts_with("$RST=")) return restore(text);
@@ -113,15 +119,15 @@ void GrblController::handle_jog(const std::string& text) {
 }
 
 // What the program has left open ends first; the spindle stops.
-void GrblController::home() {
+void GrblController::home(std::optional<Axis> axis) {
   if (machine_.homing.empty()) return answer(GrblError::setting_disabled);
   if (is_door_open()) return answer(GrblError::door_open);
-  due_.wait_for_rest([this] { begin_homing(); });
+  due_.wait_for_rest([this, axis] { begin_homing(axis); });
   stop_machine();
 }
 
-void GrblController::begin_homing() {
-  const auto ticket = session_.request(request::Home{});
+void GrblController::begin_homing(std::optional<Axis> axis) {
+  const auto ticket = session_.request(request::Home{.axis = axis});
   if (!ticket) return answer(GrblError::locked);
   due_.wait_for_homing(*ticket);
 }

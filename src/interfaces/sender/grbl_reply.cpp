@@ -21,6 +21,11 @@ void read_field(std::string_view name, std::string_view value, std::string_view 
   if (name == "F" || name == "FS") report.feed = read_grbl_number(value.substr(0, value.find(',')));
   if (name == "Pn") report.pins = value;
   if (name == "A") report.outputs = value;
+  if (name == "SD") {
+    // "12.5,part.nc"; "Pending" after its end.
+    const auto percent = read_grbl_number(next_grbl_field(value, ','));
+    if (percent) report.file_share = std::clamp(*percent / 100, 0.0, 1.0);
+  }
   // A report with the overrides and without outputs: all are off.
   if (name == "Ov" && !report.outputs) report.outputs.emplace();
   if (name != "Bf") return;

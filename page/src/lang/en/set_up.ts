@@ -21,6 +21,8 @@ export const set_up = {
   'jog.home': 'Home',
   'jog.home.ask': 'Home the machine?',
   'jog.home.facts': 'The axes {axes} seek their homing switches. Keep clear of the machine, and remove all obstacles.',
+  'jog.home.axis': 'Home {axis}',
+  'jog.home.axis.facts': 'The axis {axis} seeks its homing switch. Keep clear of the machine, and remove all obstacles.',
   'jog.home.none': 'This machine has no homing switches',
   'jog.here': 'Confirm position',
   'jog.here.ask': 'Is the position correct?',

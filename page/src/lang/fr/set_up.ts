@@ -24,6 +24,8 @@ export const set_up: Same<typeof en> = {
   'jog.home': 'Prise d’origine',
   'jog.home.ask': 'Faire la prise d’origine ?',
   'jog.home.facts': 'Les axes {axes} cherchent leurs fins de course d’origine. Restez à l’écart de la machine et ne laissez aucun obstacle.',
+  'jog.home.axis': 'Origine {axis}',
+  'jog.home.axis.facts': 'L’axe {axis} cherche son fin de course d’origine. Restez à l’écart de la machine et ne laissez aucun obstacle.',
   'jog.home.none': 'Cette machine n’a pas de fins de course d’origine',
   'jog.here': 'Confirmer la position',
   'jog.here.ask': 'La position est-elle correcte ?',

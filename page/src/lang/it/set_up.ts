@@ -24,6 +24,8 @@ export const set_up: Same<typeof en> = {
   'jog.home': 'Homing',
   'jog.home.ask': 'Eseguire l’homing?',
   'jog.home.facts': 'Gli assi {axes} cercano i finecorsa di homing. Tieniti a distanza dalla macchina e non lasciare ostacoli.',
+  'jog.home.axis': 'Homing {axis}',
+  'jog.home.axis.facts': 'L’asse {axis} cerca il suo finecorsa di homing. Tieniti a distanza dalla macchina e non lasciare ostacoli.',
   'jog.home.none': 'Questa macchina non ha finecorsa di homing',
   'jog.here': 'Conferma posizione',
   'jog.here.ask': 'La posizione è corretta?',

@@ -24,6 +24,8 @@ export const set_up: Same<typeof en> = {
   'jog.home': '回零',
   'jog.home.ask': '机床回零？',
   'jog.home.facts': '{axes} 轴将移向各自的回零开关。请远离机床，确保途中没有障碍。',
+  'jog.home.axis': '{axis} 回零',
+  'jog.home.axis.facts': '{axis} 轴将移向其回零开关。请远离机床，确保途中没有障碍。',
   'jog.home.none': '此机床没有回零开关',
   'jog.here': '确认位置',
   'jog.here.ask': '位置正确吗？',

@@ -90,6 +90,21 @@ void add_board_settings_options(CLI::App& command, BoardSettingsArguments& argum
       ->type_name("FILE")
       ->excludes(set)
       ->excludes("--compare");
+  CLI::Option* const config = command.add_flag("--config", arguments.config, "FluidNC: print the board's YAML")
+                                  ->excludes(set)
+                                  ->excludes("--restore")
+                                  ->excludes("--compare")
+                                  ->excludes("--save");
+  command
+      .add_option("--write-config", arguments.write_config,
+                  "FluidNC: replace the board's YAML by this file, and read it back; it takes effect when the board "
+                  "has restarted")
+      ->type_name("FILE")
+      ->excludes(set)
+      ->excludes("--restore")
+      ->excludes("--compare")
+      ->excludes("--save")
+      ->excludes(config);
   command.add_flag("--json", arguments.json, "print the result as JSON");
   command.footer(
       "Examples:\n"
@@ -99,7 +114,36 @@ void add_board_settings_options(CLI::App& command, BoardSettingsArguments& argum
       "  passo board settings grbl:/dev/ttyUSB0 --save router.txt   a copy before you change anything\n"
       "  passo board settings grbl:/dev/ttyUSB0 --compare router.txt\n"
       "  passo board settings grbl:/dev/ttyUSB0 --restore router.txt\n"
-      "Nothing is written without --set or --restore. Grbl, grblHAL, FluidNC and uCNC: docs/manual/grbl-machines.md");
+      "  passo board settings grbl:/dev/ttyUSB0 --config            FluidNC: its YAML\n"
+      "  passo board settings grbl:/dev/ttyUSB0 --write-config router.yaml\n"
+      "Nothing is written without --set, --restore or --write-config. Grbl, grblHAL, FluidNC and uCNC: "
+      "docs/manual/grbl-machines.md");
+}
+
+void add_board_files_options(CLI::App& command, BoardFilesArguments& arguments) {
+  command
+      .add_option(
+          "BOARD", arguments.board,
+          "address: grbl:DEVICE[@BAUD], grbl:tcp:HOST:PORT or grbl:ws://HOST; opening a serial port resets an Arduino")
+      ->required();
+  CLI::Option* const run =
+      command
+          .add_option("--run", arguments.run,
+                      "run this file, by its path in the list; Passo does not check it. Ctrl-C brakes and ends it")
+          ->type_name("PATH");
+  CLI::Option* const upload =
+      command.add_option("--upload", arguments.upload, "send this file to the board")->type_name("FILE")->excludes(run);
+  command.add_option("--as", arguments.as, "its path on the board (default: the same name on the card)")
+      ->type_name("PATH")
+      ->needs(upload);
+  command.add_flag("--json", arguments.json, "print the result as JSON");
+  command.footer(
+      "Examples:\n"
+      "  passo board files grbl:/dev/ttyACM0                            list the files on the board\n"
+      "  passo board files grbl:/dev/ttyACM0 --upload part.nc           send one to its card\n"
+      "  passo board files grbl:/dev/ttyACM0 --upload part.nc --as /sd/jobs/part.nc\n"
+      "  passo board files grbl:/dev/ttyACM0 --run /part.nc             run one\n"
+      "grblHAL with a card, and FluidNC: docs/manual/grbl-machines.md#files-on-the-board");
 }
 
 void add_board_flash_options(CLI::App& command, BoardFlashArguments& arguments) {
@@ -138,7 +182,7 @@ std::function<int()> add_board_help(CLI::App& board) {
 }
 
 std::span<const Command> board_commands() {
-  static constexpr std::array<Command, 6> commands{
+  static constexpr std::array<Command, 7> commands{
       {{"list", "list the boards on the serial ports",
         options_of<BoardListArguments, add_board_list_options, board_list>},
        {"info", "show a board's type, firmware and status",
@@ -147,6 +191,8 @@ std::span<const Command> board_commands() {
         options_of<BoardMonitorArguments, add_board_monitor_options, board_monitor>},
        {"settings", "show, write, save, compare and restore the settings of a Grbl board",
         options_of<BoardSettingsArguments, add_board_settings_options, board_settings>},
+       {"files", "list, send and run the files on a Grbl board",
+        options_of<BoardFilesArguments, add_board_files_options, board_files>},
        {"flash", "flash Passo's firmware onto a board",
         options_of<BoardFlashArguments, add_board_flash_options, board_flash>},
        {"serve", "simulate a board in real time on 127.0.0.1; SIGUSR1 acts as its reset button",

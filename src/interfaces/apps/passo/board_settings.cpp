@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "board_settings_yaml.hpp"
 #include "commands.hpp"
 #include "grbl_connection.hpp"
 #include "named_files.hpp"
@@ -208,6 +209,16 @@ std::optional<std::vector<NamedSetting>> read_settings_file(const std::string& p
   return std::nullopt;
 }
 
+// Empty, with a message: the file cannot be read, or is no configuration of FluidNC.
+std::optional<std::string> read_yaml_file(const std::string& path) {
+  Diagnostics diagnostics;
+  auto text =
+      read_bytes(path, {.area = "settings", .expected = "a YAML file of FluidNC", .most = most_bytes}, diagnostics);
+  show(diagnostics);
+  if (!text || !is_fluidnc_yaml(path, *text)) return std::nullopt;
+  return text;
+}
+
 bool are_good(const BoardSettingsArguments& arguments) {
   if (!names_grbl_machine(arguments.board)) {
     fail(exit_bad_program, arguments.board +
@@ -232,6 +243,12 @@ bool are_good(const BoardSettingsArguments& arguments) {
 
 int board_settings(const BoardSettingsArguments& arguments) {
   if (!are_good(arguments)) return exit_bad_program;
+  std::string yaml;
+  if (!arguments.write_config.empty()) {
+    auto read = read_yaml_file(arguments.write_config);
+    if (!read) return exit_bad_program;
+    yaml = std::move(*read);
+  }
   const std::string& path = arguments.compare.empty() ? arguments.restore : arguments.compare;
   std::vector<NamedSetting> file;
   if (!path.empty()) {
@@ -242,7 +259,10 @@ int board_settings(const BoardSettingsArguments& arguments) {
   int code = exit_done;
   brake_on_signals();
   const auto opened = GrblConnection::open(arguments.board, code);
-  return opened ? SettingsRun(arguments, *opened).run(file) : code;
+  if (!opened) return code;
+  if (arguments.config) return show_fluidnc_yaml(arguments, *opened);
+  if (!yaml.empty()) return write_fluidnc_yaml(arguments, *opened, std::move(yaml));
+  return SettingsRun(arguments, *opened).run(file);
 }
 
 std::optional<std::string> controller_text_of(const std::string& board, int& code) {

@@ -103,6 +103,7 @@ struct JogArguments {
 int jog(const JogArguments& arguments);
 
 struct HomeArguments {
+  std::string axis;  // its letter; empty: all axes
   std::string machine;
   std::string board = "virtual";  // an address for parse_board_address()
   int repeat = 1;                 // number of repetitions; from 2 on, reports the repeatability of the positions
@@ -183,9 +184,20 @@ struct BoardSettingsArguments {
   std::string save;                // a file for all settings
   std::string compare;             // a file of settings
   std::string restore;             // a file of settings, of which those that differ are written
+  bool config = false;             // shows FluidNC's YAML
+  std::string write_config;        // a file with FluidNC's YAML, which replaces the board's
   bool json = false;
 };
 int board_settings(const BoardSettingsArguments& arguments);
+
+struct BoardFilesArguments {
+  std::string board;   // an address "grbl:…"
+  std::string run;     // the path of a file on the board
+  std::string upload;  // a file of this computer
+  std::string as;      // the path on the board; empty: the same name on its card
+  bool json = false;
+};
+int board_files(const BoardFilesArguments& arguments);
 
 struct BoardFlashArguments {
   std::string board;   // uno, mega, or one of their variants with windings; pico

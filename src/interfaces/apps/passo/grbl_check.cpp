@@ -30,15 +30,14 @@ GrblLimits limits_of_axes(const MachineDescription& machine) {
   return limits_of(board);
 }
 
-// The rate that limits the lines; 0: none does. USB itself and a network are faster than every board, but behind a
-// network there may be a serial line.
-double bytes_per_second(const BoardAddress& address, const GrblMachine& machine) {
+}  // namespace
+
+// USB itself and a network are faster than every board, but behind a network there may be a serial line.
+double grbl_bytes_per_second(const BoardAddress& address, const GrblMachine& machine) {
   if (address.kind == BoardAddress::Kind::tcp) return address.behind_baud / bits_per_byte;
   const bool is_native_usb = address.place.starts_with("/dev/ttyACM") && machine.firmware != "Grbl";
   return address.kind == BoardAddress::Kind::serial && !is_native_usb ? address.baud / bits_per_byte : 0;
 }
-
-}  // namespace
 
 std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescription& machine,
                                     InterpreterOptions& options, int& code) {
@@ -65,7 +64,7 @@ std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescri
   options.start = sender.place().value_or(options.start);
   GrblBoard found{.firmware = board.firmware + " " + board.version,
                   .limits = limits_of(board),
-                  .line = {.bytes_per_second = bytes_per_second(*address, board), .buffer = sender.buffer_size()},
+                  .line = {.bytes_per_second = grbl_bytes_per_second(*address, board), .buffer = sender.buffer_size()},
                   .target = GrblTarget::of(board)};
   const auto& steps = found.limits.steps_per_mm.values;
   if (std::ranges::all_of(steps, [](double per_unit) { return per_unit <= 0; })) {

@@ -12,6 +12,7 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/sender/grbl_forecast.hpp"
 #include "passo/sender/grbl_program_check.hpp"
+#include "passo/transport/board_address.hpp"
 
 namespace passo {
 
@@ -22,6 +23,9 @@ struct GrblBoard {
   GrblTarget target;
   GrblForecast::Result forecast = {};  // after judge_on_grbl()
 };
+
+// Returns the rate that limits the lines to a board; 0: none does.
+double grbl_bytes_per_second(const BoardAddress& address, const GrblMachine& machine);
 
 // Returns the board that `name` identifies: "grbl" is Grbl on an Uno with the limits of the machine file; an address is
 // asked for its settings and offsets, which then also apply to `options`. Empty, with a message and `code`: it is

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "grbl_machine_connection.hpp"
 
+#include "passo/sender/file_upload.hpp"
 #include "passo/sender/grbl_sender.hpp"
 
 namespace passo {
@@ -26,10 +28,20 @@ class GrblConnection {
   const GrblSender& sender() const { return sender_; }
   // Sends pending data and processes received data, for at most `most`.
   void poll(Seconds most);
+  // Sends a file. Returns false, with a message and `code`, if the board has not received it.
+  [[nodiscard]] bool upload(FileUpload upload, int& code);
+  // Asks a question, and waits for the answer. Empty, with a message and `code`, if there is none.
+  std::optional<GrblAnswer> ask(const std::string& line, Seconds most, int& code);
 
  private:
-  explicit GrblConnection(GrblLink link) : link_(std::move(link)), sender_(link_.port->now()) {}
+  GrblConnection(std::string board, GrblLink link)
+      : board_(std::move(board)), link_(std::move(link)), sender_(link_.port->now()) {}
 
+  [[nodiscard]] bool greet(int& code);
+  // Shows why the board does not answer. Returns the exit code.
+  [[nodiscard]] int give_up() const;
+
+  std::string board_;
   GrblLink link_;
   GrblSender sender_;
 };

@@ -34,18 +34,52 @@ std::string GrblStreamPort::receive(Seconds most) {
   return {reinterpret_cast<const char*>(came.data()), came.size()};
 }
 
+GrblStreamPort::GrblStreamPort(BoardAddress address, std::unique_ptr<StreamPort> port, std::string system)
+    : address_(std::move(address)), system_(std::move(system)), port_(std::move(port)) {
+  if (address_.kind != BoardAddress::Kind::serial) return;
+  const SerialPortList list = list_serial_ports(system_);
+  if (const SerialPort* const found = find_serial_port(list, address_.place)) device_ = *found;
+}
+
+// Empty: a USB device is not there.
+std::optional<BoardAddress> GrblStreamPort::present_address() const {
+  if (!device_) return address_;
+  const SerialPortList list = list_serial_ports(system_);
+  const SerialPort* const found = find_returned_port(list, *device_);
+  if (found == nullptr) return {};
+  BoardAddress address = address_;
+  if (found->device != device_->device) address.place = found->device;
+  return address;
+}
+
+bool GrblStreamPort::has_returned() {
+  return device_ && present_address().has_value();
+}
+
 bool GrblStreamPort::open_again() {
-  if (!opening_.valid())
-    opening_ = std::async(std::launch::async, [address = address_] { return open_board(address); });
+  if (!opening_.valid()) {
+    const auto address = present_address();
+    if (!address) return false;
+    renamed_claim_.reset();
+    if (address->place != address_.place) {
+      auto taken = BoardClaim::acquire(*address);
+      if (!taken) return false;
+      renamed_claim_ = std::move(*taken);
+    }
+    opened_at_ = *address;
+    opening_ = std::async(std::launch::async, [address = opened_at_] { return open_board(address); });
+  }
   if (opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
   auto port = opening_.get();
   if (!port) return false;
+  if (opened_at_.place != address_.place)
+    note("the board is at " + opened_at_.place + " now, instead of " + address_.place);
   port_ = std::move(*port);
   broken_ = false;
   return true;
 }
 
-std::optional<GrblLink> GrblLink::open(const std::string& board, int& code) {
+std::optional<GrblLink> GrblLink::open(const std::string& board, int& code, const std::string& system) {
   const auto address = parse_board_address(board);
   if (!address) {
     code = fail(exit_bad_program, address.error());
@@ -61,13 +95,14 @@ std::optional<GrblLink> GrblLink::open(const std::string& board, int& code) {
     code = fail(exit_failed, port.error());
     return std::nullopt;
   }
-  return GrblLink{.claim = std::move(*claim), .port = std::make_unique<GrblStreamPort>(*address, std::move(*port))};
+  return GrblLink{.claim = std::move(*claim),
+                  .port = std::make_unique<GrblStreamPort>(*address, std::move(*port), system)};
 }
 
 std::unique_ptr<GrblMachineConnection> GrblMachineConnection::open(const std::string& board,
                                                                    const MachineDescription& machine, Seconds ahead,
-                                                                   int& code) {
-  auto link = GrblLink::open(board, code);
+                                                                   int& code, const std::string& system) {
+  auto link = GrblLink::open(board, code, system);
   if (!link) return nullptr;
   std::unique_ptr<GrblMachineConnection> opened(new GrblMachineConnection(board, std::move(*link), machine, ahead));
   GrblMachineSession& session = opened->session_;
@@ -89,16 +124,11 @@ void GrblMachineConnection::poll(Seconds most) {
     try_request(session_, request::Stop{});
   }
   session_.poll(most);
-  const auto tell = [](const std::string& words) {
-    ProgressDisplay::clear_shown();
-    note(words);
-  };
-  for (const std::string& message : session_.take_messages()) {
-    const bool is_trouble = message.starts_with("ERR") || message.starts_with("WARN");  // of FluidNC
-    if (is_trouble) tell(fmt::format("{}: the board says: {}", board_, message));
-  }
+  note_trouble(board_, session_.take_messages());
   const std::string_view wait = session_.sender().waits_for();
-  if (std::exchange(last_wait_, wait) != wait && !wait.empty()) tell(std::string(wait));
+  if (std::exchange(last_wait_, wait) == wait || wait.empty()) return;
+  ProgressDisplay::clear_shown();
+  note(std::string(wait));
 }
 
 void GrblMachineConnection::poll_until_done() {
@@ -134,6 +164,14 @@ std::string describe(const GrblFault& fault, const std::string& program) {
                 : fmt::format("{}:{}: ", program, fault.last_line);
   }
   return fmt::format("{}{} [{}]", where, fault.message, fault.code);
+}
+
+void note_trouble(const std::string& board, const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) {
+    if (!message.starts_with("ERR") && !message.starts_with("WARN")) continue;  // as FluidNC begins them
+    ProgressDisplay::clear_shown();
+    note(fmt::format("{}: the board says: {}", board, message));
+  }
 }
 
 void note_unknown_firmware(const std::string& board, const GrblMachine& machine) {

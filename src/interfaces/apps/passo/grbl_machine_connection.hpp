@@ -8,31 +8,41 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "board_claim.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/sender/grbl_machine_session.hpp"
 #include "passo/sender/grbl_port.hpp"
+#include "passo/transport/serial_ports.hpp"
 #include "passo/transport/stream_port.hpp"
 
 namespace passo {
 
 // The bytes of a Grbl board in real time. A connection that broke stays so until open_again(): opening a serial port
-// may reset the board. A network connection may take seconds to open, so that happens in a thread of its own.
+// may reset the board. A network connection may take seconds to open, so that happens in a thread of its own. A USB
+// device is found under another name, too.
 class GrblStreamPort final : public GrblPort {
  public:
-  GrblStreamPort(BoardAddress address, std::unique_ptr<StreamPort> port)
-      : address_(std::move(address)), port_(std::move(port)) {}
+  // `system`: for list_serial_ports().
+  GrblStreamPort(BoardAddress address, std::unique_ptr<StreamPort> port, std::string system);
 
   Seconds now() const override;
   void send(std::string_view bytes) override;
   std::string receive(Seconds most) override;
   bool is_broken() const override { return broken_; }
+  bool has_returned() override;
   bool open_again() override;
 
  private:
+  std::optional<BoardAddress> present_address() const;
+
   BoardAddress address_;
+  std::string system_;
+  std::optional<SerialPort> device_;         // null: no USB port
+  std::optional<BoardClaim> renamed_claim_;  // under another name
+  BoardAddress opened_at_;
   std::unique_ptr<StreamPort> port_;
   bool broken_ = false;
   std::future<Result<std::unique_ptr<StreamPort>, std::string>> opening_;  // valid while it is being opened
@@ -41,8 +51,9 @@ class GrblStreamPort final : public GrblPort {
 
 // The open line to a board, which no other program of ours may use.
 struct GrblLink {
-  // Empty, with a message and `code`, if there is no such board, or if another program drives it.
-  static std::optional<GrblLink> open(const std::string& board, int& code);
+  // Empty, with a message and `code`, if there is no such board, or if another program drives it. `system`: for
+  // list_serial_ports().
+  static std::optional<GrblLink> open(const std::string& board, int& code, const std::string& system = "");
 
   BoardClaim claim;
   std::unique_ptr<GrblStreamPort> port;
@@ -52,9 +63,9 @@ class GrblMachineConnection {
  public:
   // Opens `board`, and waits until the machine is ready; it may be locked by an alarm. Null, with a message and `code`,
   // if it does not answer as a Grbl board, or if another program drives it. `machine` must outlive the connection.
-  // `ahead`: how much motion may lie in the board.
+  // `ahead`: how much motion may lie in the board. `system`: for list_serial_ports().
   static std::unique_ptr<GrblMachineConnection> open(const std::string& board, const MachineDescription& machine,
-                                                     Seconds ahead, int& code);
+                                                     Seconds ahead, int& code, const std::string& system = "");
 
   GrblMachineSession& session() { return session_; }
   // Polls the session once, for at most `most`, and shows what the board says, and what the operator must do at it.
@@ -80,6 +91,8 @@ class GrblMachineConnection {
 
 // Describes a fault: position in the program, cause and code.
 std::string describe(const GrblFault& fault, const std::string& program);
+// Shows the errors and warnings among the messages of a board.
+void note_trouble(const std::string& board, const std::vector<std::string>& messages);
 void note_unknown_firmware(const std::string& board, const GrblMachine& machine);
 
 }  // namespace passo

@@ -1,6 +1,7 @@
 #include "grbl_run.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -31,9 +32,9 @@ std::vector<double> place_of(const MachineSession& session, const MachineDescrip
 }
 
 // Homes the machine. Returns false, with a message and `code`, on failure.
-bool home_first(GrblMachineConnection& opened, const std::string& board, int& code) {
+bool home_first(GrblMachineConnection& opened, const std::string& board, std::optional<Axis> axis, int& code) {
   GrblMachineSession& session = opened.session();
-  const auto ticket = session.request(request::Home{});
+  const auto ticket = session.request(request::Home{axis});
   Answered answered{.outcome = Outcome::failed};
   if (ticket) {
     opened.poll_until_done();
@@ -51,7 +52,7 @@ bool home_first(GrblMachineConnection& opened, const std::string& board, int& co
 
 // The machine is idle and not locked. False, with a message and `code`.
 bool make_ready(GrblMachineConnection& opened, const RunArguments& arguments, int& code) {
-  if (arguments.home && !home_first(opened, arguments.board, code)) return false;
+  if (arguments.home && !home_first(opened, arguments.board, std::nullopt, code)) return false;
   if (!opened.session().is_locked()) return true;
   const std::string alarm = opened.session().sender().alarm_words();
   code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. Home it with --home, or unlock "
@@ -216,8 +217,10 @@ int home_grbl(const HomeArguments& arguments, const MachineDescription& machine)
   brake_on_signals();
   const auto opened = GrblMachineConnection::open(arguments.board, machine, GrblSender::default_ahead, code);
   if (!opened) return code;
+  const std::optional<Axis> axis =
+      arguments.axis.empty() ? std::nullopt : axis_of(static_cast<char>(std::toupper(arguments.axis.front())));
   const Seconds begun = opened->session().now();
-  if (!home_first(*opened, arguments.board, code)) return code;
+  if (!home_first(*opened, arguments.board, axis, code)) return code;
   const double time = (opened->session().now() - begun).value();
   if (arguments.json) {
     const nlohmann::ordered_json all = {

@@ -64,6 +64,11 @@ int home(const HomeArguments& arguments) {
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   if (names_grbl_machine(arguments.board)) return home_grbl(arguments, *machine);
+  if (!arguments.axis.empty()) {
+    return fail(exit_bad_program, "AXIS " + arguments.axis +
+                                      ": this board homes all its axes together; only Grbl boards home single axes "
+                                      "[home.single-axis]");
+  }
   if (machine->homing.empty()) return fail(exit_bad_machine, words_without_homing(arguments.machine));
   end_on_signals();
   int code = exit_done;

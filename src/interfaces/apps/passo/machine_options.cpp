@@ -52,6 +52,9 @@ void add_jog_options(CLI::App& command, JogArguments& arguments) {
 }
 
 void add_home_options(CLI::App& command, HomeArguments& arguments) {
+  command
+      .add_option("AXIS", arguments.axis, "home this axis alone, e.g. X; only Grbl boards that know $HX (default: all)")
+      ->check(CLI::IsMember({"X", "Y", "Z", "A", "B", "C", "U", "V", "W"}, CLI::ignore_case));
   add_machine(command, arguments.machine);
   add_board(command, arguments.board);
   command
@@ -66,6 +69,7 @@ void add_home_options(CLI::App& command, HomeArguments& arguments) {
       "  passo home -m uno.toml --repeat 10                     measure how well the switches repeat\n"
       "  passo home -m uno.toml --board serial:/dev/ttyACM0     home a real machine\n"
       "  passo home -m router.toml --board grbl:/dev/ttyUSB0    home a machine with Grbl\n"
+      "  passo home Z -m router.toml --board grbl:/dev/ttyUSB0  home its Z axis alone\n"
       "Errors end with a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
       "[home.board],\n"
       "[home.no-switch], [home.interrupted]; see docs/manual/homing.md");

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "example_machine_text.hpp"
+#include "grbl_check.hpp"
 #include "grbl_connection.hpp"
 #include "grbl_machine_connection.hpp"
 #include "machine_connection.hpp"
@@ -175,7 +176,11 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
   if (!arguments.http.empty()) {
     web = ServedWeb::open(arguments, machine, session, owner, jobs, code);
     if (!web) return code;
-    if (things.grbl_board != nullptr) web->follow_offsets(*things.grbl_board);
+    if (things.grbl_board != nullptr) {
+      const auto address = parse_board_address(arguments.board);
+      const double rate = address ? grbl_bytes_per_second(*address, things.grbl_board->board()) : 0;
+      web->follow_board(*things.grbl_board, rate);
+    }
     web->share_offsets(grbl);
     if (const auto place = web->broken_off_at(); place && things.simulated != nullptr) {
       things.simulated->stand_in_truth_at(*place);
@@ -213,7 +218,7 @@ int serve_grbl_board(const ServeArguments& arguments, const std::string& text, c
   int code = exit_done;
   brake_on_signals();
   const Seconds ahead(arguments.ahead.value_or(GrblSender::default_ahead.value()));
-  const auto opened = GrblMachineConnection::open(arguments.board, machine, ahead, code);
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, ahead, code, arguments.system);
   if (!opened) return code;
   return serve_machine({.arguments = arguments,
                         .text = text,

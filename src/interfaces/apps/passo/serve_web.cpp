@@ -199,7 +199,8 @@ void ServedWeb::share_offsets(GrblController& grbl) {
   });
 }
 
-void ServedWeb::follow_offsets(GrblMachineSession& board) {
+void ServedWeb::follow_board(GrblMachineSession& board, double bytes_per_second) {
+  timer_.follow(board, bytes_per_second);
   api_.apply_offsets(board.offsets(api_.parameters()));
   board_ = &board;
   boards_.settings.use(board);

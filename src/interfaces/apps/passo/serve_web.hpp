@@ -55,9 +55,9 @@ class ServedWeb {
   const WebApi& api() const { return api_; }
   // Makes senders and programs share the same offsets. `grbl` must outlive this object.
   void share_offsets(GrblController& grbl);
-  // The board keeps the work offsets: takes over its own, and writes changed ones to it. `board` must outlive this
-  // object.
-  void follow_offsets(GrblMachineSession& board);
+  // The board keeps the work offsets: takes over its own, and writes changed ones to it. It plans the motion, too:
+  // times are predicted for it, and for a connection of that rate (0: without limit). `board` must outlive this object.
+  void follow_board(GrblMachineSession& board, double bytes_per_second);
   // Processes requests of the clients, and sends changes to those that are subscribed.
   void poll();
 

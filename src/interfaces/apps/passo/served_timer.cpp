@@ -22,6 +22,7 @@ void ServedTimer::begin(MotionTiming wanted) {
   {
     const std::lock_guard lock(mutex_);
     ++orders_;
+    wanted_board_ = board_ != nullptr ? based_on_ : std::nullopt;
     wanted_ = std::move(wanted);
     found_.reset();
   }
@@ -33,6 +34,43 @@ std::optional<MotionTimes> ServedTimer::take_times() {
   return std::exchange(found_, std::nullopt);
 }
 
+void ServedTimer::follow(const GrblMachineSession& board, double bytes_per_second) {
+  board_ = &board;
+  bytes_per_second_ = bytes_per_second;
+}
+
+// The settings of the board may be changed at any time. While it is asked again, what it has told before counts.
+std::uint64_t ServedTimer::basis() {
+  if (board_ == nullptr) return 1;
+  const GrblMachine& board = board_->board();
+  GrblTiming told{.limits = limits_of(board),
+                  .line = {.bytes_per_second = bytes_per_second_, .buffer = board.bytes},
+                  .target = GrblTarget::of(board)};
+  if (!told.is_known()) return basis_;
+  const bool is_same =
+      based_on_ && based_on_->limits == told.limits && based_on_->target.measures_motors == told.target.measures_motors;
+  if (!is_same) ++basis_;
+  based_on_ = std::move(told);
+  return basis_;
+}
+
+std::optional<MotionTimes> ServedTimer::plan(const MotionTiming& wanted, const std::optional<GrblTiming>& board,
+                                             std::uint64_t order) const {
+  const auto goes_on = [&] { return !ends_ && orders_ == order; };
+  if (!board) return time_motion(wanted, machine_, goes_on);
+  constexpr std::uint64_t items_between_looks = 64;
+  GrblTiming timing = *board;
+  timing.limits.feed_factor = wanted.factors.feed;
+  timing.limits.rapid_factor = wanted.factors.rapids;
+  MotionTimes times;
+  GrblTimes predicted(ProgramReader::from_text(wanted.name, wanted.text), machine_, wanted.options, timing,
+                      [&times](Seconds nominal, Seconds planned) { times.add(nominal, planned); });
+  while (!predicted.go_on(items_between_looks)) {
+    if (!goes_on()) return {};
+  }
+  return times;
+}
+
 void ServedTimer::run() {
   constexpr int lowest_priority = 19;
   // Linux has a priority for each thread.
@@ -42,9 +80,10 @@ void ServedTimer::run() {
     news_.wait(lock, [this] { return ends_ || wanted_.has_value(); });
     if (ends_) return;
     const MotionTiming wanted = *std::exchange(wanted_, std::nullopt);
+    const std::optional<GrblTiming> board = wanted_board_;
     const std::uint64_t order = orders_;
     lock.unlock();
-    std::optional<MotionTimes> times = time_motion(wanted, machine_, [&] { return !ends_ && orders_ == order; });
+    std::optional<MotionTimes> times = plan(wanted, board, order);
     lock.lock();
     if (times && orders_ == order) found_ = std::move(times);
   }

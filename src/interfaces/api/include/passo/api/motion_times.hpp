@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ class MotionTimer {
  public:
   virtual ~MotionTimer() = default;
   virtual void begin(MotionTiming wanted) = 0;
+  // The number of what the times are based on, e.g. the settings of a board that plans its own motion. Another number:
+  // earlier times are wrong. 0: nothing can be computed yet.
+  virtual std::uint64_t basis() { return 1; }
   // Returns the result of the last order, once.
   virtual std::optional<MotionTimes> take_times() = 0;
 };

@@ -136,7 +136,7 @@ class GrblController {
   void unlock();
   bool state_place();
   bool has_lost_place() const;
-  void home();
+  void home(std::optional<Axis> axis);
   void sleep();
   void begin_stream();
   void request_stream();
@@ -147,7 +147,7 @@ class GrblController {
   void end_probe();
   void report_end();
   void report_wait();
-  void begin_homing();
+  void begin_homing(std::optional<Axis> axis);
   void end_reset();
   void raise_alarm_of_board();
   void raise(GrblAlarm alarm);

@@ -26,6 +26,7 @@ struct GrblReport {
   // Letters of the outputs that are on: S or C spindle, F flood, M mist. Grbl reports them now and then; empty: not in
   // this report.
   std::optional<std::string> outputs = {};
+  std::optional<double> file_share = {};  // of a file on the board that it runs, 0 to 1
 
   // Returns whether nothing moves, and nothing will start moving by itself.
   bool rests() const;
