@@ -56,7 +56,7 @@ int list(const BoardFilesArguments& arguments, GrblConnection& opened, BoardFile
   }
   ordered_json json = {{"files", ordered_json::array()}};
   std::string text;
-  for (const BoardFile& file : files.all()) {
+  for (const StoredFile& file : files.all()) {
     json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"can_run", file.can_run}});
     text += fmt::format("{:>10}  {}{}\n", file.bytes, file.path, file.can_run ? "" : "  (its name cannot be used)");
   }
@@ -121,7 +121,7 @@ int run_file(const BoardFilesArguments& arguments, GrblConnection& opened, const
   const ordered_json json = {{"path", arguments.run}, {"time_s", time}};
   return print_text(arguments.json ? json.dump(2) + "\n"
                                    : fmt::format("{}: {:.1f} s; stopped at {} (machine)\n", arguments.run, time,
-                                                 opened.place_words()));
+                                                 place_words(opened.sender())));
 }
 
 }  // namespace

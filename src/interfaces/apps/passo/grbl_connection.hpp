@@ -26,20 +26,21 @@ class GrblConnection {
 
   GrblSender& sender() { return sender_; }
   const GrblSender& sender() const { return sender_; }
+  Seconds now() const { return link_.port->now(); }
   // Sends pending data and processes received data, for at most `most`.
   void poll(Seconds most);
   // Sends a file. Returns false, with a message and `code`, if the board has not received it.
   [[nodiscard]] bool upload(FileUpload upload, int& code);
   // Asks a question, and waits for the answer. Empty, with a message and `code`, if there is none.
   std::optional<GrblAnswer> ask(const std::string& line, Seconds most, int& code);
+  // Shows why the board does not answer. Returns the exit code.
+  [[nodiscard]] int give_up() const;
 
  private:
   GrblConnection(std::string board, GrblLink link)
       : board_(std::move(board)), link_(std::move(link)), sender_(link_.port->now()) {}
 
   [[nodiscard]] bool greet(int& code);
-  // Shows why the board does not answer. Returns the exit code.
-  [[nodiscard]] int give_up() const;
 
   std::string board_;
   GrblLink link_;

@@ -142,12 +142,12 @@ std::string GrblMachineConnection::words() const {
   return fmt::format("{} {} on {}", board.firmware, board.version, board_);
 }
 
-std::string GrblMachineConnection::place_words() const {
-  const auto place = session_.sender().place();
+std::string place_words(const GrblSender& sender) {
+  const auto place = sender.place();
   if (!place) return "an unknown position";
   std::string words;
   AxisSet told;
-  for (const char letter : session_.board().axes) {
+  for (const char letter : sender.machine().axes) {
     const auto axis = axis_of(letter);
     if (!axis || told.has(*axis)) continue;
     told.add(*axis);

@@ -75,8 +75,6 @@ class GrblMachineConnection {
   void poll_until_done();
   // Returns "Grbl 1.1h.20190830 on /dev/ttyUSB0".
   std::string words() const;
-  // Returns "X1.000 Y2.000 Z0.000", all axes of the board, machine coordinates; or that the position is unknown.
-  std::string place_words() const;
 
  private:
   GrblMachineConnection(std::string board, GrblLink link, const MachineDescription& machine, Seconds ahead)
@@ -89,6 +87,8 @@ class GrblMachineConnection {
   bool stops_ = false;
 };
 
+// Returns "X1.000 Y2.000 Z0.000", all axes of the board, machine coordinates; or that the position is unknown.
+std::string place_words(const GrblSender& sender);
 // Describes a fault: position in the program, cause and code.
 std::string describe(const GrblFault& fault, const std::string& program);
 // Shows the errors and warnings among the messages of a board.

@@ -194,7 +194,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   show(findings);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
-    note("the program starts at " + opened->place_words() + " (machine coordinates), with the offsets of the machine");
+    note("the program starts at " + place_words(opened->session().sender()) + " (machine coordinates), with the offsets of the machine");
   request::Start start{.program = program.again(),
                        .options = options,
                        .nominal_time = check.nominal_time,
@@ -227,7 +227,7 @@ int home_grbl(const HomeArguments& arguments, const MachineDescription& machine)
         {"homed", true}, {"time_s", time}, {"position_mm", place_json(opened->session())}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
-    fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, opened->place_words());
+    fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, place_words(opened->session().sender()));
   }
   return exit_done;
 }
