@@ -89,7 +89,7 @@ void print(Seconds time, const RunArguments& arguments, GrblMachineConnection& o
     fmt::print(
         "{}: {} in {}, {:.1f} s; stopped at {} (machine). Steps were not counted, because {} {} does not report them\n",
         arguments.program.program, counted(check.moves, "move"), counted(session.lines_of_program(), "line"),
-        time.value(), opened.place_words(), board.firmware, board.version);
+        time.value(), place_words(opened.session().sender()), board.firmware, board.version);
   }
 }
 
@@ -113,7 +113,7 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
   const int failed =
       fail(exit_failed, fmt::format("{}; the machine was last in state {} at {} (machine coordinates). A Grbl machine "
                                     "cannot resume exactly where it stopped: start at a line with --from-line",
-                                    words, report ? report->state : "unknown", opened.place_words()));
+                                    words, report ? report->state : "unknown", place_words(opened.session().sender())));
   return interrupted_by() != 0 ? exit_of_signal() : failed;
 }
 
