@@ -247,7 +247,8 @@ class StrictGrbl {
     state = motion_.moves() ? "Hold:1" : "Hold:0";
     motion_.brake();
   }
-  // A cancel that is noted while the machine jogs, and is executed when it is idle: no line is executed until a cycle start.
+  // A cancel that is noted while the machine jogs, and is executed when it is idle: no line is executed until a cycle
+  // start.
   void take_cancel() {
     asks_cancel_ = state == "Jog";
     waits_for_start_ = waits_for_start_ || (second_cancel_is_late && cancels_jog_);
