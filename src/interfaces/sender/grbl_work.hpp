@@ -29,6 +29,7 @@ struct GrblMachineSession::Work {
     Seconds skipped{0};  // nominal time of what comes before the point where the program begins
     std::optional<Seconds> dwell_left;
     std::uint64_t lines_before = 0;  // lines sent before this work
+    std::uint64_t stops = 0;         // program stops that it has come to
 
     // Nominal time from the beginning of the program.
     Seconds time() const { return skipped + executed.time(dwell_left); }
@@ -85,7 +86,6 @@ struct GrblMachineSession::Work {
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
   Progress progress;
-  std::uint64_t stops = 0;
   Hold hold;
 
   std::unique_ptr<ProgramChecker> checker;
