@@ -1,6 +1,7 @@
 #!/bin/bash
 # Machines the pockets and profiles of the example jobs, each operation alone by its command, and prints their time on
-# examples/machines/router.toml and, of the pockets, the largest engagement and removal rate: scripts/machining_table.sh [JOB…]
+# examples/machines/router.toml. Of the pockets it also prints the largest engagement, the share of the cutting distance with
+# more than 70 % of the diameter engaged, and the largest removal rate: scripts/machining_table.sh [JOB…]
 #
 # BEFORE=PROGRAM: another version of passo, for a second row of each job. Options that it does not have are left out in both.
 set -euo pipefail
@@ -10,6 +11,7 @@ import json, os, re, subprocess, sys, tempfile, tomllib
 root, passo, before = sys.argv[1:4]
 jobs = sys.argv[4:] or sorted(f[:-5] for f in os.listdir(f"{root}/examples/jobs") if f.endswith(".toml"))
 commands = {"pocket": "pocket", "profile": "profile"}
+of_all = ["clearance", "change-height"]
 of_job = {"kind", "tool", "title", "drawing", "coolant"}
 
 def words(key, value):
@@ -37,25 +39,35 @@ def plan(program, order):
             if missing is None: raise
             unknown.add(missing[1])
 
-def measure(program, name, job, folder):
-    tools = job["tool"]
+def feeds_of(job, number, folder):
+    """The tool with its feeds, from the chip load for the material where the job gives none."""
+    tool = job["tool"][number]
+    if "feed_mm_min" in tool: return tool
+    with open(f"{folder}/tools.toml", "w", encoding="utf-8") as library:
+        library.write("[tool.1]\n")
+        library.writelines(f"{key} = {json.dumps(value)}\n" for key, value in tool.items() if key != "spindle_rpm")
+    order = ["tools", "feeds", f"{folder}/tools.toml", "-t", "1", "--material", job["stock"]["material"], "--json"]
+    found = json.loads(run(passo, *order, *([f"--rpm={tool['spindle_rpm']}"] if "spindle_rpm" in tool else [])))
+    return tool | {"feed_mm_min": found["feed_mm_min"], "plunge_mm_min": found["plunge_mm_min"], "spindle_rpm": round(found["rpm"])}
+
+def measure(program, job, folder):
     drawings = job["job"].get("drawing", [])
     drawings = [f"{root}/examples/jobs/{d}" for d in ([drawings] if isinstance(drawings, str) else drawings)]
     zero = job["job"].get("zero", "file")
     stock = job["stock"]
     x, y = stock.get("corner", [0, 0])
     block = f"X{x}:{x + stock['size'][0]},Y{y}:{y + stock['size'][1]},Z{-stock['thickness'] - 1}:0"
-    time = engagement = removal = 0.0
+    time = engagement = removal = heavy = distance = 0.0
     count = 0
     for operation in job["operation"]:
         command = commands.get(operation["kind"])
         if command is None: continue
-        tool = tools[str(operation["tool"])]
+        tool = feeds_of(job, str(operation["tool"]), folder)
         order = ["cam", command, *drawings, f"--tool={tool['diameter_mm']}", "-o", f"{folder}/cut.ngc"]
         order += words("zero", zero if isinstance(zero, str) else [zero])
         for key, option in (("feed_mm_min", "feed"), ("plunge_mm_min", "plunge-feed"), ("spindle_rpm", "spindle")):
             if key in tool: order.append(f"--{option}={tool[key]}")
-        for key, value in operation.items():
+        for key, value in ({key: job["job"][key] for key in of_all if key in job["job"]} | operation).items():
             if key not in of_job: order += words(key, value)
         plan(program, order)
         count += 1
@@ -66,24 +78,30 @@ def measure(program, name, job, folder):
         cut = json.loads(run(passo, "simulate", f"{folder}/cut.ngc", f"--tool=flat:{tool['diameter_mm']}", f"--stock={block}", "--json"))
         engagement = max(engagement, cut["largest_engagement"]["of_diameter"])
         removal = max(removal, cut["largest_removal"]["mm3_s"])
-    return count, time, engagement, removal
+        heavy += cut["heavy_engagement"]["way_mm"]
+        distance += cut["cutting_way_mm"]
+    return count, time, engagement, heavy, distance, removal
 
-print(f"{'job':18} {'version':8} {'operations':>10} {'time':>7} {'engagement %':>13} {'mm3/s':>7}")
+print(f"{'job':18} {'version':8} {'operations':>10} {'time':>7} {'engagement %':>13} {'above 70 %':>11} {'mm3/s':>7}")
 sums = {}
+
+def row(name, version, count, time, engagement, heavy, distance, removal):
+    pockets = f"{100 * engagement:13.0f} {100 * heavy / distance:9.0f} % {removal:7.0f}" if distance else ""
+    print(f"{name:18} {version:8} {count:10} {int(time) // 60:4}:{int(time) % 60:02} {pockets}".rstrip(), flush=True)
+
 with tempfile.TemporaryDirectory() as folder:
     for name in jobs:
         job = tomllib.load(open(f"{root}/examples/jobs/{name}.toml", "rb"))
         for version, program in (("before", before), ("now", passo)):
             if not program: continue
             try:
-                count, time, engagement, removal = measure(program, name, job, folder)
+                found = measure(program, job, folder)
             except RuntimeError as why:
                 print(f"{name:18} {version:8} {str(why).splitlines()[-1][:90]}")
                 continue
-            if count == 0: break
-            pockets = f"{100 * engagement:13.0f} {removal:7.0f}" if engagement else f"{'':13} {'':7}"
-            print(f"{name:18} {version:8} {count:10} {int(time) // 60:4}:{int(time) % 60:02} {pockets}", flush=True)
-            sums[version] = sums.get(version, 0) + time
-for version, time in sums.items():
-    print(f"{'all':18} {version:8} {'':10} {int(time) // 60:4}:{int(time) % 60:02}")
+            if found[0] == 0: break
+            row(name, version, *found)
+            sum = sums.setdefault(version, [0] * len(found))
+            for i, value in enumerate(found): sum[i] = max(sum[i], value) if i in (2, 5) else sum[i] + value
+for version, sum in sums.items(): row("all", version, *sum)
 PYTHON

@@ -188,8 +188,8 @@ async function play(page: Page, jogs: AskedJogs, seed: number): Promise<{ after:
 }
 
 async function goToZero(page: Page): Promise<void> {
-  await page.getByRole('button', { name: 'Go to zero' }).click();
-  await page.getByRole('dialog').getByRole('button', { name: 'Go to zero' }).click();
+  await page.getByRole('button', { name: 'Work zero' }).click();
+  await page.getByRole('dialog').getByRole('button', { name: 'Go', exact: true }).click();
   await daemon.until(({ state, place }) => state === 'Idle' && Math.hypot(place.x ?? 0, place.y ?? 0) < 0.01);
   await page.getByTestId('state').filter({ hasText: 'Ready' }).waitFor();
 }

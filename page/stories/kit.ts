@@ -82,6 +82,9 @@ export class Peer {
     for (const end = Date.now() + 20_000; !ready() && Date.now() < end; ) await sleep(50);
     return new Peer(child);
   }
+  say(line: string): void {
+    this.process.stdin?.write(`${line}\n`);
+  }
   end = (): Promise<void> => kill(this.process, 'SIGKILL');
 }
 
@@ -130,6 +133,7 @@ interface Start {
   board?: Board;
   data?: string; // a folder that outlives the daemon
   touch?: readonly string[]; // what the virtual probe can touch
+  macros?: string; // a folder
 }
 
 export class Daemon {
@@ -139,11 +143,12 @@ export class Daemon {
     private readonly folder: string,
   ) {}
 
-  static async start({ port = '0', machine, board, data, touch = [], system, address }: Start = {}): Promise<Daemon> {
+  static async start({ port = '0', machine, board, data, touch = [], macros, system, address }: Start = {}): Promise<Daemon> {
     const folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
     const words = ['serve', '--http', `127.0.0.1:${port}`, '--grbl-tcp', '127.0.0.1:0', '--page', pageFolder, '--data', data ?? folder];
     words.push('--machine', machine ?? smallMachine(folder));
     for (const one of touch) words.push('--touch', one);
+    if (macros !== undefined) words.push('--macros', macros);
     if (board !== undefined) words.push('--board', `tcp:127.0.0.1:${board.port}`);
     if (address !== undefined) words.push('--board', address);
     if (system !== undefined) words.push('--system', system);

@@ -1,5 +1,5 @@
 // What a person prepares: places found by the probe, a height map, the torque, the stock, limits for the motors, letters.
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
@@ -13,10 +13,13 @@ const patience = 60_000; // ms, on a busy computer; what runs at a low priority 
 beforeAll(async () => {
   folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
   const machine = join(folder, 'machine.toml');
-  writeFileSync(machine, readFileSync(example('machines/strong-router.toml'), 'utf8'));
+  writeFileSync(machine, `${readFileSync(example('machines/strong-router.toml'), 'utf8')}\n[park]\nplace_mm = [-30, 40]\n`);
+  const macros = join(folder, 'macros');
+  mkdirSync(macros);
+  writeFileSync(join(macros, 'aside.ngc'), '; title = "Move aside"\n; key = "F6"\n; [value.way]\n; title = "Distance"\n; unit = "mm"\n; least = 1\n; most = 50\nG21 G91 G0 X#<way>\n');
   browser = await openBrowser();
   // A block whose corner is 8 and 9 mm beside the probe, its top 11.2 mm below.
-  daemon = await Daemon.start({ machine, touch: ['X-8:90,Y-9:70,Z-50:-11.2'] });
+  daemon = await Daemon.start({ machine, touch: ['X-8:90,Y-9:70,Z-50:-11.2'], macros });
 });
 afterAll(async () => {
   await browser?.close();
@@ -137,6 +140,49 @@ describe('CAM', () => {
     await choose(page, 'Pocket');
     const made = async (): Promise<string> => JSON.stringify(await daemon.get('/programs'));
     await expect.poll(made, { timeout: patience * 4 }).toContain('tray-pocket.ngc');
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('at the press of a button', () => {
+  it('the machine frames a job, parks, and runs a macro with its values', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'files');
+    page.setDefaultTimeout(patience);
+    const ends = (name: string) => daemon.until((status) => status.job?.name === name && status.job.state === 'done', patience * 2);
+    await page.setInputFiles('input[type=file]', { name: 'framed.ngc', mimeType: 'text/plain', buffer: Buffer.from(part) });
+    await expect.poll(() => page.getByTestId('verdict').innerText(), { timeout: patience }).toMatch(/^(No errors|Has warnings|Steps are lost)/);
+    await page.goto(`${daemon.address}#/run`);
+    await page.getByRole('button', { name: 'Frame …' }).click();
+    const question = page.getByRole('dialog');
+    expect(await question.innerText()).toContain('with the spindle off');
+    const height = question.getByRole('textbox', { name: /^Height/ });
+    await height.fill('20000');
+    await height.blur();
+    expect(await question.getByRole('button', { name: /^Frame/ }).getAttribute('aria-disabled')).toBe('true');
+    await height.fill('2');
+    await height.blur();
+    expect(await violations(page)).toEqual([]);
+    await question.getByRole('radio', { name: 'Convex hull' }).check();
+    await agree(page, 'Frame');
+    const framed = await ends('frame framed.ngc');
+    expect((framed.place.z ?? 0) - (framed.work_offset?.z ?? 0)).toBeCloseTo(5, 1);
+    expect(await page.getByText('framed.ngc').first().isVisible(), 'the job is still shown').toBe(true);
+    await page.goto(`${daemon.address}#/jog`);
+    await page.getByRole('button', { name: 'Park', exact: true }).click();
+    await agree(page, 'Go');
+    const parked = await ends('go to park');
+    expect([parked.place.x, parked.place.y]).toEqual([expect.closeTo(-30, 2), expect.closeTo(40, 2)]);
+    await expect.poll(() => page.getByTestId('state').innerText(), { timeout: patience }).toBe('Ready');
+    await page.keyboard.press('F6');
+    expect(await violations(page)).toEqual([]);
+    const run = page.getByRole('dialog').getByRole('button', { name: /^Run/ });
+    expect(await run.getAttribute('aria-disabled'), 'a value is missing').toBe('true');
+    const way = page.getByRole('dialog').getByRole('textbox', { name: /^Distance/ });
+    await way.fill('12.5');
+    await way.blur();
+    await run.click();
+    expect((await ends('macro aside')).place.x).toBeCloseTo(-17.5, 2);
     expect(errors).toEqual([]);
     await context.close();
   });

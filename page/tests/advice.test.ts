@@ -22,6 +22,10 @@ describe('a job that was broken off', () => {
     const status = { state: 'Idle', lost_place: true, trust: 'unknown', holds: [], job: { name: 'part.ngc', state: 'failed', why: 'lost' } } as unknown as Status;
     expect(stateWords({ status, program: 'open', canHome: true, broken: 'Resume it.' }).next).toBe('Resume it.');
     expect(stateWords({ status: { ...status, job: null }, program: 'open', canHome: true, broken: '' }).next).toContain('machine position is unknown');
+    // A machine that cannot be homed is not told to.
+    const switchless = stateWords({ status, program: 'open', canHome: false, broken: '' }).next;
+    expect(switchless).toContain('machine position is unknown. Jog it');
+    expect(stateWords({ status: { ...status, state: 'Alarm' }, program: 'open', canHome: false, broken: '' }).next).not.toContain('ome the machine');
   });
 });
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { byGroup, hasBit, rangeOf, sought, withBit, type Setting } from '../src/machine/board_settings';
+import { byGroup, hasBit, rangeOf, sought, unitOf, withBit, type Setting } from '../src/machine/board_settings';
 import { fileNameFor, idOf, nameOf, usersOf, type Port } from '../src/machine/ports';
 
 const setting = (name: string, more: Partial<Setting> = {}): Setting => ({
@@ -25,6 +25,11 @@ describe('settings of a board', () => {
     expect(rangeOf(setting('$0', { least: 3, most: 1000, zero_too: true }))).toBe('0, 3 … 1000');
     expect(rangeOf(setting('$0', { least: 0.1 }))).toBe('≥ 0.1');
     expect(rangeOf(setting('$0', { most: 255 }))).toBe('≤ 255');
+  });
+
+  it('have the usual signs for their units', () => {
+    const units = ['us', 'microseconds', 'mm/s^2', 'mm/sec^2', 'mm/min', 'milliseconds', ''].map((unit) => unitOf(setting('$0', { unit })));
+    expect(units).toEqual(['µs', 'µs', 'mm/s²', 'mm/s²', 'mm/min', 'ms', '']);
   });
 
   it('are sums of bits, of which one is changed at a time', () => {

@@ -1,7 +1,7 @@
 // Keys of operations in a job file: what a field shows of them, and what it means.
 import { describe, expect, it } from 'vitest';
 import type { JobFile, JobOperation, Shape } from '../src/machine/job_file';
-import { drawingsOf, ownerOf, selects, textOf, valueOf } from '../src/pages/cam_job_values';
+import { drawingsOf, ownerOf, selects, textOf, usersOf, valueOf, withDrawing } from '../src/pages/cam_job_values';
 
 const length = { 'x-kind': 'length', type: ['string', 'number'] };
 const layer = { 'x-kind': 'text', type: ['string', 'array'] };
@@ -43,5 +43,19 @@ describe('an operation', () => {
     expect([4, 5, 9, 10, 12, 13, 14].map((line) => ownerOf(file, line))).toEqual([-1, 0, 0, -1, 1, 1, -1]);
     expect(drawingsOf(file)).toEqual(['a.svg', 'b.svg']);
     expect(drawingsOf(file, operation({ drawing: 'c.svg' }))).toEqual(['c.svg']);
+  });
+});
+
+describe('a job', () => {
+  it('has one drawing as a text, several as a list, and none as no key', () => {
+    expect(withDrawing([], 'a.svg', true)).toBe('a.svg');
+    expect(withDrawing(['a.svg'], 'b.svg', true)).toEqual(['a.svg', 'b.svg']);
+    expect(withDrawing(['a.svg'], 'a.svg', true)).toBe('a.svg');
+    expect(withDrawing(['a.svg', 'b.svg'], 'a.svg', false)).toBe('b.svg');
+    expect(withDrawing(['a.svg'], 'a.svg', false)).toBeUndefined();
+  });
+  it('tells which operations cut with a tool, as their first or second one', () => {
+    const file = { operations: [operation({ tool: 1 }), operation({ tool: 2, 'rough-tool': 1 }), operation({ tool: '3' })] } as unknown as JobFile;
+    expect([1, 2, 3, 4].map((tool) => usersOf(file, tool, ['tool', 'rough-tool']))).toEqual([[1, 2], [2], [3], []]);
   });
 });

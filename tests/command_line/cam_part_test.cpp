@@ -312,6 +312,7 @@ TEST_F(CamPart, the_floor_of_an_inlay_is_flat_where_the_flat_cutter_is_too_wide)
                              " --angle 60 --tool 6 --inlay pocket --inlay-depth 2 --clear 3 -o " + path("bar.ngc"));
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.out, Not(HasSubstr("not reached")));
+  EXPECT_THAT(made.err, Not(HasSubstr("not cleared")));
   const Outcome cut =
       passo("simulate " + path("bar.ngc") + " --tool vee:60:6 --cell 0.05 --stock X0:40,Y0:10,Z-4:0 --json");
   EXPECT_EQ(cut.code, 0) << cut.out << cut.err;

@@ -68,20 +68,24 @@ TEST_F(GrblMachine, is_held_and_slowed_and_a_hold_may_end_the_run) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   outcome = beside_a_machine(run(program, "-q --hold-at 0.2"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in state Hold at X"));
+  EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in state Idle at X"));
 }
 
 TEST_F(GrblMachine, cannot_do_all_and_says_so) {
-  const std::string probe = write("p.ngc", "G21 G90\nG38.2 Z-1 F10\nM2\n");
-  const auto outcome = beside_a_machine(run(probe, "") + "; [ $? = 2 ] && " + run(probe, "--resume") +
-                                        "; [ $? = 2 ] && " PASSO_PROGRAM " jog X1 -m " PASSO_SOURCE_DIR
-                                        "/examples/machines/router.toml --board $L");
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(
-      outcome.err,
-      HasSubstr("p.ngc:2:1: error: a machine with Grbl cannot do this: Passo cannot read the result of its probe"));
+  const std::string thread = write("p.ngc", "G21 G90 G18\nM3 S100\nG33 Z-1 K0.5\nM2\n");
+  const auto outcome = beside_a_machine(run(thread, "") + "; [ $? = 2 ] && " + run(thread, "--resume"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("p.ngc:3:1: error: a machine with Grbl cannot do this"));
   EXPECT_THAT(outcome.err, HasSubstr("--resume and --journal"));
-  EXPECT_THAT(outcome.err, HasSubstr("[board.grbl]"));
+}
+
+TEST_F(GrblMachine, is_jogged) {
+  const auto outcome = beside_a_machine(PASSO_PROGRAM " jog X3 Y-1 -m " PASSO_SOURCE_DIR
+                                                      "/examples/machines/router.toml --board $L --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto all = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(all["ended_by"], "distance");
+  EXPECT_NEAR(all["position_mm"]["X"].get<double>(), 3, 5e-3);
 }
 
 // Beside a fake machine, which is greeted without a delay.
@@ -115,9 +119,8 @@ TEST_F(FakeGrblMachine, may_tell_the_work_place_alone) {
   grbl.settings = "$10=0\r\n$13=1\r\n";
   grbl.own_report = [] { return std::string("<Idle|WPos:1.0000,0.0000,0.0000>"); };
   grbl.offsets = "[G54:0.0000,1.0000,0.0000]\r\n[G92:0.0000,0.0000,0.0000]\r\n[TLO:0.0000]\r\n";
-  grbl.put(22, 1);
   const FakeGrbl machine(grbl);
-  const auto outcome = beside(machine, "home --json");
+  const auto outcome = beside(machine, "run " + program() + " --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto all = nlohmann::json::parse(outcome.out);
   EXPECT_NEAR(all["position_mm"]["X"].get<double>(), 25.4, 1e-9);

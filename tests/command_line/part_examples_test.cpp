@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "kit/command_line.hpp"
+#include "kit/drawn_letters.hpp"
+#include "kit/drawn_picture.hpp"
 #include "kit/drawn_solid.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -43,6 +45,20 @@ std::ostream& operator<<(std::ostream& out, const ExamplePart& part) {
 }
 
 constexpr double through = -100;
+
+// The relief of the coaster: the centres of the outermost pixels are 80 mm apart. Scallops are 0.05 mm high.
+DrawnCut ripples() {
+  const FlatPoint low{10, 10};
+  const FlatPoint high{90, 90};
+  const passo::test::DrawnPicture picture(checkout + "/examples/jobs/coaster.png", low, high, -2);
+  const passo::test::DrawnRelief relief(picture, low, high, 2, 0.06);
+  return {.kind = passo::test::DrawnCut::Kind::relief,
+          .cutter = 4,
+          .low = low,
+          .high = high,
+          .surface = [relief](FlatPoint at) { return relief.surface(at); },
+          .left = [relief](FlatPoint at) { return relief.left(at); }};
+}
 
 const std::vector<ExamplePart>& parts() {
   static const std::vector<ExamplePart> all = {
@@ -159,7 +175,6 @@ const std::vector<ExamplePart>& parts() {
        8,
        "--tool 1=flat:6",
        {{around, "outline", -6, 6}, {pocket, "movement", -5, 6}, {pocket, "hanger", -3, 6}, {pocket, "wire", -3, 6}}},
-      // Letters may be carved as deep as the V-bit goes in their widest strokes.
       {"sign",
        186,
        66,
@@ -168,7 +183,7 @@ const std::vector<ExamplePart>& parts() {
        {{around, "outline", -11.7, 4},
         {.kind = v_groove, .layer = "border", .z = -1},
         {pocket, "screws", through, 4},
-        {.kind = carved, .z = -5, .low = {40, 17}, .high = {140, 43}}},
+        {.kind = v_carved, .layer = "letters"}},
        {-3, -3}},
       {"finger-box",
        300,
@@ -202,13 +217,12 @@ const std::vector<ExamplePart>& parts() {
         {pocket, "shaft", through, 3}},
        {-90, -90},
        FlatPoint{90, 90}},
-      // The ripples of the relief are 80 mm wide.
       {"coaster",
        100,
        100,
        8,
        "--tool 1=flat:4 --tool 2=ball:4",
-       {{around, "", -7.7, 4}, {.kind = carved, .z = -2, .low = {7.5, 7.5}, .high = {92.5, 92.5}}},
+       {{around, "", -7.7, 4}, ripples()},
        {-50, -50},
        FlatPoint{50, 50}},
       {"guitar",
@@ -223,6 +237,12 @@ const std::vector<ExamplePart>& parts() {
         {pocket, "bridge", -15, 5}},
        {-12, -12},
        std::nullopt},
+      {"shelf-bracket",
+       450,
+       300,
+       9,
+       "--tool 1=flat:5",
+       {{around, "outline", -8.7, 5}, {pocket, "slot", -4, 5}, {pocket, "screws", through, 5}}},
       {"gear",
        90,
        90,
@@ -309,6 +329,49 @@ class LeftStock {
   std::vector<float> heights_;
 };
 
+// Where a copy of the part lies on its sheet: turned about the drawing's zero, then moved.
+struct PlacedCopy {
+  double degrees = 0;
+  FlatPoint by = {};
+
+  FlatPoint in_drawing(FlatPoint at) const {
+    const double angle = -degrees * std::numbers::pi / 180;
+    const double x = at.x - by.x;
+    const double y = at.y - by.y;
+    return {x * std::cos(angle) - y * std::sin(angle), x * std::sin(angle) + y * std::cos(angle)};
+  }
+};
+
+std::vector<PlacedCopy> copies_of(const nlohmann::json& record) {
+  std::vector<PlacedCopy> copies;
+  if (!record.contains("nest")) return {{}};
+  for (const nlohmann::json& copy : record["nest"]["sheets"][0]["copies"]) {
+    copies.push_back({copy["degrees"], {copy["x_mm"], copy["y_mm"]}});
+  }
+  return copies;
+}
+
+// Between copies, the stock is free.
+DrawnSolid::Heights heights_of(const DrawnSolid& solid, const std::vector<PlacedCopy>& copies, FlatPoint at) {
+  if (copies.size() == 1) return solid.at(copies.front().in_drawing(at));
+  DrawnSolid::Heights all{.least = -1e9};
+  for (const PlacedCopy& copy : copies) {
+    const FlatPoint here = copy.in_drawing(at);
+    const DrawnSolid::Heights one = solid.at(here);
+    if (solid.is_part(here)) all.least = one.least;
+    all.most = std::min(all.most, one.most);
+    all.wall = std::min(all.wall, one.wall);
+    all.may_be_left = all.may_be_left || one.may_be_left;
+  }
+  return all;
+}
+
+// The letters of the sign, which its drawing lacks.
+void add_letters(std::map<std::string, passo::test::DrawnShapes>& layers) {
+  constexpr const char* usual_font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  layers["letters"] = passo::test::letters_of("PASSO", usual_font, 22, {90, 19});
+}
+
 class PartExamples : public passo::test::CommandLine, public testing::WithParamInterface<ExamplePart> {};
 
 TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
@@ -321,7 +384,7 @@ TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
     job.erase(job.find(each), each.size());
   }
   std::filesystem::copy(folder, path("jobs"));
-  const Outcome made = passo("cam job " + write("jobs/" + name + ".toml", job) + " -o " + path("p.ngc"));
+  const Outcome made = passo("cam job " + write("jobs/" + name + ".toml", job) + " --json -o " + path("p.ngc"));
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(made.err, "");
   const Outcome ran = passo("run " + path("p.ngc") + on_router);
@@ -335,7 +398,9 @@ TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
   ASSERT_EQ(cut.code, 0) << cut.out << cut.err;
   const LeftStock left(read(path("left.stl")), part, cell);
   const std::string drawing = read(folder + name + part.ending);
-  const auto layers = std::string(part.ending) == ".dxf" ? read_dxf_shapes(drawing) : read_shapes(drawing);
+  auto layers = std::string(part.ending) == ".dxf" ? read_dxf_shapes(drawing) : read_shapes(drawing);
+  if (name == "sign") add_letters(layers);
+  const std::vector<PlacedCopy> copies = copies_of(nlohmann::json::parse(made.out));
   FlatPoint zero = part.zero.value_or(FlatPoint{1e9, 1e9});
   if (!part.zero) {
     for (const auto& [layer, shapes] : layers) {
@@ -350,7 +415,7 @@ TEST_P(PartExamples, the_job_leaves_the_solid_of_the_drawing) {
   for (std::size_t j = 0; j < left.up(); ++j) {
     for (std::size_t i = 0; i < left.across(); ++i) {
       const FlatPoint at = left.place(i, j);
-      const DrawnSolid::Heights wanted = solid.at({at.x + zero.x, at.y + zero.y});
+      const DrawnSolid::Heights wanted = heights_of(solid, copies, {at.x + zero.x, at.y + zero.y});
       if (wanted.wall < tolerance) continue;
       const double height = left.height(i, j);
       const bool is_low = height < wanted.least - tolerance;

@@ -1,9 +1,9 @@
 // DrawnSolid: what a part of examples/jobs should be, from the shapes of its drawing: an oracle for the stock that a
 // job leaves. It shares no code with the readers, the planners or the simulation.
 //
-// It knows the SVG shapes rect, circle, polygon, line and path (M, L, C and Z with absolute positions) and the DXF
-// entities CIRCLE and LWPOLYLINE, in layers. It tells for a position how high the part is, and how far the walls are.
-// Lengths are mm, Y points up.
+// It knows the SVG shapes rect, circle, polygon, line and path (M, L, H, V, C, Q and Z with absolute positions, h and
+// a) and the DXF entities CIRCLE and LWPOLYLINE, in layers. It tells for a position how high the part is, and how far
+// the walls are. Lengths are mm, Y points up.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -43,6 +44,10 @@ class DrawnShapes {
     return low;
   }
   void add(FlatRing ring) {
+    // An edge without a length has no direction.
+    const auto is_same = [](FlatPoint a, FlatPoint b) { return std::hypot(a.x - b.x, a.y - b.y) < 1e-9; };
+    ring.erase(std::unique(ring.begin(), ring.end(), is_same), ring.end());
+    while (ring.size() > 1 && is_same(ring.front(), ring.back())) ring.pop_back();
     Outline outline{.ring = std::move(ring)};
     const std::size_t n = outline.ring.size();
     constexpr double least_turn = 15 * std::numbers::pi / 180;
@@ -141,6 +146,28 @@ inline void add_bulge(FlatRing& ring, FlatPoint to, double bulge) {
   ring.push_back(to);
 }
 
+// From `ring.back()`: a cubic Bézier curve.
+inline void add_cubic(FlatRing& ring, FlatPoint b, FlatPoint c, FlatPoint e) {
+  const FlatPoint a = ring.back();
+  constexpr int pieces = 60;
+  for (int i = 1; i <= pieces; ++i) {
+    const double t = static_cast<double>(i) / pieces;
+    const double s = 1 - t;
+    const auto mix = [&](double p, double q, double r, double u) {
+      return s * s * s * p + 3 * s * s * t * q + 3 * s * t * t * r + t * t * t * u;
+    };
+    ring.push_back({mix(a.x, b.x, c.x, e.x), mix(a.y, b.y, c.y, e.y)});
+  }
+}
+// A quadratic one.
+inline void add_quadratic(FlatRing& ring, FlatPoint control, FlatPoint e) {
+  const FlatPoint a = ring.back();
+  const auto mix = [](FlatPoint end, FlatPoint middle) {
+    return FlatPoint{(end.x + 2 * middle.x) / 3, (end.y + 2 * middle.y) / 3};
+  };
+  add_cubic(ring, mix(a, control), mix(e, control), e);
+}
+
 // "M 1,2 L3,4 C 5,6 7,8 9,10 Z", with Y downwards from `height`.
 inline FlatRing ring_of_path(const std::string& d, double height) {
   FlatRing ring;
@@ -149,7 +176,7 @@ inline FlatRing ring_of_path(const std::string& d, double height) {
   const auto point = [&] {
     FlatPoint at;
     int used = 0;
-    if (std::sscanf(text, " %lf,%lf%n", &at.x, &at.y, &used) != 2) throw std::runtime_error("unknown path: " + d);
+    if (std::sscanf(text, " %lf%*[, ]%lf%n", &at.x, &at.y, &used) != 2) throw std::runtime_error("unknown path: " + d);
     text += used;
     return FlatPoint{at.x, height - at.y};
   };
@@ -167,6 +194,10 @@ inline FlatRing ring_of_path(const std::string& d, double height) {
       command = *text++;
     } else if (command == 'h') {
       ring.push_back({ring.back().x + number(), ring.back().y});
+    } else if (command == 'H') {
+      ring.push_back({number(), ring.back().y});
+    } else if (command == 'V') {
+      ring.push_back({ring.back().x, height - number()});
     } else if (command == 'a') {
       const FlatPoint radii = point();
       number();  // a circle has no rotation
@@ -179,19 +210,12 @@ inline FlatRing ring_of_path(const std::string& d, double height) {
       const double bulge = std::tan((is_large ? 2 * std::numbers::pi - angle : angle) / 4);
       add_bulge(ring, to, turns_clockwise ? -bulge : bulge);
     } else if (command == 'C') {
-      const FlatPoint a = ring.back();
       const FlatPoint b = point();
       const FlatPoint c = point();
-      const FlatPoint e = point();
-      constexpr int pieces = 60;
-      for (int i = 1; i <= pieces; ++i) {
-        const double t = static_cast<double>(i) / pieces;
-        const double s = 1 - t;
-        const auto mix = [&](double p, double q, double r, double u) {
-          return s * s * s * p + 3 * s * s * t * q + 3 * s * t * t * r + t * t * t * u;
-        };
-        ring.push_back({mix(a.x, b.x, c.x, e.x), mix(a.y, b.y, c.y, e.y)});
-      }
+      add_cubic(ring, b, c, point());
+    } else if (command == 'Q') {
+      const FlatPoint control = point();
+      add_quadratic(ring, control, point());
     } else {
       ring.push_back(point());
     }
@@ -316,8 +340,9 @@ struct DrawnCut {
   // pocket: the inside of the shapes down to `z`. around, within: a groove as wide as the cutter, outside or inside of
   // the shapes, through the stock except at tabs. outer_chamfer, inner_chamfer: of 45 degrees, as wide as `z`, on the
   // edges of the shapes, whose inside is the part, or a hole. around_with_bones: around, with dog-bones in the corners.
-  // face: everything down to `z`. v_groove: along the edges, by a V-bit whose tip is at `z`. carved: a box in which
-  // the height may be anything down to `z`.
+  // face: everything down to `z`. v_groove: along the edges, by a V-bit whose tip is at `z`. v_carved: the inside of
+  // the shapes, by a V-bit that touches their edges. relief: between `surface` and `left` in a box; around it the
+  // cutter reaches over by its radius.
   enum class Kind : std::uint8_t {
     pocket,
     around,
@@ -327,16 +352,19 @@ struct DrawnCut {
     around_with_bones,
     face,
     v_groove,
-    carved
+    v_carved,
+    relief
   };
   Kind kind = Kind::pocket;
   std::string layer = {};
   double z = 0;
   double cutter = 0;    // diameter of the last cutter
-  double angle = 60;    // v_groove: degrees
+  double angle = 60;    // v_groove, v_carved: degrees
   double tip = 0;       // v_groove: diameter of the tip
-  FlatPoint low = {};   // carved
-  FlatPoint high = {};  // carved
+  FlatPoint low = {};   // relief
+  FlatPoint high = {};  // relief
+  std::function<double(FlatPoint)> surface = {};
+  std::function<double(FlatPoint)> left = {};
 };
 
 class DrawnSolid {
@@ -351,6 +379,12 @@ class DrawnSolid {
     bool may_be_left = false;  // near a corner that is too narrow for the cutter
   };
   Heights at(FlatPoint at) const;
+  // Within the outline that is cut out.
+  bool is_part(FlatPoint at) const {
+    return std::ranges::any_of(cuts_, [&](const DrawnCut& cut) {
+      return cut.kind == DrawnCut::Kind::around && layers_.at(cut.layer).contains(at);
+    });
+  }
 
  private:
   // Cuts without an inside. False: it is another one.
@@ -367,10 +401,19 @@ inline bool DrawnSolid::at_line(const DrawnCut& cut, FlatPoint at, Heights& heig
   if (cut.kind == face) {
     heights.least = std::min(heights.least, cut.z);
     heights.most = std::min(heights.most, cut.z);
-  } else if (cut.kind == carved) {
-    if (at.x > cut.low.x && at.x < cut.high.x && at.y > cut.low.y && at.y < cut.high.y) {
-      heights.least = std::min(heights.least, cut.z);
-    }
+  } else if (cut.kind == relief) {
+    const FlatPoint inside{std::clamp(at.x, cut.low.x, cut.high.x), std::clamp(at.y, cut.low.y, cut.high.y)};
+    const double beside = std::hypot(at.x - inside.x, at.y - inside.y);
+    if (beside > cut.cutter / 2) return true;
+    if (beside == 0) heights.most = std::min(heights.most, cut.left(inside));
+    heights.least = std::min(heights.least, cut.surface(inside));
+  } else if (cut.kind == v_carved) {
+    const DrawnShapes& shapes = layers_.at(cut.layer);
+    if (!shapes.contains(at)) return true;
+    const double steepness = 1 / std::tan(cut.angle * std::numbers::pi / 360);
+    const double bottom = -steepness * shapes.distance(at, 10);
+    heights.least = std::min(heights.least, bottom - steepness * tolerance_);
+    heights.most = std::min(heights.most, bottom + steepness * tolerance_);
   } else if (cut.kind == v_groove) {
     const double steepness = 1 / std::tan(cut.angle * std::numbers::pi / 360);
     const double wall = layers_.at(cut.layer).distance(at, 10);

@@ -37,6 +37,11 @@ struct FirmwareTraits {
   // Returns the error of a new value, or changes it as the firmware does; 0: it is stored.
   std::function<int(const std::string& name, std::string& value)> store = {};
   bool shows_buffer = true;
+  bool tells_modes = false;          // [GC:…] after a report, if they have changed
+  double report_interval = 0;        // s; above 0: reports unasked
+  bool echoes = false;               // [echo: …] before each answer
+  std::string more_of_reports = {};  // further fields: "|Pn:X|WCO:…"
+  std::string line_end = "\r\n";
   bool is_core_xy = false;  // F applies to the motors x + y and x - y
 };
 
@@ -86,6 +91,10 @@ class FirmwareFake {
   void run(double seconds) {
     read_lines();
     now_ += seconds;
+    if (traits_.report_interval > 0 && now_ >= next_report_) {
+      next_report_ = now_ + traits_.report_interval;
+      report();
+    }
     while (!queue_.empty() && queue_.front().end <= now_) {
       place_ = queue_.front().to;
       queue_.pop_front();
@@ -113,14 +122,19 @@ class FirmwareFake {
   std::vector<Setting>::const_iterator find(const std::string& name) const {
     return std::ranges::find(traits_.settings, name, &Setting::first);
   }
-  void say(const std::string& line) { output_ += line + "\r\n"; }
+  void say(const std::string& line) { output_ += line + traits_.line_end; }
+  std::string modes() const {
+    return fmt::format("[GC:G{} G54 G17 G21 G90 G{} M5 M9 T0 F{} S0]", motion_, by_time_ ? 93 : 94, feed_);
+  }
   void report() {
     std::string values;
     for (const char letter : traits_.axes) values += fmt::format("{}{:.3f}", values.empty() ? "" : ",", place_[letter]);
     const std::string buffer =
         traits_.shows_buffer ? fmt::format("|Bf:{},{}", traits_.blocks - queue_.size(), traits_.bytes - waiting_.size())
                              : "";
-    say(fmt::format("<{}|MPos:{}{}|FS:0,0>", queue_.empty() ? "Idle" : "Run", values, buffer));
+    say(fmt::format("<{}|MPos:{}{}|FS:0,0{}>", queue_.empty() ? "Idle" : "Run", values, buffer,
+                    traits_.more_of_reports));
+    if (traits_.tells_modes && modes() != told_modes_) say(told_modes_ = modes());
   }
   void read_lines() {
     for (std::size_t end = 0; (end = waiting_.find('\n')) != std::string::npos;) {
@@ -129,6 +143,7 @@ class FirmwareFake {
       if (queue_.size() >= traits_.blocks || (!moves && !queue_.empty())) return;
       waiting_.erase(0, end + 1);
       if (!line.empty()) lines_.push_back(line);
+      if (traits_.echoes) say("[echo: " + line + "]");
       take(line);
     }
   }
@@ -140,9 +155,7 @@ class FirmwareFake {
     if (line == "$I") return answer(traits_.about);
     if (line == "$I+" && !traits_.more_about.empty()) return answer(traits_.more_about);
     if (line == "$#") return tell_offsets();
-    if (line == "$G") {
-      return answer({fmt::format("[GC:G{} G54 G17 G21 G90 G{} M5 M9 T0 F{} S0]", motion_, by_time_ ? 93 : 94, feed_)});
-    }
+    if (line == "$G") return answer({modes()});
     if (line == "$$") {
       for (const auto& [name, value] : traits_.settings) say(fmt::format("${}={}", name, value));
       return say("ok");
@@ -241,7 +254,9 @@ class FirmwareFake {
   std::deque<Block> queue_;
   std::map<char, double> place_;
   std::map<char, double> target_;
+  std::string told_modes_;
   double now_ = 0;
+  double next_report_ = 0;
   double feed_ = 0;
   int motion_ = 0;
   bool by_time_ = false;

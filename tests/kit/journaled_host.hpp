@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -73,6 +74,8 @@ class JournaledHost {
   MemoryStore store;
   std::vector<ProbeOutcome> found;  // results of all probe moves so far
   bool may_fail = false;            // the link is so bad that the job may fail with a message
+  // Set: the program waits at its stops, for this. Empty: it does not wait.
+  std::function<void(const Action&)> operator_works;
 
  private:
   void work(MortalPort& port, bool& done) {
@@ -96,6 +99,7 @@ class JournaledHost {
     JournalWriter writer(store);
     writer.begin(head);
     DriveOn on{.board = &port, .session = head.numbers.session, .greeting = head.numbers.greeting, .resume_at = point};
+    on.waits_for_operator = static_cast<bool>(operator_works);
     if (point) on.stands = place_by_counts(head, *point, *status, machine_);
     on.known_probes = found = head.probes;
     Diagnostics diagnostics;
@@ -112,6 +116,9 @@ class JournaledHost {
     job.resume();
     while (job.advance()) {
       if (port.is_to_stop() && !job.drive().stopped()) job.drive().stop();
+      if (!job.drive().waits_for() || job.drive().stopped()) continue;
+      operator_works(*job.drive().waits_for());
+      job.drive().done();
     }
     done = !fails(job) && !job.drive().stopped();
   }

@@ -58,6 +58,8 @@ class StrictGrbl {
   bool loses_next_line_end = false;
   bool silent = false;  // does not report
   bool ignores_hold_at_rest = false;
+  bool held_input = false;  // the hold input is active
+  bool second_cancel_is_late = false;  // it meets the end of the jog
 
   std::string state = "Idle";  // as reported, with its number
   double x = 0;                // place()[Axis::x]
@@ -167,7 +169,7 @@ class StrictGrbl {
     return state.starts_with(name) && (state.size() == name.size() || state[name.size()] == ':');
   }
   bool may_move() const { return is("Run") || is("Jog") || state == "Hold:1" || state == "Door:2"; }
-  bool suspended() const { return is("Hold") || is("Door") || is("Sleep") || cancels_jog_; }
+  bool suspended() const { return is("Hold") || is("Door") || is("Sleep") || cancels_jog_ || waits_for_start_; }
   std::size_t blocks() const { return limits_.blocks; }
 
   // The line. -----------------------------------------------------------------------------------------------------
@@ -218,7 +220,7 @@ class StrictGrbl {
       case '~': asks_start_ = true; return true;
       case 0x18: reset(); return true;
       case 0x84: asks_door_ = true; return true;
-      case 0x85: asks_cancel_ = state == "Jog"; return true;
+      case 0x85: take_cancel(); return true;
       default: break;
     }
     const auto code = static_cast<unsigned char>(byte);
@@ -246,11 +248,17 @@ class StrictGrbl {
     state = motion_.moves() ? "Hold:1" : "Hold:0";
     motion_.brake();
   }
+  // A cancel that is noted while the machine jogs, and is executed when it is idle: no line is executed until a cycle start.
+  void take_cancel() {
+    asks_cancel_ = state == "Jog";
+    waits_for_start_ = waits_for_start_ || (second_cancel_is_late && cancels_jog_);
+  }
   void cancel_jog() {
     cancels_jog_ = true;
     motion_.brake();
   }
   void go_on() {
+    if (state == "Idle") waits_for_start_ = false;
     if (state == "Hold:0") return resume();
     if (state != "Door:0") return;
     state = "Door:3";
@@ -441,6 +449,7 @@ class StrictGrbl {
   bool asks_cancel_ = false;
   std::vector<unsigned char> asked_overrides_;
   bool cancels_jog_ = false;
+  bool waits_for_start_ = false;
   bool door_is_open_ = false;
   bool door_after_jog_ = false;
   bool probes_ = false;

@@ -430,6 +430,7 @@ inline void StrictGrbl::greet() {
 
 // What a reset forgets.
 inline void StrictGrbl::drop_work() {
+  waits_for_start_ = false;
   ++resets_;
   ring_.clear();
   line_.clear();

@@ -38,7 +38,7 @@ class ApiRun {
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
                   const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
                   const ToolTable& known_tools = {}, CamService* maker = nullptr, FirstContact* contact = nullptr,
-                  BoardSettings* settings = nullptr)
+                  BoardSettings* settings = nullptr, const std::string& macro_folder = {})
       : run(example_machine("router"), start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
@@ -47,6 +47,7 @@ class ApiRun {
              .page = {},
              .history = history,
              .wall_time = [this] { return 1e9 + run.session().now().value(); },
+             .macro_folder = macro_folder,
              .tools = known_tools,
              .keep_offsets =
                  [this](const SavedParameters& parameters, const ToolTable& tools) {

@@ -101,7 +101,8 @@ class SlowMaker final : public CamService {
   }
   std::string folder() const override { return "/nowhere/"; }
   CamShapes shapes(const std::string&) override { return drawn; }
-  void clear() override {}
+  bool remove(const std::string& name) override { return kept.erase(name) > 0; }
+  void clear() override { kept.clear(); }
   bool begin(const CamOrder& order) override {
     now = {.state = CamResult::State::running, .job = order.job};
     return true;
@@ -213,6 +214,11 @@ TEST(ApiCam, edits_a_job_file_and_keeps_all_else) {
   EXPECT_EQ(draft["clamps"][0]["height"], 3);
   edit(draft["stamp"], R"({"do": "remove", "list": "tool", "number": 1})");
   EXPECT_EQ(run.status, 409U);
+  edit(draft["stamp"], R"({"do": "remove", "path": "tool.7"})");
+  EXPECT_EQ(run.status, 409U);
+  draft = edit(draft["stamp"], R"({"do": "remove", "path": "tool.2"})");
+  EXPECT_EQ(run.status, 200U) << draft;
+  EXPECT_FALSE(draft["tool_tables"].contains("2")) << draft["tool_tables"];
   // A text with errors is kept, so that it can be mended.
   draft = run.post("/cam/job",
                    fmt::format(R"({{"name": "plate.toml", "stamp": {}, "text": "[job\n"}})", draft["stamp"].dump()));
@@ -229,6 +235,23 @@ TEST(ApiCam, reads_no_tool_library_that_was_not_sent) {
   EXPECT_EQ(run.get("/cam/job?name=plate.toml")["findings"][0]["code"], "job.outside");
   run.get("/cam/job?name=other.toml");
   EXPECT_EQ(run.status, 404U);
+}
+
+TEST(ApiCam, removes_one_file_or_all) {
+  SlowMaker maker;
+  maker.kept = {{"a.svg", ""}, {"b c.svg", ""}, {"d.svg", ""}};
+  ApiRun run(GrblRun::at_zero(), nullptr, {}, nullptr, {}, &maker);
+  run.ask("DELETE", "/cam/files?name=b%20c.svg");
+  EXPECT_EQ(run.status, 200U);
+  EXPECT_EQ(maker.kept.size(), 2U);
+  run.ask("DELETE", "/cam/files?name=b%20c.svg");
+  EXPECT_EQ(run.status, 404U);
+  run.ask("DELETE", "/cam/files?name=..%2Fa.svg");
+  EXPECT_EQ(run.status, 400U);
+  EXPECT_EQ(maker.kept.size(), 2U);
+  run.ask("DELETE", "/cam/files");
+  EXPECT_EQ(run.status, 200U);
+  EXPECT_TRUE(maker.kept.empty());
 }
 
 TEST(ApiTools, are_read_as_the_simulation_has_them) {

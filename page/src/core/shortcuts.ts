@@ -1,5 +1,6 @@
 // Keys that work on each page. Those that jog belong to the page "Set up" alone.
 import { hold, whyNoHold } from '../machine/actions';
+import { onMacroKey } from '../machine/macros';
 import { startsAt } from '../machine/way_back';
 import { pages } from '../pages/pages';
 import { openDialog } from '../parts/view_dialog';
@@ -17,6 +18,8 @@ function act(event: KeyboardEvent): void {
     event.preventDefault();
     void hold();
   } else if (inDialog || isTyping(event.target)) {
+    return;
+  } else if (onMacroKey(event)) {
     return;
   } else if (event.key === '?') {
     openDialog.value = 'shortcuts';

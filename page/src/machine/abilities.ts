@@ -1,4 +1,5 @@
 // What the machine cannot do, and why: shown where it would be used.
+import { computed } from '@preact/signals';
 import { reportWords } from '../core/faults';
 import type { Ability } from './api';
 import { machine } from './connection';
@@ -8,3 +9,6 @@ export function whyUnable(ability: Ability): string {
   const found = machine.value?.abilities.find((one) => one.ability === ability);
   return found === undefined || found.can ? '' : reportWords(found.why, found.sentence);
 }
+
+// Whether the machine can be homed at all: it has switches, and its board uses them.
+export const canHome = computed(() => (machine.value?.axes.some((one) => one.homes) ?? false) && whyUnable('home') === '');

@@ -5,6 +5,7 @@ import { confirm } from '../core/question';
 import { say } from '../core/language';
 import { durationText } from '../core/time';
 import { lengthUnit } from '../core/units';
+import { canHome } from './abilities';
 import { post, type Program } from './api';
 import { connection, status } from './connection';
 import { interrupted } from './interrupted';
@@ -47,7 +48,7 @@ export const whyNoStart = computed(() => {
   const why = whyNoJob.value;
   if (why !== '') return why;
   if (interrupted.value !== null) return say('why.broken');
-  if (status.value?.lost_place === true) return say('state.Idle.unknown');
+  if (status.value?.lost_place === true) return say(canHome.value ? 'state.Idle.unknown' : 'state.Idle.unknown.switchless');
   if (shown.value === null) return say('why.none');
   if (shown.value.state === 'bad') return say('why.bad');
   return shown.value.state === 'checking' || status.value?.job?.state === 'checking' ? say('why.checking') : '';

@@ -1,22 +1,22 @@
 // What a person does next with a job that was broken off: the banner and the card say the same.
 import { computed } from '@preact/signals';
 import { say, type Key } from '../core/language';
-import { machine, status } from './connection';
+import { canHome } from './abilities';
+import { status } from './connection';
 import { interrupted, type Interrupted } from './interrupted';
 
 export type Advice = 'resume' | 'home' | 'place' | 'reenter' | 'drop';
 
-export function adviceFor(broken: Interrupted, trust: string, canHome: boolean): Advice {
+export function adviceFor(broken: Interrupted, trust: string, homes: boolean): Advice {
   if (broken.goes_on) return 'resume';
-  if (canHome && trust !== 'homed') return 'home';
+  if (homes && trust !== 'homed') return 'home';
   if (trust === 'unknown') return 'place';
   return broken.reentry.code === '' ? 'reenter' : 'drop';
 }
 
 export const advice = computed<Advice | null>(() => {
   const broken = interrupted.value;
-  const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
-  return broken === null ? null : adviceFor(broken, status.value?.trust ?? 'unknown', canHome);
+  return broken === null ? null : adviceFor(broken, status.value?.trust ?? 'unknown', canHome.value);
 });
 export const adviceWords = computed(() => {
   const now = advice.value;

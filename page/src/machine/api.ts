@@ -99,6 +99,8 @@ export interface Machine {
   motors: Motor[];
   pins: Record<PinName, Level> & { limits: Level[] }; // the level at which each is on
   highest_rpm: number;
+  top: number | null; // machine Z; null: no axis Z
+  park: { x: number; y: number } | null;
   abilities: MachineAbility[];
 }
 
@@ -126,6 +128,7 @@ export interface Program {
   moves: number;
   block_delete: boolean; // lines that begin with / are left out
   deleted_lines: number; // how many begin with /
+  small: boolean; // made on request, e.g. to frame a job
   height_map: boolean;
   findings?: Finding[];
 }

@@ -116,6 +116,9 @@ export function rangeOf({ least, most, zero_too: zeroToo }: Setting): string {
   const words = least !== null && most !== null ? `${least} … ${most}` : least !== null ? `≥ ${least}` : `≤ ${most}`;
   return zeroToo ? `0, ${words}` : words;
 }
+// Boards write ASCII: "us", "microseconds", "mm/sec^2".
+export const unitOf = ({ unit }: Setting): string =>
+  unit.replace(/^(us|microseconds)$/i, 'µs').replace(/^milliseconds$/i, 'ms').replace(/^seconds$/i, 's').replace(/sec\b/, 's').replace('^2', '²').replace('^3', '³');
 // A sum of bits, with one of them changed.
 export function withBit(value: string, bit: number, on: boolean): string {
   const sum = Number(value);

@@ -129,6 +129,12 @@ export async function sendDrawing(file: File): Promise<void> {
   await attempt(async () => (cam.value = await upload<Cam>('/cam/files', file.name, file)));
 }
 
+export async function removeDrawing(name: string): Promise<boolean> {
+  return attempt(async () => {
+    cam.value = (await remove(`/cam/files?name=${encodeURIComponent(name)}`)) as Cam;
+  });
+}
+
 export async function clearDrawings(): Promise<void> {
   await attempt(async () => {
     cam.value = (await remove('/cam/files')) as Cam;

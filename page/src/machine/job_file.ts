@@ -36,6 +36,7 @@ export type Edit =
   | { do: 'unset'; path: string }
   | { do: 'insert'; list?: string; number: number; values: Record<string, Value> }
   | { do: 'copy' | 'remove'; list?: string; number: number }
+  | { do: 'remove'; path: string } // a table: "tool.3"
   | { do: 'move'; list?: string; number: number; to: number };
 
 // What the record of a job tells of an operation. Operations are in the order in which they are cut.

@@ -37,7 +37,7 @@ export const sending = signal<string | null>(null);
 // Lines that the console runs are programs too, and so is the set-up mode of the outputs; nobody wants to see them in a
 // list.
 export const setUpName = 'set-up.ngc';
-export const isListed = (program: Program): boolean => program.name !== consoleName && program.name !== setUpName;
+export const isListed = (program: Program): boolean => !program.small && program.name !== consoleName && program.name !== setUpName;
 
 // What a probing cycle runs. A height map without a program stays with its own cycle.
 export const isProbing = (program: Program): boolean => /^probe (surface|edge|corner|bore|boss|tool|angle|bores|map)$/.test(program.name);

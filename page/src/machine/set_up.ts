@@ -4,8 +4,6 @@ import { confirm } from '../core/question';
 import { lengthText, lengthUnit } from '../core/units';
 import { moveAs } from './actions';
 import { machine, status } from './connection';
-import { runLine } from './console';
-import { needFile, usualClearance } from './machine_file';
 import { placeWords, workPlace } from './place';
 
 export async function makeZero(which: readonly string[]): Promise<void> {
@@ -18,26 +16,24 @@ export async function makeZero(which: readonly string[]): Promise<void> {
   if (yes) await moveAs('/work', { place: Object.fromEntries(which.map((axis) => [axis, 0])) });
 }
 
-const otherwise = 5; // mm above the work's zero, where the machine file says nothing
+export const places = ['zero', 'park', 'g28', 'g30'] as const;
+export type Place = (typeof places)[number];
 
-export async function goToZero(): Promise<void> {
-  await needFile();
-  const clearance = usualClearance.value ?? otherwise;
-  const place = workPlace.value;
+export const whyNotPlace = (place: Place): string =>
+  place === 'park' && machine.value?.park === null ? say('goto.park.none') : '';
+
+export async function goToPlace(place: Place): Promise<void> {
+  const top = machine.value?.top ?? null;
   const yes = await confirm({
-    title: say('jog.goto.ask'),
+    title: say('goto.ask', { place: say(`goto.${place}`) }),
     facts: [
-      say('jog.goto.facts', {
-        height: `Z ${lengthText(clearance)} ${lengthUnit()}`,
-        distance: `${lengthText(Math.hypot(place.x ?? 0, place.y ?? 0))} ${lengthUnit()}`,
-      }),
+      top === null ? say('goto.facts.flat') : say('goto.facts', { top: `Z ${lengthText(top)} ${lengthUnit()}` }),
+      ...(top !== null && (place === 'g28' || place === 'g30') ? [say('goto.facts.home')] : []),
     ],
-    yes: say('jog.goto'),
+    yes: say('goto.go'),
     kind: 'go',
   });
-  if (!yes) return;
-  const rise = (workPlace.value.z ?? clearance) < clearance ? `G0 Z${clearance}\n` : '';
-  await runLine(`G21 G90 G54\n${rise}G0 X0 Y0\nM2`);
+  if (yes) await moveAs('/go', { to: place });
 }
 
 export async function home(): Promise<void> {

@@ -47,17 +47,21 @@ function nextOf({ status, program, canHome, broken }: Facts): string {
   if (state === 'Idle') {
     if (broken !== '') return broken;
     // The console itself has told why a line was refused.
-    if (status.job?.state === 'failed' && status.job.name !== consoleName) return say('state.Idle.job.failed', { why: reportWords(status.job.why, status.job.why_sentence) });
-    if (status.lost_place) return say('state.Idle.unknown');
+    const unknown = status.lost_place ? say(canHome ? 'state.Idle.unknown' : 'state.Idle.unknown.switchless') : '';
+    if (status.job?.state === 'failed' && status.job.name !== consoleName) {
+      const failed = say('state.Idle.job.failed', { why: reportWords(status.job.why, status.job.why_sentence) });
+      return unknown === '' ? failed : `${failed}. ${unknown}`;
+    }
+    if (unknown !== '') return unknown;
     if (canHome && status.trust !== 'homed' && program === 'none') return say('state.Idle.home');
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }
   if (state === 'Run') return say('state.Run.next', { line: status.line });
   if (state === 'Line' && status.mdi.streams) return say('state.Line.console');
   if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');
-  const next = say(`state.${state}.next`);
+  const next = say(state === 'Alarm' && !canHome ? 'state.Alarm.switchless' : `state.${state}.next`);
   const trouble = reportWords(status.trouble, status.trouble_sentence);
-  return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble}. ${next}`;
+  return trouble === '' || (state !== 'Alarm' && state !== 'Fault') ? next : `${trouble.charAt(0).toUpperCase()}${trouble.slice(1)}. ${next}`;
 }
 
 export function stateWords(facts: Facts): StateWords {

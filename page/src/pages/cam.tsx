@@ -5,18 +5,27 @@ import { goTo } from '../core/route';
 import { lengthUnit } from '../core/units';
 import { isLive } from '../machine/connection';
 import { needFile } from '../machine/machine_file';
-import { clearDrawings, cam, madeCount } from '../machine/cam';
+import { clearDrawings, cam, madeCount, removeDrawing } from '../machine/cam';
 import { forgetShapes, jobFile } from '../machine/job_file';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { ProgressBar } from '../parts/progress_bar';
+import { SelectField } from '../parts/select';
 import { Choice } from '../parts/view_dialog';
 import { forms, taken, usualOf, withUnit, type Field, type Form } from './cam_forms';
 import { BoardLayers, BoardSteps } from './cam_board';
 import { JobPanels } from './cam_job';
 import { JobPicture } from './cam_job_picture';
 import { ask, fieldsOf, formNow, job, jobForm, layers, lookAtCam, partsOf, pick, picked, set, takeDrawings, valuesOf } from './cam_order';
+
+async function removeOne(name: string): Promise<void> {
+  if (!(await removeDrawing(name))) return;
+  picked.value = picked.value.filter((one) => one !== name);
+  if (jobFile.value?.name === name) jobFile.value = null;
+  forgetShapes(name);
+  ask(formNow());
+}
 
 function Drawings({ form }: { form: Form }) {
   const files = cam.value?.files ?? [];
@@ -33,13 +42,14 @@ function Drawings({ form }: { form: Form }) {
         {files.map((name) => (
           <li key={name}>
             {isJob ? (
-              name
+              <span>{name}</span>
             ) : (
               <label>
                 <input type="checkbox" checked={taken(form, picked.value).includes(name)} onChange={(event) => pick(name, event.currentTarget.checked)} />{' '}
                 {name}
               </label>
             )}
+            <Button icon="trash" label={say('cam.remove', { name })} why={why} onClick={() => removeOne(name)} />
           </li>
         ))}
       </ul>
@@ -99,19 +109,7 @@ function OneField({ form, field }: { form: Form; field: Field }) {
       </label>
     );
   }
-  return (
-    <label class="form-field">
-      <span class="dim">{say(field.title)}</span>
-      <select value={words} onChange={(event) => set(form, field.option, event.currentTarget.value)}>
-        <option value="">{field.without !== null && say(field.without)}</option>
-        {choices.map(([one, title]) => (
-          <option key={one} value={one}>
-            {title}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
+  return <SelectField title={say(field.title)} value={words} all={choices} none={field.without !== null ? say(field.without) : ''} set={(to) => set(form, field.option, to)} />;
 }
 
 function Fields({ form, fields }: { form: Form; fields: readonly Field[] }) {

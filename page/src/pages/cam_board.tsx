@@ -9,6 +9,7 @@ import { cam, madeCount, type BoardFile, type BoardReport, type BoardStep } from
 import { chosen } from '../machine/programs';
 import { token } from '../machine/token';
 import { Button } from '../parts/button';
+import { Select } from '../parts/select';
 import { ask, formNow, layers, setLayer } from './cam_order';
 
 const layerNames = ['top copper', 'bottom copper', 'inner copper', 'outline', 'nothing'] as const;
@@ -46,13 +47,7 @@ export function BoardLayers() {
             <li key={file.file}>
               <label class="form-field">
                 <span class="file-name">{file.name}</span>
-                <select value={layer} onChange={(event) => setLayer(file.name, event.currentTarget.value)}>
-                  {choices.map((one) => (
-                    <option key={one} value={one}>
-                      {layerWords(one)}
-                    </option>
-                  ))}
-                </select>
+                <Select value={layer} all={choices.map((one) => [one, layerWords(one)] as const)} set={(to) => setLayer(file.name, to)} />
               </label>
               <span class="dim">{say(`cam.told.${file.told_by}`)}</span>
             </li>

@@ -9,6 +9,7 @@ import { isLive } from '../machine/connection';
 import { edit, jobFile, newJobFile, openJobFile, past, replaceText, undo, type CutOperation, type JobFile, type JobOperation, type JobReport, type Value } from '../machine/job_file';
 import { Button } from '../parts/button';
 import { Reported } from '../parts/reported';
+import { SelectField, type Choices } from '../parts/select';
 import { Typed } from '../parts/typed';
 import { forms, type Field } from './cam_forms';
 import { current, hovered } from './cam_job_picture';
@@ -177,22 +178,10 @@ function TextKey({ placeholder = '', read, ...key }: KeyProps & { placeholder?: 
   );
 }
 
-function ChoiceKey({ all, none, read = (typed) => typed, ...key }: KeyProps & { all: readonly (readonly [string, string])[]; none: string | null; read?: (typed: string) => Value }) {
+function ChoiceKey({ all, none, read = (typed) => typed, ...key }: KeyProps & { all: Choices; none: string | null; read?: (typed: string) => Value }) {
   const value = textOf(key.file.operations[key.index]?.values[key.name]);
-  const known = all.some(([one]) => one === value) || value === '' ? all : [...all, [value, value] as const];
-  return (
-    <label class="form-field">
-      <span class="dim">{key.title}</span>
-      <select value={value} aria-invalid={isWrong(key)} onChange={(event) => setKey(key.index, key.name, event.currentTarget.value === '' ? undefined : read(event.currentTarget.value))}>
-        {(none !== null || value === '') && <option value="">{none ?? ''}</option>}
-        {known.map(([one, words]) => (
-          <option key={one} value={one}>
-            {words}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
+  const set = (to: string): void => setKey(key.index, key.name, to === '' ? undefined : read(to));
+  return <SelectField title={key.title} value={value} all={all} none={none} aria-invalid={isWrong(key)} set={set} />;
 }
 
 function OptionKey({ field, kind, file, index }: { field: Field; kind: PartKind; file: JobFile; index: number }) {
@@ -290,19 +279,7 @@ function JobChoice() {
   }, [jobs.join('\n')]);
   return (
     <>
-      {jobs.length > 0 && (
-        <label class="form-field">
-          <span class="dim">{say('job.file')}</span>
-          <select value={jobFile.value?.name ?? ''} onChange={(event) => event.currentTarget.value !== '' && openJobFile(event.currentTarget.value)}>
-            <option value="">{say('job.none')}</option>
-            {jobs.map((name) => (
-              <option key={name} value={name}>
-                {name}
-              </option>
-            ))}
-          </select>
-        </label>
-      )}
+      {jobs.length > 0 && <SelectField title={say('job.file')} value={jobFile.value?.name ?? ''} all={jobs.map((name) => [name, name] as const)} none={say('job.none')} set={(to) => to !== '' && openJobFile(to)} />}
       <div class="row">
         {drawings.map((name) => (
           <Button key={name} icon="plus" why={why} onClick={() => newJobFile(name, files)}>

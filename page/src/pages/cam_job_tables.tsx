@@ -1,12 +1,13 @@
 // The tables of a job file beside its operations: the whole job, stock, copies, clamps and tools. The fields of [job] and
 // of tools come from the same description as the command line (GET /cam/operations).
 import { isKey, say, type Key } from '../core/language';
-import { operations as commands, toolKeys, type CamOption, type ToolKey } from '../machine/cam';
+import { cam, operations as commands, partKinds, toolKeys, type CamOption, type ToolKey } from '../machine/cam';
 import { edit, type JobFile, type Value } from '../machine/job_file';
 import { Button } from '../parts/button';
+import { SelectField, type Choices } from '../parts/select';
 import { Typed } from '../parts/typed';
 import { forms, type Field } from './cam_forms';
-import { textOf, valueOf } from './cam_job_values';
+import { drawingsOf, textOf, usersOf, valueOf, withDrawing } from './cam_job_values';
 
 type Table = Record<string, Value> | null | undefined;
 const place = { 'x-kind': 'place', type: 'string' };
@@ -33,22 +34,9 @@ function Cell({ table, values, name, title, row, usual = '' }: CellProps & { row
 }
 
 // `usual`: the words of the default, which is not in the file.
-function ChoiceCell({ table, values, name, title, all, usual }: CellProps & { all: readonly (readonly [string, string])[]; usual: string | null }) {
-  const value = textOf(values?.[name]);
-  const known = value === '' || all.some(([one]) => one === value) ? all : [...all, [value, value] as const];
-  return (
-    <label class="form-field">
-      <span class="dim">{title}</span>
-      <select value={value} data-path={`${table}.${name}`} onChange={(event) => put(`${table}.${name}`, event.currentTarget.value === '' ? undefined : event.currentTarget.value)}>
-        {(usual !== null || value === '') && <option value="">{usual ?? ''}</option>}
-        {known.map(([one, shown]) => (
-          <option key={one} value={one}>
-            {shown}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
+function ChoiceCell({ table, values, name, title, all, usual }: CellProps & { all: Choices; usual: string | null }) {
+  const set = (to: string): void => put(`${table}.${name}`, to === '' ? undefined : to);
+  return <SelectField title={title} value={textOf(values?.[name])} all={all} none={usual} data-path={`${table}.${name}`} set={set} />;
 }
 
 // `usual`: what counts where the file has nothing.
@@ -71,6 +59,26 @@ function SharedOption({ file, field }: { file: JobFile; field: Field }) {
   return <ChoiceCell {...cell} all={field.choices.map(([one, title]) => [one, say(title)] as const)} usual={field.without === null ? '' : say(field.without)} />;
 }
 
+// Those that were sent, and those that the file names.
+function JobDrawings({ file }: { file: JobFile }) {
+  const all = drawingsOf(file);
+  const form = forms.value.find((one) => one.job === 'profile');
+  const sent = (cam.value?.files ?? []).filter((name) => !name.endsWith('.toml') && form?.files.split(',').some((ending) => name.toLowerCase().endsWith(ending)) === true);
+  const names = [...new Set([...all, ...sent])];
+  if (names.length === 0) return null;
+  return (
+    <div role="group" aria-label={say('cam.files')}>
+      <span class="dim">{say('cam.files')}</span>
+      {names.map((name) => (
+        <label key={name} class="cam-flag">
+          <input type="checkbox" checked={all.includes(name)} onChange={(event) => put('job.drawing', withDrawing(all, name, event.currentTarget.checked))} />
+          <span>{name}</span>
+        </label>
+      ))}
+    </div>
+  );
+}
+
 export function WholeJob({ file }: { file: JobFile }) {
   const cell = (name: string, title: Key): CellProps => ({ table: 'job', values: file.job, name, title: say(title) });
   const form = forms.value.find((one) => one.job === 'profile');
@@ -78,6 +86,7 @@ export function WholeJob({ file }: { file: JobFile }) {
   return (
     <details>
       <summary>{say('job.whole')}</summary>
+      <JobDrawings file={file} />
       <div class="form-fields">
         <Cell {...cell('name', 'job.whole.name')} row={words} />
         <Cell {...cell('zero', 'job.whole.zero')} row={place} usual="file" />
@@ -177,6 +186,16 @@ function ToolCell({ row, table, values }: { row: ToolKey; table: string; values:
   return <Cell {...cell} row={row.kind === 'text' ? words : number} />;
 }
 
+function RemoveTool({ file, number }: { file: JobFile; number: string }) {
+  const keys = ['tool', ...partKinds.value.map((kind) => kind.first_tool).filter((key) => key !== '')];
+  const users = usersOf(file, Number(number), keys);
+  return (
+    <Button icon="trash" why={users.length === 0 ? '' : say('job.tool.used', { operations: users.join(', ') })} onClick={() => edit({ do: 'remove', path: `tool.${number}` })}>
+      {say('job.tool.remove', { number })}
+    </Button>
+  );
+}
+
 // Tools of the library are shown by their numbers only: they belong to all jobs.
 export function Tools({ file }: { file: JobFile }) {
   const own = Object.entries(file.tool_tables ?? {}).filter((entry): entry is [string, Record<string, Value>] => typeof entry[1] === 'object' && entry[1] !== null && !Array.isArray(entry[1]));
@@ -195,6 +214,7 @@ export function Tools({ file }: { file: JobFile }) {
                 <ToolCell key={row.key} row={row} table={`tool.${one}`} values={values} />
               ))}
           </div>
+          <RemoveTool file={file} number={one} />
         </fieldset>
       ))}
       {others.length > 0 && <p class="dim">{say('job.tools.library', { tools: others.map((tool) => tool.words).join('; ') })}</p>}

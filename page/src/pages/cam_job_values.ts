@@ -57,6 +57,16 @@ export function drawingsOf(file: JobFile, operation?: JobOperation): string[] {
   return typeof own === 'string' ? [own] : Array.isArray(own) ? own.map(String) : [];
 }
 
+// The drawings of a job without one, or with one more. Undefined: it has none.
+export function withDrawing(all: readonly string[], name: string, has: boolean): Value | undefined {
+  const now = has ? [...all.filter((one) => one !== name), name] : all.filter((one) => one !== name);
+  return now.length === 0 ? undefined : now.length === 1 ? now[0] : now;
+}
+
+// The operations that cut with a tool, counted from 1. `keys`: those of an operation that name a tool.
+export const usersOf = (file: JobFile, tool: number, keys: readonly string[]): number[] =>
+  file.operations.flatMap(({ values }, index) => (keys.some((key) => Number(values[key]) === tool) ? [index + 1] : []));
+
 // The findings of an operation: those in its lines. The others are of the file.
 export function findingsOf(file: JobFile, index: number): JobFile['findings'] {
   return file.findings.filter((finding) => ownerOf(file, finding.line) === index);

@@ -98,6 +98,7 @@ export function ConsolePage() {
               <Icon name={icons[line.kind]} />
               <span>
                 {line.words}
+                {line.hint !== '' && ' '}
                 {line.hint !== '' && <span class="dim log-hint">{say('files.expected', { expected: line.hint })}</span>}
               </span>
             </div>

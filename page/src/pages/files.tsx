@@ -13,6 +13,7 @@ import { ask, post, remove, upload } from '../machine/api';
 import { isLive, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
 import { needOperations } from '../machine/cam';
+import { frameJob, whyNoFrame } from '../machine/framing';
 import { beOwner } from '../machine/owner';
 import { pathBox, pathIndex } from '../machine/path_index';
 import { checkProgram, chosen, deleteProgram, isListed, leaveOut, programs, sending, sendProgram, shown, shownId, timeOf } from '../machine/programs';
@@ -104,6 +105,9 @@ function ShownProgram() {
       <div class="row">
         <Button kind="accent" icon="run" onClick={() => goTo('run')}>
           {say('files.show')}
+        </Button>
+        <Button icon="frame" why={whyNoFrame(program)} onClick={() => frameJob(program)}>
+          {say('framing.do')} …
         </Button>
         <Button why={whyNot('Idle')} icon="reset" onClick={() => attempt(() => checkProgram(program.id))}>
           {say('files.check')}

@@ -4,14 +4,15 @@ import { say } from '../core/language';
 import { notify } from '../core/notices';
 import { fromMm, lengthText, lengthUnit, speedText, speedUnit, units } from '../core/units';
 import { whyUnable } from '../machine/abilities';
-import { whyNoJob, whyNoSetUp } from '../machine/actions';
+import { whyNoSetUp } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
 import { fieldHasKeys, jogShare, jogSpeed, jogStep, movesNow, pressByPointer, windowHasFocus, type Direction } from '../machine/jog';
 import { axes } from '../machine/place';
-import { goToZero, home, homeAxis, makeZero, vouchForPlace } from '../machine/set_up';
+import { goToPlace, home, homeAxis, makeZero, places, vouchForPlace, whyNotPlace } from '../machine/set_up';
 import { Button } from '../parts/button';
 import { Icon } from '../parts/icon';
+import { Macros } from '../parts/macros';
 import { Position } from '../parts/position';
 import { Probing } from '../parts/probing';
 import { Slider } from '../parts/slider';
@@ -143,7 +144,7 @@ function JogPanel() {
 
 function SetUpPanel() {
   const why = whyNoSetUp();
-  const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
+  const hasSwitches = machine.value?.axes.some((one) => one.homes) ?? false;
   const hasXy = ['x', 'y'].every((axis) => axes.value.includes(axis));
   const xyz = axes.value.filter((axis) => 'xyz'.includes(axis));
   return (
@@ -158,20 +159,15 @@ function SetUpPanel() {
         <Button icon="zero" why={why} onClick={() => makeZero(xyz)}>
           {say('jog.zero.all')}
         </Button>
-        {hasXy && (
-          <Button icon="zero" why={why === '' ? whyNoJob.value : why} onClick={goToZero}>
-            {say('jog.goto')}
-          </Button>
-        )}
         <Button
           kind={status.value?.trust === 'homed' ? 'plain' : 'accent'}
           icon="home"
-          why={whyUnable('home') || (canHome ? why : say('jog.home.none'))}
+          why={whyUnable('home') || (hasSwitches ? why : say('jog.home.none'))}
           onClick={home}
         >
           {say('jog.home')}
         </Button>
-        {canHome &&
+        {hasSwitches &&
           whyUnable('home-axis') === '' &&
           axes.value.map((axis) => (
             <Button key={`home-${axis}`} icon="home" why={why} onClick={() => homeAxis(axis)}>
@@ -188,12 +184,30 @@ function SetUpPanel() {
   );
 }
 
+function GoToPanel() {
+  const why = whyNoSetUp();
+  return (
+    <section class="panel set-up" aria-label={say('goto.title')}>
+      <h2>{say('goto.title')}</h2>
+      <div class="set-up-buttons">
+        {places.map((place) => (
+          <Button key={place} why={whyNotPlace(place) || why} onClick={() => goToPlace(place)}>
+            {say(`goto.${place}`)}
+          </Button>
+        ))}
+      </div>
+    </section>
+  );
+}
+
 export function JogPage() {
   return (
     <div class="jog-page">
       <div class="jog-side">
         <Position />
         <SetUpPanel />
+        <GoToPanel />
+        <Macros />
       </div>
       <JogPanel />
       <Probing />

@@ -1,7 +1,7 @@
 // The machine file as a guided table. Nothing counts before it is written, and what is written counts when passo serve
 // starts again.
 import { Fragment } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { language, say, type Key } from '../core/language';
 import { reportWords } from '../core/faults';
 import { confirm } from '../core/question';
@@ -12,8 +12,10 @@ import {
   canUndo, changes, draft, file, isChanged, lastChanged, loadFile, scaleOf, setValue, takeText, undo, values, writeFile, type Value,
 } from '../machine/machine_file';
 import { Button } from '../parts/button';
+import { FileChoice } from '../parts/file_choice';
 import { Icon } from '../parts/icon';
 import { RowHead } from '../parts/row_head';
+import { Select } from '../parts/select';
 import { Typed } from '../parts/typed';
 
 interface Row {
@@ -81,16 +83,8 @@ function Field({ label, path, kind, at, choices }: FieldProps) {
     return <input type="checkbox" {...shared} checked={value === true} onChange={(event) => set(event.currentTarget.checked)} />;
   }
   if (kind === 'choice') {
-    return (
-      <select {...shared} value={typeof value === 'string' ? value : ''} onChange={(event) => event.currentTarget.value !== '' && set(event.currentTarget.value)}>
-        <option value="">–</option>
-        {(choices ?? []).map((one) => (
-          <option key={one} value={one}>
-            {say(one === 'low' ? 'file.low' : 'file.high')}
-          </option>
-        ))}
-      </select>
-    );
+    const all = (choices ?? []).map((one) => [one, say(one === 'low' ? 'file.low' : 'file.high')] as const);
+    return <Select {...shared} value={typeof value === 'string' ? value : ''} all={all} none="–" set={(to) => to !== '' && set(to)} />;
   }
   if (typeof value === 'string') {
     return <Typed {...shared} value={value} take={set} />;
@@ -265,7 +259,6 @@ function Findings() {
 }
 
 export function MachineEditor() {
-  const input = useRef<HTMLInputElement>(null);
   useEffect(() => {
     if (isLive.value && file.value === null) void loadFile();
   }, [isLive.value]);
@@ -307,20 +300,13 @@ export function MachineEditor() {
         <Button icon="files" onClick={download}>
           {say('file.out')}
         </Button>
-        <Button icon="upload" why={why} onClick={() => input.current?.click()}>
-          {say('file.in')}
-        </Button>
-        <input
-          type="file"
-          accept=".toml"
-          hidden
-          ref={input}
-          aria-label={say('file.in')}
-          onChange={(event) => {
-            const field = event.currentTarget;
-            void field.files?.[0]?.text().then((text) => takeText(text).then(() => (field.value = '')));
-          }}
-        />
+        <FileChoice label={say('file.in')} accept=".toml" take={async ([one]) => one !== undefined && takeText(await one.text())}>
+          {(choose) => (
+            <Button icon="upload" why={why} onClick={choose}>
+              {say('file.in')}
+            </Button>
+          )}
+        </FileChoice>
       </div>
       <Findings />
       {axes.length > 0 && <AxesTable axes={axes} />}

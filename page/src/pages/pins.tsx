@@ -81,6 +81,7 @@ function directions(): number[] {
 function PinTable() {
   const now = status.value;
   if (now === null) return null;
+  const hasLevels = whyUnable('step-counts') === ''; // a Grbl board tells only which inputs are on
   return (
     <div class="wide-table" tabIndex={0} role="region" aria-label={say('page.pins')}>
       <table class="pins">
@@ -88,8 +89,8 @@ function PinTable() {
           <tr>
             <th scope="col">{say('pin.name')}</th>
             <th scope="col">{say('pin.state')}</th>
-            <th scope="col">{say('pin.level')}</th>
-            <th scope="col">{say('pin.polarity')}</th>
+            {hasLevels && <th scope="col">{say('pin.level')}</th>}
+            {hasLevels && <th scope="col">{say('pin.polarity')}</th>}
             <th scope="col">{say('pin.changed')}</th>
           </tr>
         </thead>
@@ -101,8 +102,8 @@ function PinTable() {
               <tr key={pin.id} class={on ? 'on' : ''}>
                 <th scope="row">{nameOf(pin)}</th>
                 <td data-testid={`pin-${pin.id}`}>{say(on ? 'pin.on' : 'pin.off')}</td>
-                <td>{say(levelOf(pin, on) === 'high' ? 'pin.high' : 'pin.low')}</td>
-                <td>{say(pin.onAt === 'high' ? 'pin.on.high' : 'pin.on.low')}</td>
+                {hasLevels && <td>{say(levelOf(pin, on) === 'high' ? 'pin.high' : 'pin.low')}</td>}
+                {hasLevels && <td>{say(pin.onAt === 'high' ? 'pin.on.high' : 'pin.on.low')}</td>}
                 <td>{changed === undefined ? '–' : new Date(changed).toLocaleTimeString(language.value)}</td>
               </tr>
             );

@@ -1,7 +1,7 @@
 // The settings of the Grbl board: shown with names, units, ranges and meaning, written one by one, saved as a file, compared
 // with one and restored from one. What the board says of them is English.
 import { signal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { say, sayCount } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
@@ -9,12 +9,14 @@ import { whyNot } from '../machine/actions';
 import { isLive } from '../machine/connection';
 import {
   byGroup, compareWith, edit, edited, edits, forgetEdits, hasBit, isWorking, learnSettings, rangeOf, readSettings, restoreFrom, settings, settingsFile,
-  sought, told, withBit, writeEdits, type Change, type Difference, type Setting,
+  sought, told, unitOf, withBit, writeEdits, type Change, type Difference, type Setting,
 } from '../machine/board_settings';
 import { opened } from '../machine/ports';
 import { Button } from './button';
 import { FactsTable } from './facts_table';
+import { FileChoice } from './file_choice';
 import { Icon } from './icon';
+import { Select } from './select';
 import { Typed } from './typed';
 
 const search = signal('');
@@ -32,18 +34,8 @@ function Field({ setting }: { setting: Setting }) {
     return <input type="checkbox" aria-label={label} checked={Number(value) !== 0} onChange={(event) => set(event.currentTarget.checked ? '1' : '0')} />;
   }
   if (setting.kind === 'choice') {
-    return (
-      <select aria-label={label} value={value} onChange={(event) => set(event.currentTarget.value)}>
-        {setting.choices.map((words, i) =>
-          words === '' && value !== String(i) ? null : (
-            <option key={i} value={String(i)}>
-              {words === '' ? String(i) : words}
-            </option>
-          ),
-        )}
-        {setting.choices[Number(value)] === undefined && <option value={value}>{value}</option>}
-      </select>
-    );
+    const all = setting.choices.map((words, i) => [String(i), words === '' ? String(i) : words] as const);
+    return <Select aria-label={label} value={value} all={all.filter(([one], i) => setting.choices[i] !== '' || one === value)} set={set} />;
   }
   if (setting.kind === 'bits' || setting.kind === 'axes') {
     return (
@@ -77,7 +69,7 @@ function Row({ setting }: { setting: Setting }) {
         {setting.needs_restart && <span class="dim setting-meaning">{say('settings.restart')}</span>}
       </td>
       <td class="setting-value">
-        <Field setting={setting} /> <span class="unit">{setting.unit}</span>
+        <Field setting={setting} /> <span class="unit">{unitOf(setting)}</span>
         {range !== '' && <span class="dim setting-meaning">{range}</span>}
         {isEdited && <span class="setting-meaning">{say('settings.before', { value: shown(setting.value) })}</span>}
       </td>
@@ -204,7 +196,6 @@ async function save(): Promise<void> {
 }
 
 export function BoardSettings() {
-  const input = useRef<HTMLInputElement>(null);
   const contact = opened.value?.state;
   useEffect(() => {
     if (isLive.value) void learnSettings();
@@ -235,20 +226,13 @@ export function BoardSettings() {
             <Button icon="files" why={isLive.value ? '' : say('why.lost')} onClick={save}>
               {say('settings.save')}
             </Button>
-            <Button icon="upload" why={why()} onClick={() => input.current?.click()}>
-              {say('settings.compare')}
-            </Button>
-            <input
-              type="file"
-              hidden
-              ref={input}
-              aria-label={say('settings.compare')}
-              onChange={(event) => {
-                const field = event.currentTarget;
-                const file = field.files?.[0];
-                void file?.text().then((text) => compare(file.name, text).then(() => (field.value = '')));
-              }}
-            />
+            <FileChoice label={say('settings.compare')} take={async ([one]) => one !== undefined && compare(one.name, await one.text())}>
+              {(choose) => (
+                <Button icon="upload" why={why()} onClick={choose}>
+                  {say('settings.compare')}
+                </Button>
+              )}
+            </FileChoice>
           </>
         )}
       </div>

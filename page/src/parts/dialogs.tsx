@@ -5,6 +5,7 @@ import { say } from '../core/language';
 import { dismiss, notices } from '../core/notices';
 import { asked } from '../core/question';
 import { hold, stop, whyNoHold } from '../machine/actions';
+import { AskedValues, whyNoAnswer } from './asked_values';
 import { Button } from './button';
 import { FactsTable } from './facts_table';
 import { Icon } from './icon';
@@ -37,13 +38,14 @@ export function QuestionDialog() {
     <Dialog title={question.title} onClose={() => question.answer(false)} key={question.title}>
       {question.facts[0] !== undefined && <p>{question.facts[0]}</p>}
       {question.rows !== undefined && question.rows.length > 0 && <FactsTable columns={question.columns} rows={question.rows} />}
+      <AskedValues question={question} />
       {question.steps !== undefined && <Steps steps={question.steps} />}
       {question.facts.slice(1).map((fact) => (
         <p key={fact}>{fact}</p>
       ))}
       <div class="dialog-actions">
         <Button onClick={() => question.answer(false)}>{say('frame.cancel')}</Button>
-        <Button kind={question.kind === 'plain' ? 'accent' : question.kind} onClick={() => question.answer(true)}>
+        <Button kind={question.kind === 'plain' ? 'accent' : question.kind} why={whyNoAnswer(question)} onClick={() => question.answer(true)}>
           {question.yes}
         </Button>
       </div>

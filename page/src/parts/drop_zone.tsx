@@ -1,7 +1,8 @@
 // Where files are dropped or chosen.
 import type { ComponentChildren } from 'preact';
-import { useRef, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import { Button } from './button';
+import { FileChoice } from './file_choice';
 import { Icon } from './icon';
 
 interface DropZoneProps {
@@ -14,7 +15,6 @@ interface DropZoneProps {
 }
 
 export function DropZone({ choose, why = '', accept, classes, children, take }: DropZoneProps) {
-  const input = useRef<HTMLInputElement>(null);
   const [over, setOver] = useState(false);
   return (
     <div
@@ -32,21 +32,13 @@ export function DropZone({ choose, why = '', accept, classes, children, take }: 
     >
       <Icon name="upload" />
       <span>{children}</span>
-      <Button kind="accent" why={why} onClick={() => input.current?.click()}>
-        {choose}
-      </Button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        multiple
-        accept={accept}
-        aria-label={choose}
-        onChange={(event) => {
-          const field = event.currentTarget;
-          void take([...(field.files ?? [])]).then(() => (field.value = ''));
-        }}
-      />
+      <FileChoice label={choose} accept={accept} multiple take={take}>
+        {(open) => (
+          <Button kind="accent" why={why} onClick={open}>
+            {choose}
+          </Button>
+        )}
+      </FileChoice>
     </div>
   );
 }

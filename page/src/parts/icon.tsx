@@ -31,6 +31,7 @@ const shapes = {
   trash: 'M4 7h16M9 7V4h6v3M6 7l1 14h10l1-14',
   probe: 'M12 3v11M8 10l4 4 4-4M3 20h18M7 20v-3h10v3',
   up: 'M12 20V5M5 12l7-7 7 7',
+  frame: 'M4 4h4M16 4h4v4M20 16v4h-4M8 20H4v-4M4 8V4M9 9h6v6H9z',
 } as const;
 
 export type IconName = keyof typeof shapes;

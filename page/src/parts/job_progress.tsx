@@ -4,6 +4,7 @@ import { language, say, sayCount } from '../core/language';
 import { clockText, durationText } from '../core/time';
 import { goTo } from '../core/route';
 import { status } from '../machine/connection';
+import { frameJob, whyNoFrame } from '../machine/framing';
 import { shown, timeOf } from '../machine/programs';
 import { loadsOfShown } from '../machine/studies';
 import { lookOf, overallVerdict } from '../machine/verdict';
@@ -68,6 +69,13 @@ export function JobProgress() {
           ? sayCount('files.lines', program.lines)
           : say('run.of.lines', { line: now.line, lines: program.lines.toLocaleString(language.value) })}
       </p>
+      {now === null && (
+        <div class="row">
+          <Button icon="frame" why={whyNoFrame(program)} onClick={() => frameJob(program)}>
+            {say('framing.do')} …
+          </Button>
+        </div>
+      )}
     </section>
   );
 }

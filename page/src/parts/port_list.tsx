@@ -7,6 +7,7 @@ import { goTo } from '../core/route';
 import { whyNot } from '../machine/actions';
 import { idOf, nameOf, opened, openPort, ports, usersOf, watchPorts, type Port } from '../machine/ports';
 import { Button } from './button';
+import { SelectField } from './select';
 import { Typed } from './typed';
 
 const rates = [9600, 57_600, 115_200, 230_400, 250_000, 460_800, 921_600, 1_000_000] as const;
@@ -84,16 +85,7 @@ export function PortList({ isBrief = false }: { isBrief?: boolean }) {
         </ul>
       )}
       {known.ports.length > 0 && !isBrief && (
-        <label class="form-field port-rate">
-          <span class="dim">{say('ports.rate')}</span>
-          <select value={rate.value} onChange={(event) => (rate.value = Number(event.currentTarget.value))}>
-            {rates.map((one) => (
-              <option key={one} value={one}>
-                {one}
-              </option>
-            ))}
-          </select>
-        </label>
+        <SelectField class="port-rate" title={say('ports.rate')} value={String(rate.value)} all={rates.map((one) => [String(one), String(one)] as const)} set={(to) => (rate.value = Number(to))} />
       )}
       {!isBrief && <Network />}
       {!known.sees_all_programs && known.ports.length > 0 && <p class="dim">{say('ports.hidden')}</p>}

@@ -1,13 +1,13 @@
 // The position: big in work coordinates, small in the machine's.
 import { say } from '../core/language';
 import { lengthUnit, placeText, speedText, speedUnit } from '../core/units';
-import { machine, status } from '../machine/connection';
+import { canHome } from '../machine/abilities';
+import { status } from '../machine/connection';
 import { axes, machinePlace, workPlace, workRotation } from '../machine/place';
 import { Icon } from './icon';
 
 // The machine has switches, and has not been homed by them.
-const isDoubtful = (): boolean =>
-  status.value !== null && status.value.trust !== 'homed' && (machine.value?.axes.some((one) => one.homes) ?? false);
+const isDoubtful = (): boolean => status.value !== null && status.value.trust !== 'homed' && canHome.value;
 
 export function Position() {
   const trust = status.value?.trust ?? 'unknown';

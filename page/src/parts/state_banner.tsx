@@ -3,8 +3,9 @@ import { computed } from '@preact/signals';
 import { say } from '../core/language';
 import { attempt } from '../core/notices';
 import { confirm } from '../core/question';
+import { canHome } from '../machine/abilities';
 import { adviceWords } from '../machine/advice';
-import { connection, machine, status } from '../machine/connection';
+import { connection, status } from '../machine/connection';
 import { ownership, takeOwnership } from '../machine/owner';
 import { nameInWords } from '../machine/page_name';
 import { shown } from '../machine/programs';
@@ -18,8 +19,7 @@ const icons: Record<Tone, IconName> = { calm: 'calm', go: 'run', wait: 'hold', b
 const words = computed(() => {
   const now = status.value;
   if (now === null) return null;
-  const canHome = machine.value?.axes.some((one) => one.homes) ?? false;
-  return stateWords({ status: now, program: shown.value === null ? 'none' : shown.value.state === 'bad' ? 'bad' : 'open', canHome, broken: adviceWords.value });
+  return stateWords({ status: now, program: shown.value === null ? 'none' : shown.value.state === 'bad' ? 'bad' : 'open', canHome: canHome.value, broken: adviceWords.value });
 });
 
 export function StateBanner() {

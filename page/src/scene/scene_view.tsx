@@ -8,11 +8,15 @@ import { workOffset } from '../machine/place';
 import { loadsOfShown, wantLoads } from '../machine/studies';
 import { isUnderWay } from '../machine/words';
 import { PickedLine } from '../parts/picked_line';
+import { Select, type Choices } from '../parts/select';
 import { Slider } from '../parts/slider';
 import { colouring, section, sectionShare, tells } from './colouring';
 import { StockTools } from './stock_tools';
 import { showsStock, showStock } from './stock_view';
 import { drawnProgram, followsTool, picked, showsRapids, Stage } from './stage';
+
+const colours = (alone: boolean): Choices =>
+  (['nothing', 'speed', 'depth', ...(alone ? [] : (['torque'] as const))] as const).map((one) => [one, say(`scene.colour.${one}`)] as const);
 
 // `alone`: the path of a program without a machine: there is no tool to follow, and nothing starts.
 export function SceneView({ alone = false }: { alone?: boolean }) {
@@ -71,12 +75,7 @@ export function SceneView({ alone = false }: { alone?: boolean }) {
         )}
         <label class="chip">
           <span class="unseen">{say('scene.colour')}</span>
-          <select value={tells.value} onChange={(event) => (tells.value = event.currentTarget.value as typeof tells.value)}>
-            <option value="nothing">{say('scene.colour.nothing')}</option>
-            <option value="speed">{say('scene.colour.speed')}</option>
-            <option value="depth">{say('scene.colour.depth')}</option>
-            {!alone && <option value="torque">{say('scene.colour.torque')}</option>}
-          </select>
+          <Select value={tells.value} all={colours(alone)} set={(to) => (tells.value = to as typeof tells.value)} />
         </label>
       </div>
       <Section />

@@ -1,11 +1,13 @@
 // The tools that cut the stock, one for each that the program puts in: from a file of tools, or as somebody says.
-import { useRef, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import { reportWords } from '../core/faults';
 import { say, sayCount } from '../core/language';
 import { attempt } from '../core/notices';
 import { fromMm, lengthUnit, toMm } from '../core/units';
 import type { UsedTool } from '../machine/path_index';
 import type { StockTool, ToolKind } from './stock_cutter';
+import { FileChoice } from '../parts/file_choice';
+import { Select } from '../parts/select';
 import { Typed } from '../parts/typed';
 import { shapeOf, showsStock, stockState, toolShapes, usedTools } from './stock_view';
 import { isGoodTool, readToolFile } from './tool_file';
@@ -42,13 +44,7 @@ function OneTool({ used }: { used: UsedTool }) {
       {used.tool !== 0 && <b>T{used.tool}</b>}
       <label>
         <span class="unseen">{name}</span>
-        <select value={tool.kind} onChange={(event) => set(asKind(tool, event.currentTarget.value as ToolKind))}>
-          {kinds.map((one) => (
-            <option key={one} value={one}>
-              {say(`stock.${one}`)}
-            </option>
-          ))}
-        </select>
+        <Select value={tool.kind} all={kinds.map((one) => [one, say(`stock.${one}`)] as const)} set={(to) => set(asKind(tool, to as ToolKind))} />
       </label>
       <NumberField title={`Ø ${lengthUnit()}`} value={shown(tool.diameter)} set={(typed) => set({ ...tool, diameter: toMm(typed) })} />
       {(tool.kind === 'vee' || tool.kind === 'taper') && <NumberField title="°" value={String(tool.angle)} set={(typed) => set({ ...tool, angle: typed })} />}
@@ -60,7 +56,6 @@ function OneTool({ used }: { used: UsedTool }) {
 }
 
 export function StockTools() {
-  const input = useRef<HTMLInputElement>(null);
   const [said, setSaid] = useState('');
   if (!showsStock.value) return null;
   if (stockState.value === 'missing') return <p class="scene-stock">{say('stock.missing')}</p>;
@@ -80,20 +75,13 @@ export function StockTools() {
       {usedTools.value.filter((used) => used.feeds).map((used) => (
         <OneTool key={used.tool} used={used} />
       ))}
-      <button type="button" class="chip" onClick={() => input.current?.click()}>
-        {say('stock.file')}
-      </button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        accept=".toml"
-        aria-label={say('stock.file')}
-        onChange={(event) => {
-          const field = event.currentTarget;
-          void take(field.files?.[0]).then(() => (field.value = ''));
-        }}
-      />
+      <FileChoice label={say('stock.file')} accept=".toml" take={([one]) => take(one)}>
+        {(choose) => (
+          <button type="button" class="chip" onClick={choose}>
+            {say('stock.file')}
+          </button>
+        )}
+      </FileChoice>
       <span role="status">{said}</span>
     </div>
   );

@@ -18,26 +18,34 @@ bool read_number(std::string_view text, unsigned low, unsigned high, unsigned& v
   return error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
 }
 
+// Takes @BAUD away from the end, if it is there.
+bool take_baud(std::string_view& text, unsigned& baud) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string_view::npos) return true;
+  if (!read_number(text.substr(at + 1), 1200, 4'000'000, baud)) return false;
+  text = text.substr(0, at);
+  return true;
+}
+
 // DEVICE, DEVICE@BAUD
 bool read_device(std::string_view device, BoardAddress& address) {
   address.kind = BoardAddress::Kind::serial;
-  const std::size_t at = device.rfind('@');
-  if (at != std::string_view::npos) {
-    if (!read_number(device.substr(at + 1), 1200, 4'000'000, address.baud)) return false;
-    device = device.substr(0, at);
-  }
+  if (!take_baud(device, address.baud)) return false;
   address.place = device;
   return !device.empty();
 }
 
-// grbl:tcp:HOST:PORT, grbl:ws://HOST[:PORT], grbl:serial:DEVICE, grbl:DEVICE
+// grbl:tcp:HOST:PORT[@BAUD], grbl:ws://HOST[:PORT], grbl:serial:DEVICE, grbl:DEVICE
 Result<BoardAddress, std::string> read_grbl_address(std::string_view text) {
-  const std::string_view line = text.substr(5);
+  std::string_view line = text.substr(5);
   BoardAddress address;
   if (line.starts_with("tcp:")) {
+    unsigned baud = 0;
+    const bool is_rate = take_baud(line, baud);
     auto connection = parse_board_address(line);
-    if (!connection) return refuse(text);
+    if (!is_rate || !connection) return refuse(text);
     address = std::move(*connection);
+    address.behind_baud = baud;
   } else if (line.starts_with("ws://")) {
     std::string host(line.substr(5));
     if (host.ends_with('/')) host.pop_back();

@@ -60,6 +60,8 @@ void LayoutMaker::consider(std::uint32_t shape, std::uint8_t turn, PlaceRule rul
         place.score = {right, top, left, turn};
       } else if (rule == PlaceRule::left) {
         place.score = {left, top, right, turn};
+      } else if (rule == PlaceRule::corner) {
+        place.score = {left + at.Y + turned.extent.least.Y, right, top, turn};
       } else {
         place.score = {2 * right + std::max(used_.Y, top), left, top, turn};
       }

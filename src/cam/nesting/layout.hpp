@@ -33,8 +33,10 @@ struct LayoutItem {
   std::uint8_t turn = any_turn;  // otherwise an index of TurnedShape
 };
 
-// What decides between places: the right edge, then the height; the left edge, then the height; the box around all.
-enum class PlaceRule : std::uint8_t { right, left, box };
+// What decides between places: the right edge, then the height; the left edge, then the height; the box around all; the
+// distance to the lower left corner, along X and Y. The first three put round parts into the gaps between others, the
+// last one puts them into rows and columns.
+enum class PlaceRule : std::uint8_t { right, left, box, corner };
 
 struct LaidCopy {
   std::uint32_t shape = 0;

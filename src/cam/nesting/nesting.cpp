@@ -261,10 +261,10 @@ Layout NestSearch::run(const WorkProgress& progress) {
   const auto by_length = largest_first(longest_side);
   attempt(by_area, PlaceRule::right);
   const bool is_one_kind = quantities_.size() == 1;
-  for (const PlaceRule rule : {PlaceRule::left, PlaceRule::box}) {
+  for (const PlaceRule rule : {PlaceRule::left, PlaceRule::box, PlaceRule::corner}) {
     if (may_go_on()) attempt(by_area, rule);
   }
-  for (const PlaceRule rule : {PlaceRule::right, PlaceRule::left, PlaceRule::box}) {
+  for (const PlaceRule rule : {PlaceRule::right, PlaceRule::left, PlaceRule::box, PlaceRule::corner}) {
     if (may_go_on() && !is_one_kind) attempt(by_length, rule);
   }
   Changes changes(maker_.shapes());

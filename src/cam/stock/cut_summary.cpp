@@ -48,7 +48,10 @@ void CutSummary::judge(const Stretch& stretch, const ToolShape& tool) {
   // A plunge has no width.
   if (stretch.way_level < 0.5 * stretch.way) return;
   const double width = stretch.area / stretch.way_level;
-  raise(engagement_, std::min(1.0, width / (2 * tool.cutter.radius.value())), stretch.most.line);
+  const double engagement = std::min(1.0, width / (2 * tool.cutter.radius.value()));
+  raise(engagement_, engagement, stretch.most.line);
+  constexpr double level = 0.999;  // 2.6 degrees
+  if (engagement > heavy_engagement && stretch.way_level > level * stretch.way) heavy_way_ += stretch.way;
 }
 
 void CutSummary::find_troubles(const MoveCut& cut) {

@@ -69,6 +69,7 @@ struct TileWork {
   Tile tile;
   float top = 0;                      // its highest cell, from the stock's top
   std::vector<std::uint32_t> chords;  // of the batch
+  std::vector<WallHeights::Patch*> patches = {};
 };
 
 // A cylinder in place of the cutter, for the holder.
@@ -131,6 +132,7 @@ struct Clamp {
 class StockCutter::Implementation {
  public:
   Implementation(HeightField& field, const StockCutterOptions& options, Watcher watcher);
+  Implementation(const HeightField& field, WallHeights& walls, const StockCutterOptions& options);
 
   void cut(const Curve& curve, const Vector3& zero, const StockMove& move);
   void finish();
@@ -140,15 +142,19 @@ class StockCutter::Implementation {
   void cut_busy_tiles(std::vector<std::vector<MoveTally>>& tallies);
   void cut_tiles(std::atomic<std::size_t>& next, std::vector<MoveTally>& tallies);
   void cut_one(TileWork& work, std::vector<MoveTally>& tallies);
+  void cut_patch(HeightField& patch, const std::vector<std::uint32_t>& chords) const;
+  double rim_of(const SweptChord& chord) const;
   void look_at_clamps(const SweptChord& chord, MoveCut& cut) const;
   void write(const MoveTally& tally, MoveCut& cut) const;
   Vector3 place_of(const Deepest& deepest) const;
   const ToolShape& tool_of(const SweptChord& chord) const { return options_.tools[moves_[chord.move].move.tool]; }
 
-  HeightField& field_;
+  const HeightField& field_;
+  HeightField* cut_field_;  // null: only walls are cut
   StockCutterOptions options_;
   Watcher watcher_;
-  double finest_cell_;  // of the stock and of all clamps
+  double finest_cell_;      // of the stock and of all clamps
+  double beyond_tile_ = 0;  // how far the patches of a tile extend over its edge
   std::vector<Clamp> clamps_;
   std::size_t tiles_across_ = 0;
   std::vector<TileWork> tiles_;
@@ -158,7 +164,7 @@ class StockCutter::Implementation {
 };
 
 StockCutter::Implementation::Implementation(HeightField& field, const StockCutterOptions& options, Watcher watcher)
-    : field_(field), options_(options), watcher_(std::move(watcher)), finest_cell_(field.cell()) {
+    : field_(field), cut_field_(&field), options_(options), watcher_(std::move(watcher)), finest_cell_(field.cell()) {
   options_.threads = std::clamp(options_.threads, 1U, most_threads);
   tiles_across_ = (field_.columns() + tile_size - 1) / tile_size;
   for (const Tile& tile : tiles_of(field_)) {
@@ -175,6 +181,21 @@ StockCutter::Implementation::Implementation(HeightField& field, const StockCutte
     finest_cell_ = std::min(finest_cell_, clamp->cell());
     std::vector<Tile> tiles = tiles_of(*clamp);
     clamps_.push_back({std::move(*clamp), std::move(tiles)});
+  }
+}
+
+StockCutter::Implementation::Implementation(const HeightField& field, WallHeights& walls,
+                                            const StockCutterOptions& options)
+    : field_(field),
+      cut_field_(nullptr),
+      options_(options),
+      finest_cell_(walls.spacing().value()),
+      beyond_tile_(walls.patch_size().value()) {
+  options_.threads = std::clamp(options_.threads, 1U, most_threads);
+  tiles_across_ = (field_.columns() + tile_size - 1) / tile_size;
+  for (const Tile& tile : tiles_of(field_)) tiles_.push_back({.tile = tile, .top = 0, .chords = {}});
+  for (WallHeights::Patch& patch : walls.patches()) {
+    tiles_[patch.row / tile_size * tiles_across_ + patch.column / tile_size].patches.push_back(&patch);
   }
 }
 
@@ -216,7 +237,7 @@ std::size_t StockCutter::Implementation::sort_into_tiles(std::size_t first) {
     if (lowest >= 0) continue;
     const bool holder_is_low = tool.holder_radius > Mm(0) && lowest + tool.holder_from.value() < 0;
     const Mm radius = tool.cutter.radius;
-    const double reach = (holder_is_low ? std::max(radius, tool.holder_radius) : radius).value();
+    const double reach = (holder_is_low ? std::max(radius, tool.holder_radius) : radius).value() + beyond_tile_;
     const auto [left, right] = std::minmax(sweep.high.x, sweep.low.x);
     const auto [lower, upper] = std::minmax(sweep.high.y, sweep.low.y);
     const TileRange across = tiles_along(left - reach, right + reach, block.low.x, field_.cell(), tiles_across_);
@@ -224,6 +245,7 @@ std::size_t StockCutter::Implementation::sort_into_tiles(std::size_t first) {
     for (std::size_t row = up.first; row < up.end; ++row) {
       for (std::size_t column = across.first; column < across.end; ++column) {
         TileWork& work = tiles_[row * tiles_across_ + column];
+        if (cut_field_ == nullptr && work.patches.empty()) continue;
         if (lowest >= static_cast<double>(work.top) || !comes_near(sweep, field_, work.tile, reach)) continue;
         if (work.chords.empty()) busy_.push_back(row * tiles_across_ + column);
         work.chords.push_back(static_cast<std::uint32_t>(i));
@@ -234,17 +256,47 @@ std::size_t StockCutter::Implementation::sort_into_tiles(std::size_t first) {
   return i;
 }
 
+// The radius within which the tool removes material.
+double StockCutter::Implementation::rim_of(const SweptChord& chord) const {
+  const ToolShape& tool = tool_of(chord);
+  const StockMove& move = moves_[chord.move].move;
+  if (tool.neck_radius > Mm(0) && !move.rapid) return tool.neck_radius.value();
+  const double cell = cut_field_ != nullptr ? field_.cell() : finest_cell_;
+  const double thinner = move.rapid ? rapid_share * cell + move.rounding.value() : 0;
+  const double radius = tool.cutter.radius.value();
+  return std::max(0.5 * radius, radius - thinner);
+}
+
+void StockCutter::Implementation::cut_patch(HeightField& patch, const std::vector<std::uint32_t>& chords) const {
+  const Tile whole{.column = 0, .row = 0, .columns = patch.columns(), .rows = patch.rows()};
+  const auto highest = [&] {
+    float top = patch.below_top(0)[0];
+    for (std::size_t row = 0; row < patch.rows(); ++row) {
+      top = std::max(top, *std::max_element(patch.below_top(row), patch.below_top(row) + patch.columns()));
+    }
+    return static_cast<double>(top);
+  };
+  double top = highest();
+  for (const std::uint32_t i : chords) {
+    const SweptChord& chord = chords_[i];
+    const Cutter& cutter = tool_of(chord).cutter;
+    if (chord.sweep.low.z - patch.top() >= top) continue;
+    if (!comes_near(chord.sweep, patch, whole, cutter.radius.value())) continue;
+    if (cut_tile(patch, whole, chord.sweep, cutter, rim_of(chord)).cells > 0) top = highest();
+  }
+}
+
 void StockCutter::Implementation::cut_one(TileWork& work, std::vector<MoveTally>& tallies) {
+  if (cut_field_ == nullptr) {
+    for (WallHeights::Patch* patch : work.patches) cut_patch(patch->heights, work.chords);
+    work.chords.clear();
+    return;
+  }
   for (const std::uint32_t i : work.chords) {
     const SweptChord& chord = chords_[i];
     const ToolShape& tool = tool_of(chord);
     MoveTally& tally = tallies[chord.move];
-    const StockMove& move = moves_[chord.move].move;
-    const double thinner = move.rapid ? rapid_share * field_.cell() + move.rounding.value() : 0;
-    const double radius = tool.cutter.radius.value();
-    const bool has_neck = tool.neck_radius > Mm(0) && !move.rapid;
-    const double rim = has_neck ? tool.neck_radius.value() : std::max(0.5 * radius, radius - thinner);
-    const TileCut cut = cut_tile(field_, work.tile, chord.sweep, tool.cutter, rim);
+    const TileCut cut = cut_tile(*cut_field_, work.tile, chord.sweep, tool.cutter, rim_of(chord));
     if (cut.cells > 0) {
       tally.volume += std::llround(cut.drop * volume_units);
       tally.cells += cut.cells;
@@ -347,6 +399,9 @@ Mm StockCutter::clamp_cell(const StockBlock& clamp, const HeightField& field) {
 
 StockCutter::StockCutter(HeightField& field, const StockCutterOptions& options, Watcher watcher)
     : implementation_(std::make_unique<Implementation>(field, options, std::move(watcher))) {}
+
+StockCutter::StockCutter(const HeightField& field, WallHeights& walls, const StockCutterOptions& options)
+    : implementation_(std::make_unique<Implementation>(field, walls, options)) {}
 
 StockCutter::~StockCutter() = default;
 

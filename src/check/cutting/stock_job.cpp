@@ -42,6 +42,36 @@ InterpreterOptions options_above(const StockJob& job, const FeedLook& look, cons
   return options;
 }
 
+// Gives the moves of the program to the cutter.
+void cut_moves(const StockJob& job, const FeedLook& look, const HeightField& field, StockCutter& cutter,
+               const CutHooks& hooks) {
+  const std::map<std::int32_t, std::size_t> places = look.places();
+  Diagnostics findings;  // the first look has them
+  SimulatedPath path(job.program.again(), options_above(job, look, field), job.machine, findings);
+  TipMove move;
+  for (std::uint64_t moves = 0; path.next(move); ++moves) {
+    constexpr std::uint64_t moves_between_looks = 8192;
+    if (hooks.progress && moves % moves_between_looks == 0) {
+      hooks.progress(static_cast<double>(moves) / static_cast<double>(look.moves));
+    }
+    // A tool that only goes to where another one is taken up need not have a shape.
+    const auto place = places.find(move.tool);
+    if (place == places.end() || move.segment->takes_up_backlash) continue;
+    const StockMove kind{.line = move.segment->source.line,
+                         .tool = place->second,
+                         .rapid = move.segment->rapid,
+                         .time = move.time,
+                         .rounding = job.machine != nullptr ? move.segment->tolerance : Mm(0)};
+    if (hooks.rapid && kind.rapid) hooks.rapid(move, kind);
+    if (hooks.feed && !kind.rapid) {
+      hooks.feed(cutter, move, kind);
+    } else {
+      cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
+    }
+  }
+  cutter.finish();
+}
+
 }  // namespace
 
 std::vector<std::int32_t> FeedLook::numbers() const {
@@ -101,32 +131,15 @@ Result<HeightField, StockRefusal> stock_field(const StockWishes& wishes, const F
 
 void cut_stock(const StockJob& job, const StockWishes& wishes, const FeedLook& look,
                const std::vector<ToolShape>& tools, unsigned threads, HeightField& field, const CutHooks& hooks) {
-  const std::map<std::int32_t, std::size_t> places = look.places();
   StockCutter cutter(field, {.tools = tools, .clamps = wishes.clamps, .threads = threads}, hooks.cut);
-  Diagnostics findings;  // the first look has them
-  SimulatedPath path(job.program.again(), options_above(job, look, field), job.machine, findings);
-  TipMove move;
-  for (std::uint64_t moves = 0; path.next(move); ++moves) {
-    constexpr std::uint64_t moves_between_looks = 8192;
-    if (hooks.progress && moves % moves_between_looks == 0) {
-      hooks.progress(static_cast<double>(moves) / static_cast<double>(look.moves));
-    }
-    // A tool that only goes to where another one is taken up need not have a shape.
-    const auto place = places.find(move.tool);
-    if (place == places.end() || move.segment->takes_up_backlash) continue;
-    const StockMove kind{.line = move.segment->source.line,
-                         .tool = place->second,
-                         .rapid = move.segment->rapid,
-                         .time = move.time,
-                         .rounding = job.machine != nullptr ? move.segment->tolerance : Mm(0)};
-    if (hooks.rapid && kind.rapid) hooks.rapid(move, kind);
-    if (hooks.feed && !kind.rapid) {
-      hooks.feed(cutter, move, kind);
-    } else {
-      cutter.cut(move.segment->curve, Vector3::of(move.zero), kind);
-    }
-  }
-  cutter.finish();
+  cut_moves(job, look, field, cutter, hooks);
+}
+
+void cut_walls(const StockJob& job, const FeedLook& look, const std::vector<ToolShape>& tools, unsigned threads,
+               const HeightField& field, WallHeights& walls) {
+  if (!walls.any()) return;
+  StockCutter cutter(field, walls, {.tools = tools, .clamps = {}, .threads = threads});
+  cut_moves(job, look, field, cutter, {});
 }
 
 }  // namespace passo

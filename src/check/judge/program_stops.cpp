@@ -33,7 +33,7 @@ void ProgramStops::watch(const PathItem& item) {
   using Kind = Action::Kind;
   const bool stops =
       action->kind == Kind::program_stop || action->kind == Kind::optional_stop || action->kind == Kind::tool_change;
-  if (!stops) return;
+  if (!stops || action->by_machine) return;
   const std::uint32_t line = action->source.line;
   if (++count_ <= most_told) {
     stops_.push_back({.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)});

@@ -39,16 +39,6 @@ std::string describe(const TomlText::Setting& setting) {
   return std::visit(Writer{}, setting);
 }
 
-std::vector<std::string_view> parts_of(std::string_view path) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t dot = std::min(path.find('.'), path.size());
-    parts.push_back(path.substr(0, dot));
-    if (dot == path.size()) return parts;
-    path.remove_prefix(dot + 1);
-  }
-}
-
 // 0: it is no number.
 std::size_t number_of(std::string_view digits) {
   constexpr std::size_t most_digits = 6;
@@ -100,21 +90,6 @@ void change_tree(toml::table& root, const std::vector<std::string_view>& parts, 
   }
 }
 
-// Whether two trees differ at most by tables without content.
-bool is_same_but_empty(const toml::table& some, const toml::table& all) {
-  for (const auto& [key, node] : all) {
-    const toml::table* const inner = node.as_table();
-    const toml::node* const other = some.get(key.str());
-    if (other == nullptr && (inner == nullptr || !inner->empty())) return false;
-    if (other == nullptr) continue;
-    const bool is_same = inner != nullptr && other->is_table()
-                             ? is_same_but_empty(*other->as_table(), *inner)
-                             : some.size() <= all.size() && toml::node_view(*other) == toml::node_view(node);
-    if (!is_same) return false;
-  }
-  return some.size() <= all.size();
-}
-
 // One change of the text.
 struct Change {
   std::size_t at = 0;
@@ -125,7 +100,7 @@ struct Change {
 class Setter {
  public:
   Setter(std::string_view text, const toml::table& root, std::string_view path)
-      : text_(text), places_(text), root_(root), path_(path), parts_(parts_of(path)) {}
+      : text_(text), places_(text), root_(root), path_(path), parts_(parts_of_path(path)) {}
 
   Result<Change, TomlTextError> change(const std::string& words) const;
   // Removes the key with its value. Empty: there is no such key.
@@ -380,6 +355,30 @@ void collect(const toml::table& table, const std::string& before, std::vector<Pl
 
 }  // namespace
 
+std::vector<std::string_view> parts_of_path(std::string_view path) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    parts.push_back(path.substr(0, dot));
+    if (dot == path.size()) return parts;
+    path.remove_prefix(dot + 1);
+  }
+}
+
+bool is_same_but_empty(const toml::table& some, const toml::table& all) {
+  for (const auto& [key, node] : all) {
+    const toml::table* const inner = node.as_table();
+    const toml::node* const other = some.get(key.str());
+    if (other == nullptr && (inner == nullptr || !inner->empty())) return false;
+    if (other == nullptr) continue;
+    const bool is_same = inner != nullptr && other->is_table()
+                             ? is_same_but_empty(*other->as_table(), *inner)
+                             : some.size() <= all.size() && toml::node_view(*other) == toml::node_view(node);
+    if (!is_same) return false;
+  }
+  return some.size() <= all.size();
+}
+
 bool is_plain_key(std::string_view key) {
   return !key.empty() && std::ranges::all_of(key, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
@@ -417,7 +416,7 @@ Status<TomlTextError> TomlText::set(std::string_view path, const Setting& settin
 }
 
 Status<TomlTextError> TomlText::set_words(std::string_view path, const std::string& words) {
-  const std::vector<std::string_view> parts = parts_of(path);
+  const std::vector<std::string_view> parts = parts_of_path(path);
   // The parser recurses as deep as a key has parts.
   if (parts.size() > most_parts) return text_refusal(fmt::format("a key has more than {} parts", most_parts));
   if (!std::ranges::all_of(parts, is_plain_key)) return text_refusal(fmt::format("'{}' is not a key", path));
@@ -447,7 +446,7 @@ Status<TomlTextError> TomlText::remove(std::string_view path) {
   std::string changed = text_;
   changed.erase((*change)->at, (*change)->length);
   const auto again = tree_of(changed);
-  change_tree(*tree, parts_of(path), nullptr);
+  change_tree(*tree, parts_of_path(path), nullptr);
   // A table of which only dotted keys are written is gone with the last of them.
   if (!again || !is_same_but_empty(*again, *tree)) return text_refusal(fmt::format("{} cannot be removed", path));
   text_ = std::move(changed);

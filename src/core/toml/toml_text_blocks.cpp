@@ -43,6 +43,20 @@ std::string_view first_key_of(std::string_view line) {
   return line.substr(0, line.find_first_of(" \t.]"));
 }
 
+// The keys of a head: "tool", "3" of "[tool.3] # a drill", and those of a list's head.
+std::vector<std::string> keys_of_head(std::string_view line) {
+  std::vector<std::string> keys;
+  const auto tree = tree_of(line);
+  const toml::table* table = tree ? &*tree : nullptr;
+  while (table != nullptr && !table->empty()) {
+    const auto only = table->begin();  // what it refers to lives as long as it does
+    keys.emplace_back(only->first.str());
+    const toml::array* const list = only->second.as_array();
+    table = list != nullptr && !list->empty() ? (*list)[0].as_table() : only->second.as_table();
+  }
+  return keys;
+}
+
 class Blocks {
  public:
   Blocks(std::string_view text, const toml::table& root, std::string_view list)
@@ -55,8 +69,12 @@ class Blocks {
 
   // The error: the list is written in another way.
   Result<std::vector<Block>, TomlTextError> find() const;
+  // Those of the heads that begin with these keys.
+  std::vector<Block> find(const std::vector<std::string_view>& keys) const;
 
  private:
+  // `next`: the head that ends it; 0: the end of the file does.
+  Block block_of(Line head, Line next) const;
   Line comments_above(Line head) const;
   bool is_comment(Line line) const { return places_.first_of(line) == '#' && !inner_.contains(line); }
 
@@ -87,14 +105,28 @@ Result<std::vector<Block>, TomlTextError> Blocks::find() const {
   for (const Line head : own) {
     auto next = std::ranges::upper_bound(heads_, head);
     while (next != heads_.end() && !own.contains(*next) && first_key_of(places_.line(*next)) == name_) ++next;
-    const Line end = next == heads_.end() ? places_.line_count() + 1 : comments_above(*next);
-    Block block{.first = comments_above(head), .head = head, .last = head};
-    for (Line line = head + 1; line < end; ++line) {
-      const bool has_words = inner_.contains(line) || (places_.first_of(line) != '\0' && !is_comment(line));
-      if (has_words) block.last = line;
-    }
-    while (block.last + 1 < end && is_comment(block.last + 1)) ++block.last;
-    blocks.push_back(block);
+    blocks.push_back(block_of(head, next == heads_.end() ? 0 : *next));
+  }
+  return blocks;
+}
+
+Block Blocks::block_of(Line head, Line next) const {
+  const Line end = next == 0 ? places_.line_count() + 1 : comments_above(next);
+  Block block{.first = comments_above(head), .head = head, .last = head};
+  for (Line line = head + 1; line < end; ++line) {
+    const bool has_words = inner_.contains(line) || (places_.first_of(line) != '\0' && !is_comment(line));
+    if (has_words) block.last = line;
+  }
+  while (block.last + 1 < end && is_comment(block.last + 1)) ++block.last;
+  return block;
+}
+
+std::vector<Block> Blocks::find(const std::vector<std::string_view>& keys) const {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < heads_.size(); ++i) {
+    const std::vector<std::string> head = keys_of_head(places_.line(heads_[i]));
+    if (head.size() < keys.size() || !std::equal(keys.begin(), keys.end(), head.begin())) continue;
+    blocks.push_back(block_of(heads_[i], i + 1 < heads_.size() ? heads_[i + 1] : 0));
   }
   return blocks;
 }
@@ -245,6 +277,29 @@ Status<TomlTextError> TomlText::remove_table(std::string_view list, std::size_t 
   std::vector<std::size_t> numbers = all_numbers(blocks->size());
   numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(number) - 1);
   return take(cut.before + cut.after, list, numbers);
+}
+
+Status<TomlTextError> TomlText::remove_table(std::string_view path) {
+  const auto tree = tree_of(text_);
+  if (!tree) return Failure{tree.error()};
+  const std::vector<std::string_view> keys = parts_of_path(path);
+  toml::table wanted = *tree;
+  toml::table* around = &wanted;
+  for (std::size_t i = 0; around != nullptr && i + 1 < keys.size(); ++i) around = around->get_as<toml::table>(keys[i]);
+  if (around == nullptr || !around->contains(keys.back())) return text_refusal(fmt::format("there is no {}", path));
+  if (around->get_as<toml::table>(keys.back()) == nullptr) return text_refusal(fmt::format("{} is no table", path));
+  const std::vector<Block> blocks = Blocks(text_, *tree, "").find(keys);
+  if (blocks.empty()) return remove(path);
+  std::string changed = text_;
+  for (auto block = blocks.rbegin(); block != blocks.rend(); ++block) {
+    const Cut cut = cut_out(changed, block->first, block->last);
+    changed = cut.before + cut.after;
+  }
+  around->erase(keys.back());
+  const auto again = tree_of(changed);
+  if (!again || !is_same_but_empty(*again, wanted)) return text_refusal(fmt::format("{} cannot be removed", path));
+  text_ = std::move(changed);
+  return Unit{};
 }
 
 }  // namespace passo

@@ -76,6 +76,11 @@ bool is_plain_key(std::string_view key);
 // Whether a text is a value of TOML on one line, without a comment. Returns its tree with the key "x".
 std::optional<toml::table> tree_of_value(const std::string& words);
 
+// Whether two trees differ at most by tables without content.
+bool is_same_but_empty(const toml::table& some, const toml::table& all);
+// The keys of a path, "axis.X".
+std::vector<std::string_view> parts_of_path(std::string_view path);
+
 // A new line ends as the others do.
 inline std::string_view line_end_of(std::string_view text) {
   return text.find("\r\n") != std::string_view::npos ? "\r\n" : "\n";

@@ -315,10 +315,20 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"moves", program.check.moves},
                {"block_delete", program.block_delete},
                {"deleted_lines", program.deleted_lines},
+               {"small", program.is_small},
                {"height_map", program.height_map.has_value()}};
   if (with_findings) json["findings"] = as_json(program.findings);
   return json;
 }
+
+namespace {
+
+Json park_json(const ParkDescription& park) {
+  if (!park.place) return {};
+  return {{"x", (*park.place)[Axis::x]}, {"y", (*park.place)[Axis::y]}};
+}
+
+}  // namespace
 
 Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version) {
   Json axes = Json::array();
@@ -337,6 +347,8 @@ Json machine_json(const MachineDescription& machine, const MachineAbilities& abi
           {"motors", motors_json(machine)},
           {"pins", pins_json(machine)},
           {"highest_rpm", machine.tool.highest_rpm},
+          {"top", machine.top_of_travel() ? Json(*machine.top_of_travel()) : Json()},
+          {"park", park_json(machine.park)},
           {"abilities", abilities_json(abilities)}};
 }
 

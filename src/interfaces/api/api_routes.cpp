@@ -10,6 +10,7 @@
 #include "ports_api.hpp"
 #include "programs_api.hpp"
 #include "settings_api.hpp"
+#include "small_jobs_api.hpp"
 #include "studies_api.hpp"
 
 namespace passo {
@@ -24,6 +25,7 @@ constexpr bool owner = true;
 constexpr ApiRoute routes[] = {
     {"GET", "/alarms", "listAlarms", anybody, none, &JobsApi::list_alarms, Needs::history},
     {"GET", "/health", "getHealth", anybody, none, &MachineApi::health},
+    {"POST", "/go", "goToPlace", owner, json, &SmallJobsApi::go_to},
     {"POST", "/hold", "hold", anybody, json, &MachineApi::hold},
     {"POST", "/home", "home", owner, json, &MachineApi::home},
     {"GET", "/history", "listHistory", anybody, none, &JobsApi::list_history, Needs::history},
@@ -64,6 +66,9 @@ constexpr ApiRoute routes[] = {
     {"POST", "/machine/file/draft", "draftMachineFile", anybody, json, &MachineFileApi::draft},
     {"POST", "/machine/files", "keepMachineFile", owner, json, &PortsApi::keep_machine},
 
+    {"GET", "/macros", "listMacros", anybody, none, &SmallJobsApi::list_macros},
+    {"POST", "/macros", "runMacro", owner, json, &SmallJobsApi::run_macro},
+
     {"POST", "/mdi", "runLine", owner, json, &MachineApi::run_line},
     {"POST", "/operator-done", "confirmOperatorDone", owner, none, &MachineApi::operator_done},
     {"POST", "/outputs", "switchOutputs", owner, json, &MachineApi::switch_outputs},
@@ -86,6 +91,7 @@ constexpr ApiRoute routes[] = {
     {"DELETE", "/programs/{id}", "deleteProgram", owner, none, &ProgramsApi::remove},
     {"POST", "/programs/{id}/block-delete", "setBlockDelete", anybody, json, &ProgramsApi::set_block_delete},
     {"POST", "/programs/{id}/check", "checkProgram", anybody, none, &ProgramsApi::check},
+    {"POST", "/programs/{id}/frame", "frameProgram", owner, json, &SmallJobsApi::frame},
     {"GET", "/programs/{id}/height-map", "getHeightMap", anybody, none, &ProgramsApi::height_map},
     {"POST", "/programs/{id}/height-map", "setHeightMap", anybody, table, &ProgramsApi::set_height_map},
     {"POST", "/programs/{id}/level", "levelProgram", anybody, none, &ProgramsApi::level},

@@ -177,7 +177,15 @@ WebAnswer CamApi::keep_file(const ApiCall& call) {
   return state_answer();
 }
 
-WebAnswer CamApi::clear_files(const ApiCall&) {
+// One file by its name, or all.
+WebAnswer CamApi::clear_files(const ApiCall& call) {
+  const auto name = name_from(call.request.query, "");
+  if (!name) return name.error();
+  if (!name->empty()) {
+    if (!shared_.options.maker->remove(*name))
+      return error_answer(404, "http.not-found", "there is no file of this name");
+    return state_answer();
+  }
   shared_.options.maker->clear();
   made_.clear();
   return state_answer();

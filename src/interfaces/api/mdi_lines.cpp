@@ -133,6 +133,14 @@ MdiLines::Answer MdiLines::execute_command(const std::string& text) {
   if (text == "$") return told(help);
   if (text == "$G") return told(modes_text(modes(), units));
   if (text == "$#") return told(offsets_text(program_->parameters(), program_->modes(), probe_, units));
+  const auto unsupported = [](const char* finer, const char* words) {
+    return refused("mdi.unsupported", {.code = std::string("mdi.unsupported.") + finer, .text = words});
+  };
+  const bool is_setting = text == "$$" || (text.size() > 1 && text[1] >= '0' && text[1] <= '9');
+  // The board's own values differ from those of the machine file.
+  if ((is_setting || text == "$I") && !session_.abilities().can(Ability::step_counts)) {
+    return unsupported("board-setting", "the board has its own settings: read them in the Machine tab, part Board");
+  }
   if (text == "$I") return told(build_text(""));
   if (text == "$$") {
     std::string all;
@@ -151,12 +159,9 @@ MdiLines::Answer MdiLines::execute_command(const std::string& text) {
     if (state != MachineState::alarm && state != MachineState::fault) return told("[MSG:Nothing is locked]");
     return ask(request::ResetMachine{});
   }
-  const auto unsupported = [](const char* finer, const char* words) {
-    return refused("mdi.unsupported", {.code = std::string("mdi.unsupported.") + finer, .text = words});
-  };
   if (text.starts_with("$J=")) return unsupported("jog", "the console cannot jog: use the Setup tab");
   if (text == "$C") return unsupported("check", "the console has no check mode: open the program in the Files tab");
-  if (text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
+  if (is_setting) {
     return unsupported("setting", "settings are in the machine file: change them in the Machine tab");
   }
   const std::string word = text.substr(0, 20);

@@ -166,6 +166,7 @@ std::string Editor::apply() {
     return done(text_.set_words(path(), words));
   }
   if (what == "unset") return done(text_.remove(path()));
+  if (what == "remove" && edit_.contains("path")) return done(text_.remove_table(path()));
   if (list().empty()) return "\"list\": expected operation, clamp or fixture";
   if (what == "insert") return insert();
   if (what == "copy") return done(text_.copy_table(list(), number("number")));

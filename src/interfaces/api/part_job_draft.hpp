@@ -32,8 +32,8 @@ std::string stamp_of_job(std::string_view text);
 
 // Applies edits in their order: {"do": "set", "path": "operation.2.depth", "value": -4}, {"do": "unset", "path"},
 // {"do": "insert", "number", "values": {}}, {"do": "copy", "number"}, {"do": "move", "number", "to"},
-// {"do": "remove", "number"}. The last four are about operations, or about the "list" clamp or fixture. The error: why
-// none was applied.
+// {"do": "remove", "number"}. The last four are about operations, or about the "list" clamp or fixture.
+// {"do": "remove", "path": "tool.3"} removes a table. The error: why none was applied.
 Result<std::string, std::string> edited_job(const std::string& text, const Json& edits);
 
 // The kinds of operations with the keys that each has.

@@ -72,6 +72,12 @@ const StoredProgram* ProgramStore::add(std::string name, Dialect dialect, std::s
   return &program;
 }
 
+const StoredProgram* ProgramStore::add_small(std::string name, std::string text) {
+  const StoredProgram* const program = add(std::move(name), Dialect::linuxcnc, std::move(text));
+  if (program != nullptr) programs_.at(program->id).is_small = true;
+  return program;
+}
+
 const StoredProgram* ProgramStore::find(std::uint64_t id) const {
   const auto found = programs_.find(id);
   return found == programs_.end() ? nullptr : &found->second;
@@ -98,6 +104,7 @@ InterpreterOptions ProgramStore::options_of(Dialect dialect) const {
   options.parameters = parameters_;
   begin_with_g54(options.parameters);
   options.tools = tools_;
+  options.sub_folders = sub_folders_;
   return options;
 }
 
@@ -136,6 +143,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   program.findings.clear();
   program.planned_time.reset();
   program.path_points = ProgramPath();
+  program.outline = JobOutline();
   make_room_for_path(id);
   program.state = UploadState::checking;
   InterpreterOptions options = options_of(program);
@@ -148,6 +156,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   told_.clear();
   checker_->watch([this, stored = &program](const PathItem& item) {
     stored->path_points.add(item, checker_->frame());
+    stored->outline.add(item);
     path_.add(item);
     if (judge_) judge(item, *stored);
   });

@@ -12,6 +12,7 @@
 #include "ports_api.hpp"
 #include "programs_api.hpp"
 #include "settings_api.hpp"
+#include "small_jobs_api.hpp"
 #include "studies_api.hpp"
 #include <fmt/format.h>
 
@@ -71,6 +72,7 @@ class WebApi::Parts {
                                                                                                              programs,
                                                                                                              offsets} {
     programs.judge_paths(options.path_judge);
+    if (!options.macro_folder.empty()) programs.set_sub_folders({options.macro_folder});
     mdi.begin_anew();
     if (BoardMachineSession* const own = session.as_board_session()) {
       own->board().sent_segments().keep(machine.board.clock);
@@ -112,6 +114,7 @@ class WebApi::Parts {
   PortsApi ports_api{shared, jobs};
   ProgramsApi programs_api{shared, jobs};
   SettingsApi settings_api{shared, jobs};
+  SmallJobsApi small_jobs_api{shared, jobs};
   StudiesApi studies_api{shared};
 
  private:
@@ -138,6 +141,7 @@ class WebApi::Parts {
   WebAnswer ask(AnswerOf<PortsApi> handler, const ApiCall& call) { return (ports_api.*handler)(call); }
   WebAnswer ask(AnswerOf<ProgramsApi> handler, const ApiCall& call) { return (programs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<SettingsApi> handler, const ApiCall& call) { return (settings_api.*handler)(call); }
+  WebAnswer ask(AnswerOf<SmallJobsApi> handler, const ApiCall& call) { return (small_jobs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<StudiesApi> handler, const ApiCall& call) { return (studies_api.*handler)(call); }
 
   Seconds keeps_again_{0};  // what could not be written is tried again then

@@ -1,6 +1,8 @@
 #include "passo/sender/grbl_feed.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -13,7 +15,8 @@
 namespace passo {
 namespace {
 
-constexpr double same_place = 1e-3;  // mm
+constexpr double same_place = 1e-3;       // mm
+constexpr double moved_by_others = 5e-3;  // mm
 
 }  // namespace
 
@@ -31,10 +34,10 @@ void GrblFeed::begin_at(const ResumePoint& point, const std::vector<PathItem>& l
   for (const PathItem& item : lead_in) write(item);
 }
 
-std::optional<GrblProgram::Line> GrblFeed::next() {
+std::optional<GrblFeed::Line> GrblFeed::next() {
   while (ready_.empty() && asks_ == Asks::nothing) pull();
   if (ready_.empty()) return {};
-  GrblProgram::Line line = std::move(ready_.front());
+  Line line = std::move(ready_.front());
   ready_.pop_front();
   return line;
 }
@@ -88,7 +91,7 @@ bool GrblFeed::reaches(const PathItem& item) {
   return true;
 }
 
-void GrblFeed::push(GrblProgram::Line line) {
+void GrblFeed::push(Line line) {
   ready_.push_back(std::move(line));
   ++lines_written_;
 }
@@ -135,6 +138,32 @@ void GrblFeed::go_on() {
   asks_ = Asks::nothing;
 }
 
+void GrblFeed::go_on_from(const Point& place, const Point& from) {
+  const std::uint32_t line = stop_.source.line;
+  push({.text = GrblCode::known_modes, .line = line});
+  code_.forget_modes();
+  Point at = place;
+  const auto go_to = [&](const Point& end) {
+    if (end == at) return;
+    Segment segment{.curve = Curve::line(at, end), .rapid = true};
+    segment.speed = MmPerSecond(std::numeric_limits<double>::infinity());
+    segment.source.line = line;
+    std::vector<std::string> lines;
+    if (!code_.write(segment, lines)) return;
+    for (std::string& text : lines) push({.text = std::move(text), .line = line});
+    at = end;
+  };
+  if (grbl_distance(Curve::line(place, place), from) > moved_by_others) {
+    const double height = std::max(place[Axis::z], from[Axis::z]);
+    Point above = place;
+    above[Axis::z] = height;
+    Point over = from;
+    over[Axis::z] = height;
+    for (const Point& end : {above, over, from}) go_to(end);
+  }
+  go_on();
+}
+
 void GrblFeed::take_probe_state(bool triggered, const Point& place) {
   const bool refused = triggered == probe_->probe_toward;
   answers_.record({.refused = refused, .touched = false, .contact = place, .rest = place});
@@ -152,7 +181,7 @@ GrblProgramPath::GrblProgramPath(ProgramReader program, const MachineDescription
                                  std::vector<ProbeOutcome> known_probes)
     : answers_(results_, std::move(known_probes)),
       path_options_(path_options(machine, program.name(), options.start)),
-      interpreter_(std::move(program), options, diagnostics, answers_),
+      interpreter_(std::move(program), on_machine(machine, options), diagnostics, answers_),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics, answers_),
       until_error_(builder_, diagnostics) {

@@ -63,12 +63,13 @@ GrblFollower::GrblFollower(const GrblLimits& limits, const Point& start, const P
   tolerance_ = report_resolution + limits.arc_tolerance.value() + steps_beside_the_path * std::sqrt(squares);
 }
 
-double GrblFollower::speed_of(const Point& from, const Point& to, MmPerSecond feed) const {
-  const Point way = to - from;
-  const double length = length_of(way);
+// The speed as the board measures it.
+double GrblFollower::measured_speed(const Point& way, MmPerSecond feed) const {
+  const Point measured = limits_.measured(way);
+  const double length = length_of(measured);
   double speed = feed.value();
   for (const Axis axis : all_axes) {
-    const double part = std::abs(way[axis]);
+    const double part = std::abs(measured[axis]);
     if (part > 0 && limits_.steps_per_mm[axis] > 0) {
       speed = std::min(speed, limits_.velocity[axis].value() * length / part);
     }
@@ -76,21 +77,32 @@ double GrblFollower::speed_of(const Point& from, const Point& to, MmPerSecond fe
   return std::max(speed, smallest_speed);
 }
 
+// The speed of the tool.
+double GrblFollower::speed_of(const Point& way, MmPerSecond feed) const {
+  const double speed = measured_speed(way, feed);
+  if (!limits_.core_xy) return speed;
+  const double length = length_of(way);
+  // A full circle has no way from end to end.
+  return speed * (length > 0 ? length / length_of(limits_.measured(way)) : std::numbers::sqrt2 / 2);
+}
+
 double GrblFollower::duration_of(const GrblLineMotion& line) const {
   if (line.kind != GrblLineMotion::Kind::move) return 0;
   double length = length_of(line.end - line.start);
   if (line.arc) length = std::abs(turn_of(line)) * std::hypot(line.arc->first_center, line.arc->second_center);
-  return length / speed_of(line.start, line.end, line.feed);
+  return length / speed_of(line.end - line.start, line.feed);
 }
 
 // From the line's feed.
 double GrblFollower::braking_time(const GrblLineMotion& line) const {
+  const Point way = line.end - line.start;
+  const Point measured = limits_.measured(way);
   double weakest = std::numeric_limits<double>::infinity();
   for (const Axis axis : all_axes) {
-    if (line.end[axis] == line.start[axis] || limits_.steps_per_mm[axis] <= 0) continue;
+    if (measured[axis] == 0 || limits_.steps_per_mm[axis] <= 0) continue;
     weakest = std::min(weakest, limits_.acceleration[axis].value());
   }
-  return std::isinf(weakest) || weakest <= 0 ? 0 : speed_of(line.start, line.end, line.feed) / weakest;
+  return std::isinf(weakest) || weakest <= 0 ? 0 : measured_speed(way, line.feed) / weakest;
 }
 
 std::vector<std::string> GrblFollower::pieces(const std::string& text) {
@@ -240,7 +252,7 @@ void GrblFollower::sent(std::string_view text, std::uint32_t line, Seconds now) 
 void GrblFollower::add_leg(const Point& end, MmPerSecond feed, std::uint32_t line) {
   const Point from = path_.end;
   Leg leg{.from = from, .to = end, .begin = path_.length, .length = length_of(end - from), .line = line};
-  leg.speed = speed_of(from, end, feed);
+  leg.speed = speed_of(end - from, feed);
   path_.length += leg.length;
   waiting_.push_back({.end = end,
                       .feed = feed,
@@ -367,6 +379,14 @@ std::optional<GrblFollower::Trouble> GrblFollower::hear(const Point& place, bool
       .last_line = last_line_};
 }
 
+Seconds GrblFollower::longest_between_changes() const {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Leg& leg : path_.legs) {
+    if (leg.begin + leg.length >= path_.known) slowest = std::min(slowest, leg.speed);
+  }
+  return Seconds(std::isinf(slowest) ? 0 : report_resolution / (slowest * clock_.factor));
+}
+
 std::uint32_t GrblFollower::first_line() const {
   for (const Leg& leg : path_.legs) {
     if (leg.line != 0 && leg.begin + leg.length >= path_.known) return leg.line;
@@ -395,8 +415,9 @@ std::optional<GrblFollower::Trouble> GrblFollower::check_modes(std::string_view 
             fmt::format("M{}", expected.spindle));
     const bool knows_feed = mode[0] == 'F' && expected.feed >= 0 && !expected.by_time;
     const double unit = in_inches ? 25.4 : 1;
-    compare(knows_feed && std::abs(*value * unit - expected.feed) > 0.51 * unit, mode,
-            fmt::format("F{:.0f}", expected.feed / unit));
+    // FluidNC tells F in millimetres also if all else is in inches.
+    const double beside = std::min(std::abs(*value * unit - expected.feed) / unit, std::abs(*value - expected.feed));
+    compare(knows_feed && beside > 0.51, mode, fmt::format("F{:.0f}", expected.feed / unit));
     const bool knows_speed = mode[0] == 'S' && expected.speed >= 0;
     compare(knows_speed && std::abs(*value - expected.speed) > 0.51, mode, fmt::format("S{:.0f}", expected.speed));
   }

@@ -1,7 +1,6 @@
 #include "passo/sender/grbl_forecast.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "passo/geometry/euclid.hpp"
 
@@ -26,7 +25,8 @@ GrblLimits limits_of(const GrblMachine& machine) {
   };
   GrblLimits limits{.junction_deviation = Mm(std::max(0.0, setting(11, 0.01))),
                     .arc_tolerance = Mm(setting(12, 0.002)),
-                    .blocks = machine.blocks};
+                    .blocks = machine.blocks,
+                    .core_xy = machine.measures_motors()};
   for (std::size_t i = 0; i < machine.axes.size() && i < axis_count; ++i) {
     const auto axis = axis_of(machine.axes[i]);
     if (!axis) continue;
@@ -39,16 +39,14 @@ GrblLimits limits_of(const GrblMachine& machine) {
 }
 
 GrblForecast::GrblForecast(const GrblLimits& limits, const GrblLine& line, const Point& start, const GrblTarget& target)
-    : line_(line), target_(target), reader_(start, target.zero), hindered_(limits, start), unhindered_(limits, start) {}
+    : limits_(limits), line_(line), reader_(start, target.zero), hindered_(limits, start), unhindered_(limits, start) {}
 
 void GrblForecast::add(std::string_view text, std::uint32_t source) {
   GrblLineMotion line = reader_.read(text);
   const Point way = line.end - line.start;
   const double length = length_of(way);
-  // An arc on such a board is in the XY plane, and steep at most in short helices.
-  if (target_.measures_motors && !reader_.modes().by_time && length > 0) {
-    line.feed = line.feed * (line.arc ? std::numbers::sqrt2 / 2 : length / target_.way(way));
-  }
+  // In inverse time the way does not matter.
+  if (reader_.modes().by_time && length > 0) line.feed = line.feed * (length_of(limits_.measured(way)) / length);
   const double answered = run(hindered_, line, source, Seconds(arrival(text.size() + 1))).value();
   unanswered_.back().answered = answered_ = answered;
   answered_unhindered_ = run(unhindered_, line, source, Seconds(answered_unhindered_)).value();

@@ -45,7 +45,8 @@ bool GrblLineReader::take(char letter, double value, GrblLineMotion& line) {
   if (code == 4) line.kind = GrblLineMotion::Kind::rest;
   if (code >= 17 && code <= 19) modes_.plane = code;
   if (code == 93 || code == 94) modes_.by_time = code == 93;
-  return code <= 4 || (code >= 17 && code <= 19) || code == 93 || code == 94;
+  const bool is_known_mode = code == 21 || code == 40 || code == 49 || code == 54 || code == 90;
+  return code <= 4 || (code >= 17 && code <= 19) || code == 93 || code == 94 || is_known_mode;
 }
 
 GrblLineMotion GrblLineReader::read(std::string_view text) {

@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::size_t most_alarms = 256;
 constexpr std::size_t most_messages = 50;
-constexpr std::size_t blocks_of_a_mega = 30;  // at least; an Uno has 15
+constexpr std::size_t blocks_of_a_mega = 30;      // at least; an Uno has 15
+constexpr std::size_t blocks_beyond_a_mega = 60;  // at least: more than its memory holds
+constexpr std::string_view extended_info = "$I+";
 
 bool is_system(std::string_view name) {
   return name.size() >= 3 && name.starts_with("G5") && name[2] >= '4' && name[2] <= '9';
@@ -34,7 +36,7 @@ void GrblMachine::note_sizes() {
 }
 
 void GrblMachine::hear_greeting(std::string_view line) {
-  was_asked_ = false;
+  asked_.clear();
   if (const GrblFirmware* const marked = marked_grbl_firmware(line)) become(marked->name);
 }
 
@@ -43,9 +45,22 @@ void GrblMachine::hear_value_count(std::size_t count) {
 }
 
 std::vector<std::string> GrblMachine::take_questions() {
-  std::vector<std::string> questions;
-  if (!std::exchange(was_asked_, true)) questions.assign(row().questions.begin(), row().questions.end());
-  return questions;
+  if (std::exchange(asked_, firmware) == firmware) return {};
+  // grblHAL that was built to look like Grbl names itself here alone.
+  if (firmware == "grbl-Mega" && blocks >= blocks_beyond_a_mega) return {std::string(extended_info)};
+  const std::span<const std::string_view> questions = row().questions;
+  return {questions.begin(), questions.end()};
+}
+
+bool GrblMachine::measures_motors() const {
+  return row().measures_motors && options.find('C') != std::string::npos;
+}
+
+bool GrblMachine::tells_modes_unasked() const {
+  const int bit = row().unasked_modes;
+  if (bit <= 0) return bit == GrblFirmware::at_any_time;
+  const auto found = settings.find(10);
+  return found != settings.end() && (static_cast<int>(found->second) & bit) != 0;
 }
 
 bool GrblMachine::has_mist() const {

@@ -8,7 +8,9 @@
 #include "grbl_work.hpp"
 #include <fmt/format.h>
 
+#include "passo/geometry/euclid.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
+#include "passo/sender/grbl_code.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -19,6 +21,7 @@ constexpr std::uint64_t items_of_a_turn = 2000;
 // How long a lost connection is looked for before it is a fault.
 constexpr Seconds longest_reopening{10};
 constexpr Seconds between_looks_for_device{0.5};
+constexpr double same_report = 2e-3;  // mm: reports have three decimals
 
 // Inputs as bits of BoardInput: a board reports letters.
 std::uint16_t inputs_of(std::string_view pins) {
@@ -49,8 +52,9 @@ std::optional<Point> contact_of(std::string_view value, const GrblMachine& board
 
 }  // namespace
 
-GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port)
+GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port, Seconds ahead)
     : machine_(machine), port_(port), sender_(port.now()) {
+  connection_.ahead = ahead;
   connect_again(false);
 }
 
@@ -59,8 +63,9 @@ GrblMachineSession::~GrblMachineSession() = default;
 void GrblMachineSession::connect_again(bool on_open_line) {
   sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
   sender_.listen([this](std::string_view line) { hear(line); });
-  prepared_ = false;
+  connection_.is_prepared = false;
   lent_ = false;
+  connection_.asks_offsets = false;
   heard_.reports = 0;
 }
 
@@ -69,7 +74,8 @@ bool GrblMachineSession::busy() const {
 }
 
 bool GrblMachineSession::works() const {
-  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered();
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered() ||
+         connection_.asks_offsets;
 }
 
 // All lines are answered, and the board has reported since that it is idle.
@@ -89,12 +95,12 @@ void GrblMachineSession::exchange(Seconds most) {
 }
 
 void GrblMachineSession::poll(Seconds most) {
-  if (broken_since_) {
+  if (connection_.broken_since) {
     if (port_.open_again()) {
-      broken_since_.reset();
+      connection_.broken_since.reset();
       connect_again(false);
-    } else if (now() - *broken_since_ > longest_reopening) {
-      broken_since_.reset();
+    } else if (now() - *connection_.broken_since > longest_reopening) {
+      connection_.broken_since.reset();
       return break_off(MachineEvent::lose_board, {.code = "grbl.line-lost", .message = "the connection is not there"});
     } else {
       static_cast<void>(port_.receive(std::min(most, between_looks)));
@@ -143,6 +149,7 @@ void GrblMachineSession::hear_report() {
   const auto place = sender_.place();
   if (!place) return;
   live_.hear(*place, now());
+  if (report.work_offset) hear_work_zero(sender_.machine().millimetres(*report.work_offset));
   if (report.rests() && !busy()) {
     if (position_.place != *place) ++news_.version;
     position_.place = *place;
@@ -153,19 +160,41 @@ void GrblMachineSession::hear_report() {
   work_->progress.executed.hear(sender_.lines_answered(), blocks, *place);
 }
 
+// Somebody may have set a zero at the machine.
+void GrblMachineSession::hear_work_zero(const Point& zero) {
+  const auto before = std::exchange(heard_.work_zero, zero);
+  if (before && distance(*before, zero) > same_report) connection_.offsets_are_old = true;
+}
+
+void GrblMachineSession::ask_for_offsets() {
+  sender_.ask_for_offsets();
+  connection_.offsets_are_old = false;
+  connection_.asks_offsets = true;
+}
+
+// All that the board has told of itself.
+void GrblMachineSession::take_board() {
+  connection_.asks_offsets = false;
+  const bool are_other_offsets = board_.offsets != sender_.machine().offsets;
+  board_ = sender_.machine();
+  if (!are_other_offsets) return;
+  ++news_.version;
+  if (connection_.offsets_listener && !to_store_) connection_.offsets_listener();
+}
+
 // Sets the modes that the lines need, and reads the offsets.
 void GrblMachineSession::prepare() {
-  for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender_.add(line);
+  for (const char* line : {GrblCode::known_modes, "M5", "M9"}) sender_.add(line);
   sender_.ask_for_offsets();
-  prepared_ = true;
+  connection_.is_prepared = true;
 }
 
 void GrblMachineSession::go_online() {
   if (!sender_.ready()) return;
   locked_ = sender_.report()->state == "Alarm";
-  if (!prepared_ && !locked_) return prepare();
+  if (!connection_.is_prepared && !locked_) return prepare();
   if (!(locked_ ? sender_.all_answered() : rests())) return;
-  board_ = sender_.machine();
+  take_board();
   const auto place = sender_.place();
   if (!place) {
     return break_off(
@@ -205,7 +234,11 @@ void GrblMachineSession::poll_idle() {
   } else if (state_ == MachineState::door && report->state == "Idle") {
     move_to(MachineEvent::close_door);
   }
-  if (!to_store_ || lent_ || state_ != MachineState::idle || locked_ || !rests()) return;
+  if (lent_ || state_ != MachineState::idle) return;
+  if (connection_.asks_offsets && sender_.all_answered()) take_board();
+  if (locked_ || !rests()) return;
+  if (connection_.offsets_are_old) return ask_for_offsets();
+  if (!to_store_) return;
   const SavedParameters wanted = *std::exchange(to_store_, {});
   const SavedParameters present = offsets();
   bool is_changed = false;
@@ -223,7 +256,7 @@ void GrblMachineSession::poll_idle() {
     sender_.add(fmt::format("G21G10L2P{}{}", system, words));
     is_changed = true;
   }
-  if (is_changed) sender_.ask_for_offsets();
+  if (is_changed) ask_for_offsets();
 }
 
 void GrblMachineSession::poll_check() {
@@ -275,19 +308,22 @@ std::optional<Refusal> GrblMachineSession::lost_place() const {
   return Refusal{homes ? RefusalReason::unknown_so_home : RefusalReason::unknown_so_jog};
 }
 
-std::function<Status<std::string>(const PathItem&)> GrblMachineSession::path_judge() const {
-  return [code = std::make_shared<GrblCode>(GrblTarget::of(board_))](const PathItem& item) -> Status<std::string> {
-    const auto* action = std::get_if<Action>(&item);
-    const bool is_probe =
-        action != nullptr && (action->kind == Action::Kind::probe_begin || action->kind == Action::Kind::probe_end);
-    std::vector<std::string> lines;
-    return is_probe ? Status<std::string>(Unit{}) : code->write(item, lines);
-  };
+std::uint64_t GrblMachineSession::lines_of_program() const {
+  return work_ ? sender_.lines_sent() - std::min(sender_.lines_sent(), work_->progress.lines_before) : 0;
 }
 
 std::optional<MachineSession::ProgramResults> GrblMachineSession::program_results() const {
   if (!work_ || !work_->program) return {};
   return ProgramResults{.parameters = work_->program->saved_parameters(), .tools = work_->program->tools()};
+}
+
+// As the board reports it. From two positions it would be inexact, because a report is late by an unknown time.
+MmPerSecond GrblMachineSession::speed_now() const {
+  if (state_ == MachineState::alarm || state_ == MachineState::fault) return MmPerSecond(0);
+  const auto& report = sender_.report();
+  if (!report || !report->feed) return live_.speed();
+  constexpr double mm_per_inch = 25.4;
+  return MmPerSecond(*report->feed * (sender_.machine().in_inches() ? mm_per_inch : 1) / seconds_per_minute);
 }
 
 MachineStatus GrblMachineSession::status() const {
@@ -298,12 +334,12 @@ MachineStatus GrblMachineSession::status() const {
   status.position = position_;
   status.lost_place = lost_place().has_value();
   status.now_at = live_.at();
-  status.speed_now = live_.speed();
+  status.speed_now = speed_now();
   status.ahead = position_.place;
   status.inputs = inputs_of(heard_.pins);
   status.overrides = overrides_;
   status.stops = stops_;
-  status.trouble_sentence = trouble_;
+  status.trouble_sentence = trouble_.words;
   if (!busy() || work_->checker) return status;
   const Work& work = *work_;
   const auto& report = sender_.report();

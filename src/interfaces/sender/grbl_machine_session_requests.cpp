@@ -102,6 +102,7 @@ GrblMachineSession::Answer GrblMachineSession::at_once() {
 GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
   work_ = std::move(work);
   work_->ticket = ++tickets_.last;
+  trouble_.fault.reset();
   sender_.look_often(true);
   move_to(event);
   return work_->ticket;
@@ -118,7 +119,11 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
   work->start->options.start = work->start->from ? work->start->options.start : position_.place;
   work->program = std::make_unique<GrblProgramPath>(std::move(work->start->program), machine_, work->start->options,
                                                     *work->findings, std::move(work->start->known_probes));
-  if (work->watchers.operations) work->program->operations().watch(work->watchers.operations);
+  if (work->watchers.operations) {
+    work->program->operations().watch([&one = *work](const Operation& operation) {
+      if (!one.feed->leads_in()) one.watchers.operations(operation);
+    });
+  }
   prepare();
   return begin(MachineEvent::begin_run, std::move(work));
 }
@@ -248,6 +253,11 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
   const bool is_door_closed = state_ == MachineState::door && heard_.pins.find('D') == std::string::npos;
   if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);
   if (heard_.pins.find('D') != std::string::npos) return refused(RefusalReason::door_open);
+  if (heard_.pins.find('H') != std::string::npos) {
+    return Failure{Refusal{RefusalReason::board_cannot,
+                           {{"why", "the hold input of the board is still active: release it, then resume"},
+                            {"why.code", "ability.grbl.hold-input"}}}};
+  }
   if (busy()) work_->hold.asked = work_->hold.door = work_->hold.heard = false;
   sender_.resume();
   answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
@@ -262,10 +272,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Stop&) {
   if (work_->checker || work_->stage >= Work::Stage::brakes) return ticket;
   // A machine at rest needs no brake and no reset: only its outputs are switched off.
   if (work_->feed && work_->feed->asks() != GrblFeed::Asks::nothing && rests()) {
-    if (work_->feed->outputs() != OutputState()) {
-      sender_.add("M5");
-      sender_.add("M9");
-    }
+    switch_outputs_off();
     end_work(Outcome::stopped);
     return ticket;
   }
@@ -337,9 +344,36 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::OperatorDone&) {
   if (work_->program) work_->program->operator_messages().pass(line);
   if (work_->lines != nullptr) work_->lines->operator_messages().pass(line);
   work_->hold.told = false;
-  work_->feed->go_on();
+  const Work::Stop stop = *std::exchange(work_->hold.stop, {});
+  const bool is_zero_moved = stop.zero && heard_.work_zero && distance(*stop.zero, *heard_.work_zero) > same_position;
+  if (is_zero_moved) {
+    connection_.offsets_are_old = true;
+    end_at_other_zero(line);
+    return at_once();
+  }
+  work_->feed->go_on_from(*sender_.place(), stop.place);
+  sender_.follow(first_work_zero(board_), connection_.ahead);
   update_holds();
   return at_once();
+}
+
+// The program has been interpreted with the old one.
+void GrblMachineSession::end_at_other_zero(std::uint32_t line) {
+  trouble_.fault = GrblFault{.code = "grbl.zero-changed",
+                             .message =
+                                 "the work zero was changed at the machine in the meantime. Start the program "
+                                 "again, behind the line at which it has waited: it then uses the new zero",
+                             .first_line = line,
+                             .last_line = line};
+  switch_outputs_off();
+  const Sentence sentence{.code = trouble_.fault->code, .text = trouble_.fault->message};
+  end_work(Outcome::failed, ActivityFault{MachineFault::board_stopped, {{"trouble", sentence.text}}, sentence});
+}
+
+void GrblMachineSession::switch_outputs_off() {
+  if (!work_->feed || work_->feed->outputs() == OutputState()) return;
+  sender_.add("M5");
+  sender_.add("M9");
 }
 
 // The board knows no other place. That it stands where it is shown can be confirmed.
@@ -356,10 +390,11 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SetPosition& set)
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::ResetMachine&) {
+  if (busy() || state_ == MachineState::door) stop_by_reset();
   if (auto refusal = refuse(MachineEvent::reset)) return Failure{*refusal};
   trouble_ = {};
   if (port_.is_broken()) {
-    broken_since_ = now();
+    connection_.broken_since = now();
   } else {
     port_.send("\x18");
     connect_again(true);

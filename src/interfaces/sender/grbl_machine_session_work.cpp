@@ -16,6 +16,7 @@ namespace {
 // A jog line that the board had received before the cancel may begin after it.
 constexpr Seconds between_cancels{0.1};
 constexpr double shortest_piece = 0.02;  // mm
+constexpr double same_zero = 5e-3;       // mm
 constexpr int pieces_ahead = 4;
 // The hold of a board at rest is not reported by each firmware.
 constexpr Seconds longest_wait_for_hold{0.3};
@@ -43,7 +44,11 @@ void GrblMachineSession::poll_work() {
 // The modes are set, and the offsets are known: they are the zero of the lines.
 void GrblMachineSession::make_feed() {
   Work& work = *work_;
-  board_ = sender_.machine();
+  const bool is_zero_known = !connection_.asks_offsets;
+  const Point zero = first_work_zero(board_);
+  take_board();
+  const bool is_other_zero = is_zero_known && distance(zero, first_work_zero(board_)) > same_zero;
+  if (work.program && is_other_zero) return end_at_other_zero(0);
   StoredResults& results = work.program            ? work.program->answers()
                            : work.lines != nullptr ? work.lines->answers()
                                                    : work.probe_results;
@@ -52,7 +57,7 @@ void GrblMachineSession::make_feed() {
                                                    : *work.probe;
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
-  sender_.follow(first_work_zero(board_));
+  sender_.follow(first_work_zero(board_), connection_.ahead);
   work.progress.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
   work.feed->watch([&work, limits](const PathItem& item) {
@@ -94,6 +99,9 @@ void GrblMachineSession::answer_question() {
   switch (feed.asks()) {
     case GrblFeed::Asks::nothing: return;
     case GrblFeed::Asks::operator_stop:
+      // Others may move the machine now, e.g. with a pendant.
+      if (!work_->hold.stop) work_->hold.stop = Work::Stop{.place = position_.place, .zero = heard_.work_zero};
+      sender_.stop_following();
       if (!std::exchange(work_->hold.told, true)) {
         ++work_->stops;
         update_holds();
@@ -114,7 +122,7 @@ void GrblMachineSession::answer_question() {
                                  .contact = heard_.contact.at.value_or(position_.place),
                                  .rest = position_.place};
       feed.take_probe(outcome);
-      sender_.follow(first_work_zero(board_));
+      sender_.follow(first_work_zero(board_), connection_.ahead);
       if (work_->watchers.probe) work_->watchers.probe(outcome);
       return publish({.kind = MachineChange::Kind::probed, .probe = outcome});
     }
@@ -205,17 +213,21 @@ void GrblMachineSession::poll_jog() {
     work.stopped = true;
   }
   if (work.jog.cancelled_at) {
-    const bool jogs = !sender_.report() || sender_.report()->state == "Jog" || !sender_.all_answered();
-    if (jogs && now() - *work.jog.cancelled_at > between_cancels) {
+    const Seconds since = now() - *work.jog.cancelled_at;
+    const bool jogs = !sender_.report() || sender_.report()->state == "Jog";
+    if (jogs && since > between_cancels) {
       sender_.cancel_jog();
       work.jog.cancelled_at = now();
+      work.jog.freed = false;
     }
     // A report that came after the cancel.
-    if (!jogs && rests() && now() - *work.jog.cancelled_at > GrblSender::between_urgent_questions) {
-      position_.place = *sender_.place();
-      end_work(Outcome::stopped);
-    }
-    return;
+    if (jogs || since <= GrblSender::between_urgent_questions) return;
+    // If a cancel meets the end of a jog, Grbl 1.1 reports Idle but executes no line until a cycle start. To a machine
+    // at rest that means nothing.
+    if (sender_.report()->state == "Idle" && !std::exchange(work.jog.freed, true)) sender_.resume();
+    if (!rests()) return;
+    position_.place = *sender_.place();
+    return end_work(Outcome::stopped);
   }
   if (!(work.jog.length > Mm(0))) return end_work(Outcome::done);
   // One line at a time lies in the board's buffer: a cancel does not clear it there.
@@ -249,7 +261,7 @@ void GrblMachineSession::poll_home() {
     position_.is_lost = false;
   }
   // Homing may move the zero of the work: startup lines ($N0) run after it.
-  sender_.ask_for_offsets();
+  ask_for_offsets();
   end_work(Outcome::done);
 }
 
@@ -264,9 +276,9 @@ void GrblMachineSession::resync() {
 void GrblMachineSession::end_resync() {
   if (!sender_.ready()) return;
   const bool is_locked = sender_.report()->state == "Alarm";
-  if (!prepared_ && !is_locked) return prepare();
+  if (!connection_.is_prepared && !is_locked) return prepare();
   if (!(is_locked ? sender_.all_answered() : rests())) return;
-  board_ = sender_.machine();
+  take_board();
   position_.place = sender_.place().value_or(position_.place);
   live_.rest_at(position_.place);
   locked_ = is_locked;
@@ -313,6 +325,7 @@ void GrblMachineSession::check_fault_of_work(const GrblFault& fault) {
   if (work_->stage == Work::Stage::resyncs) return break_off(MachineEvent::lose_board, fault);
   if (work_->fault) return;
   work_->drops = false;
+  trouble_.fault = fault;
   if (work_->program && fault.code == "grbl.error") {
     work_->findings->add({.code = fault.code,
                           .file = {},
@@ -346,11 +359,30 @@ Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
   return {.code = fault.code, .text = fault.message + words_of_restart()};
 }
 
+// The board stops at once. A board that stood still keeps its place: if it did not, it is in an alarm after the reset.
+void GrblMachineSession::stop_by_reset() {
+  const auto& report = sender_.report();
+  const bool stands = rests() || (report && report->rests() && (!busy() || work_->hold.asked));
+  const KnownPosition before = position_;
+  const bool was_lost = recovery_.lacks_place;
+  const std::string words = "the machine was reset by hand";
+  break_off(
+      MachineEvent::stop_at_once,
+      {.code = "grbl.reset",
+       .message = words + (stands ? " while it stood still" : " in motion: it stopped at once, and lost its place"),
+       .first_line = 0,
+       .last_line = 0});
+  if (!stands) return;
+  position_ = before;
+  recovery_.lacks_place = was_lost;
+}
+
 // The board may have moved further, or lost steps.
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
   lent_ = false;
-  trouble_ = sentence;
+  connection_.asks_offsets = false;
+  trouble_ = {sentence, fault};
   if (state_ != MachineState::offline) {
     lose_place();
     recovery_.lacks_place = true;

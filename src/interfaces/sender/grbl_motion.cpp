@@ -62,7 +62,7 @@ void GrblMotion::add(const GrblPhase& phase) {
     const GrblBlock& block = phase.block;
     move_.emplace();
     move_->begin_on({.curve = Curve::line(block.start, block.end),
-                     .speed = block.feed,
+                     .speed = block.feed * block.scale,
                      .rapid = block.rapid,
                      .source = {.line = block.source}});
   }

@@ -18,6 +18,7 @@ void read_field(std::string_view name, std::string_view value, std::string_view 
   if (name == "WPos") report.work_place = read_grbl_place(value, axes);
   if (name == "MPos" || name == "WPos") report.values = 1 + static_cast<std::size_t>(std::ranges::count(value, ','));
   if (name == "WCO") report.work_offset = read_grbl_place(value, axes);
+  if (name == "F" || name == "FS") report.feed = read_grbl_number(value.substr(0, value.find(',')));
   if (name == "Pn") report.pins = value;
   if (name == "A") report.outputs = value;
   if (name == "SD") {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/utf8.hpp"
+
 namespace passo {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr Seconds start_of_an_arduino{2};
 constexpr Seconds quiet{0.3};  // after a line end, so that the answers to what was left are over
 constexpr Seconds longest_braking{10};
 constexpr Seconds longest_drop{3};
-// A machine that is followed has answered each question so far.
-constexpr Seconds longest_silence_in_motion{1.8};
-// A machine that is idle for so long, with lines that it has not answered, has not got them.
-constexpr Seconds longest_idle{2};
 // Another sender's reports may come all the time.
 constexpr Seconds longest_clearing{2};
 // A spindle is waited for in the state Idle, by grblHAL and FluidNC.
@@ -34,14 +32,28 @@ std::optional<int> read_code(std::string_view text) {
   return static_cast<int>(*number);
 }
 
+// What a board says reaches terminals and JSON: control characters, and bytes that are not UTF-8, become question
+// marks.
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const CodePoint first = first_code_point(text);
+    const std::size_t length = std::max<std::size_t>(first.length, 1);
+    const bool is_control = first.length == 0 || first.value < 0x20 || (first.value >= 0x7f && first.value < 0xa0);
+    if (is_control) {
+      shown += '?';
+    } else {
+      shown += text.substr(0, length);
+    }
+    text.remove_prefix(length);
+  }
+  return shown;
+}
+
 std::string_view without_blanks(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   while (text.ends_with(' ')) text.remove_suffix(1);
   return text;
-}
-
-std::string without_end(std::string_view text) {
-  return std::string(text.substr(0, text.find('\n')));
 }
 
 // The bytes that lead to a percentage, wherever the machine is now: 100 first, then steps of 10 and of 1.
@@ -197,77 +209,6 @@ GrblFault GrblSender::fault_between_lines(std::string code, std::string message)
           .last_line = window_.last_line()};
 }
 
-void GrblSender::check_silence() {
-  const Seconds since = std::max(last_.heard, last_.stage);
-  const Seconds most = follower_ && has_work() && stage_ == Stage::ready ? longest_silence_in_motion : longest_silence;
-  if (now_ - since < most + silence_of_oldest()) return;
-  const char* const hint =
-      greets() ? ": it is off, uses another baud rate (@BAUD), or is in an alarm that only a reset clears" : "";
-  end_with(fault_between_lines(
-      "grbl.no-answer", fmt::format("the machine has not answered for {:.0f} s{}", (now_ - since).value(), hint)));
-}
-
-// Bytes that a bad line has swallowed are never answered, and neither is a line by a machine that needs a reset.
-void GrblSender::check_lost_bytes() {
-  const bool is_locked = report()->state == "Alarm";
-  const UnacknowledgedLines::Line* const oldest = window_.oldest();
-  const bool waits = oldest != nullptr || (is_locked && has_work());
-  if ((report()->state != "Idle" && !is_locked) || !waits) {
-    last_.idle = now_;
-    return;
-  }
-  Seconds since = std::max({last_.idle, last_.told, last_.answered});
-  if (oldest != nullptr) since = std::max(since, oldest->sent);
-  // By its reports, not by the clock: a machine that is silent is not idle.
-  if (reports_.came() - since < longest_idle + silence_of_oldest()) return;
-  if (is_locked && greets()) {
-    return end_with(
-        {.code = "grbl.locked",
-         .message =
-             "the machine is in an alarm and does not answer: reset it with its button, or switch its power off and on",
-         .first_line = 0,
-         .last_line = 0});
-  }
-  if (is_locked) return end_with(fault_between_lines("grbl.alarm", "the machine is locked by an alarm"));
-  if (greets()) return end_with(fault_of_greeting());
-  fail({.code = "grbl.lost-bytes",
-        .message = fmt::format("the machine is idle, but has not answered \"{}\": bytes were lost on the serial link",
-                               without_end(oldest->text)),
-        .first_line = oldest->line,
-        .last_line = oldest->line});
-  stop();
-}
-
-// Whatever its state is: a machine that has something to do moves or answers.
-void GrblSender::check_standstill() {
-  const bool has_nothing_to_do =
-      window_.oldest() == nullptr && (report()->state == "Idle" || report()->state == "Alarm");
-  if (has_nothing_to_do || !words_of_grbl_wait(*report()).empty()) last_.progress = now_;
-  if (now_ - last_.progress < longest_standstill + silence_of_oldest()) return;
-  fail(fault_between_lines("grbl.no-answer",
-                           fmt::format("the machine is in state {}, but has neither moved nor answered for {:.0f} s",
-                                       report()->state, (now_ - last_.progress).value())));
-  stop();
-}
-
-GrblFault GrblSender::fault_of_greeting() const {
-  constexpr std::size_t most_shown = 60;
-  std::string words = "the machine does not report its state";
-  if (report()) words = "the machine does not identify itself";
-  if (report() && window_.oldest() != nullptr)
-    words += fmt::format(" (to \"{}\")", without_end(window_.oldest()->text));
-  const std::string& heard = last_line_heard_.empty() ? came_ : last_line_heard_;
-  const bool is_readable = std::ranges::all_of(heard, [](char letter) { return letter >= ' ' && letter <= '~'; });
-  if (!is_readable) {
-    words += ", and its answer is unreadable: it may use another baud rate (@BAUD)";
-  } else if (!heard.empty()) {
-    words += fmt::format(" as Grbl 1.1 does. It sent \"{}\"", heard.substr(0, most_shown));
-  } else {
-    words += " as Grbl 1.1 does";
-  }
-  return {.code = "grbl.no-answer", .message = std::move(words), .first_line = 0, .last_line = 0};
-}
-
 void GrblSender::ask_for_status() {
   const Seconds pause = stops() || looks_often_ ? between_urgent_questions : between_questions;
   if (last_.asked >= Seconds(0) && now_ - last_.asked < pause) return;
@@ -373,11 +314,12 @@ void GrblSender::receive(std::string_view bytes, Seconds now) {
 void GrblSender::hear(std::string_view line) {
   constexpr std::string_view error = "error:";
   constexpr std::string_view alarm_head = "ALARM:";
-  const std::string_view with_blanks = line;
-  line = without_blanks(line);
+  const std::string_view unread = line;
+  const std::string with_blanks = printable(line);
+  line = without_blanks(with_blanks);
   if (const auto report = read_grbl_report(line, machine_.axes)) return hear_report(*report);
   last_.told = now_;
-  last_line_heard_ = line;
+  last_line_heard_ = without_blanks(unread);
   if (is_report_of_old_grbl(line) || line.starts_with("Grbl 0.")) {
     return end_with({.code = "grbl.too-old",
                      .message = "the machine has a Grbl older than 1.1, which Passo does not support: flash Grbl 1.1",
@@ -447,7 +389,8 @@ void GrblSender::answer(std::optional<std::string_view> error) {
   // In some alarms it answers few questions. They are asked again.
   if (stage_ == Stage::asking && report()->state == "Alarm") return;
   fail({.code = "grbl.error",
-        .message = fmt::format("the machine rejects \"{}\": {}", without_end(line.text), words_of_error(*error)),
+        .message = fmt::format("the machine rejects \"{}\": {}", UnacknowledgedLines::without_end(line.text),
+                               words_of_error(*error)),
         .first_line = line.line,
         .last_line = line.line});
   // What follows is in the machine already. It must not go on without the refused line.

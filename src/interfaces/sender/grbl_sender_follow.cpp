@@ -22,9 +22,8 @@ void GrblSender::follow(const Point& zero, Seconds ahead) {
   if (!start || limits.steps_per_mm == PerAxis<double>()) return;
   follower_.emplace(limits, *start, zero, ahead);
   follower_->set_override(override_.feed);
-  marks_.expected.clear();
-  marks_.lines.clear();
-  marks_.heard = false;
+  marks_.marked.clear();
+  marks_.modes.reset();
   marks_.since = 0;
   marks_.sure_line = 0;
   marks_.sent = now_;
@@ -35,8 +34,7 @@ std::string GrblSender::send_lines(Seconds now) {
   for (;;) {
     if (wants_mark() && window_.send_mark(std::string(mark), now, machine_.bytes)) {
       bytes += mark;
-      marks_.expected.push_back(follower_->modes());
-      marks_.lines.push_back(window_.last_line());
+      marks_.marked.push_back({.modes = follower_->modes(), .line = window_.last_line()});
       marks_.sent = now;
       marks_.since = 0;
     }
@@ -72,25 +70,28 @@ void GrblSender::fail_and_stop(GrblFollower::Trouble trouble) {
 void GrblSender::hear_modes(std::string_view modes) {
   if (stage_ != Stage::ready || !has_work()) return;
   const UnacknowledgedLines::Line* const oldest = window_.oldest();
-  if (oldest == nullptr || !oldest->marks || marks_.heard) {
-    if (oldest != nullptr && oldest->text == mark) return;  // asked by somebody else
-    return fail_and_stop("grbl.lost-lines",
-                         "the machine has answered fewer lines than it was sent: a line was lost or broken on the way");
+  if (oldest != nullptr && oldest->marks) {
+    marks_.modes = modes;  // the last ones before the answer are those of the mark
+    return;
   }
-  marks_.heard = true;
-  if (auto trouble = follower_->check_modes(modes, marks_.expected.front(), machine_.in_inches())) {
-    fail_and_stop(std::move(*trouble));
-  }
+  const bool is_asked_by_others = oldest != nullptr && oldest->text == mark;
+  if (is_asked_by_others || machine_.tells_modes_unasked()) return;
+  fail_and_stop("grbl.lost-lines",
+                "the machine has answered fewer lines than it was sent: a line was lost or broken on the way");
 }
 
 void GrblSender::answer_mark() {
-  const bool heard = std::exchange(marks_.heard, false);
-  if (!marks_.expected.empty()) marks_.expected.pop_front();
-  if (!marks_.lines.empty()) {
-    if (heard) marks_.sure_line = marks_.lines.front();
-    marks_.lines.pop_front();
+  const std::optional<std::string> modes = std::exchange(marks_.modes, {});
+  if (marks_.marked.empty()) return;
+  const Marks::Mark marked = std::move(marks_.marked.front());
+  marks_.marked.pop_front();
+  if (!follower_ || stage_ != Stage::ready) return;
+  if (modes) {
+    auto trouble = follower_->check_modes(*modes, marked.modes, machine_.in_inches());
+    if (trouble) return fail_and_stop(std::move(*trouble));
+    marks_.sure_line = marked.line;
+    return;
   }
-  if (heard || stage_ != Stage::ready) return;
   fail_and_stop("grbl.lost-lines",
                 "the answers of the machine do not fit the lines that it was sent: a line was doubled or broken on the "
                 "way");

@@ -13,7 +13,7 @@ GrblTarget GrblTarget::of(const GrblMachine& machine) {
   if (!axes.empty()) target.axes = axes;
   target.feed_way = machine.row().feed_way;
   target.has_mist = machine.has_mist();
-  target.measures_motors = machine.row().measures_motors && machine.options.find('C') != std::string::npos;
+  target.measures_motors = machine.measures_motors();
   return target;
 }
 

@@ -33,12 +33,18 @@ struct GrblMachineSession::Work {
     // Nominal time from the beginning of the program.
     Seconds time() const { return skipped + executed.time(dwell_left); }
   };
+  // Where the machine stood, and its work zero, when it came to the stop at which the program waits.
+  struct Stop {
+    Point place;
+    std::optional<Point> zero;
+  };
   struct Hold {
     bool asked = false;  // by a request
     bool door = false;   // the same, as for an open door
     bool heard = false;  // the board has reported it
     bool told = false;   // that the machine has come to rest
     Seconds at{0};
+    std::optional<Stop> stop = {};
   };
   struct Jog {
     std::unique_ptr<JogLine> line;  // null: this is no jog
@@ -50,6 +56,7 @@ struct GrblMachineSession::Work {
     Seconds lease{0};
     Seconds lease_end{0};
     std::optional<Seconds> cancelled_at;
+    bool freed = false;  // a cycle start has followed the last cancel
   };
 
   // Whether this is a program, which can be held and resumed.

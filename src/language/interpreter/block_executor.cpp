@@ -59,7 +59,7 @@ const std::array<BlockExecutor::GroupFunction, modal_group_count> BlockExecutor:
   does(spindle, own<&BlockExecutor::run_spindle_group>);
   does(coolant, of<&BlockExecutor::modes_, &ModeCodes::switch_coolant>);
   does(overrides, of<&BlockExecutor::modes_, &ModeCodes::switch_overrides>);
-  does(user, of<&BlockExecutor::input_output_, &InputOutputCodes::run_user_code>);
+  does(user, own<&BlockExecutor::run_user_code>);
   does(cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>);
   does(tool_length, of<&BlockExecutor::tools_, &ToolCodes::set_length>);
   does(work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>);
@@ -95,6 +95,7 @@ void BlockExecutor::start(const InterpreterOptions& options) {
     block_.options.spindles = static_cast<int>(options.settings->number("TRAJ", "SPINDLES").value_or(options.spindles));
   }
   state_.on_machine = options.on_machine;
+  state_.measured.by_plan = options.tool_change != nullptr;
   state_.spindle_count = std::clamp(block_.options.spindles, 1, static_cast<int>(most_spindles));
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
   state_.tools = options.tools;
@@ -115,6 +116,7 @@ void BlockExecutor::roll_back() {
   block_.missing_feed_told = missing_feed_was_told_;
   drilling_.roll_back();
   cycle_ = nullptr;
+  static_cast<void>(tools_.take_begun());
   reopen();  // the program had not ended when its last line came
 }
 
@@ -156,45 +158,10 @@ void BlockExecutor::execute(const Block& block) {
   if (block.words.empty() || !execute_words()) return;
   // grbl looks for words without use at the very end. Of a line with an error nothing is executed all the same.
   if (speaks_grbl() && !check_words_used()) return;
+  const bool ends = words_.has_code(stopping, code(2)) || words_.has_code(stopping, code(30));
+  if (ends && cycle_ == nullptr && tools_.begin_last_check()) cycle_ = &tools_;
   go_on();
   subprograms_.call_modal_macro();
-}
-
-// A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
-void BlockExecutor::go_on() {
-  if (lathe_.wants_contour()) return;
-  if (cycle_ != nullptr) {
-    Cycle& cycle = cycle_->cycle();
-    Operation operation;
-    bool more = true;
-    operation.word = block_.word;
-    operation.axis_words = &block_.axis_words;
-    const bool compensated = cutter_.active();
-    while (operations_.has_room() && (more = cycle.next(operation))) {
-      if (!compensated) {
-        operations_.push(operation);
-      } else if (!cutter_codes_.follow(operation.what)) {
-        cycle_ = nullptr;
-        cutter_.skip_to(state_.position = cycle.position());
-        return;
-      }
-    }
-    if (!compensated || !more) state_.position = cycle.position();
-    if (more) return;
-    if (compensated) state_.cutter_shift = cutter_.shift(state_.position);
-    if (!std::exchange(cycle_, nullptr)->finish()) return;
-  }
-  if (words_.code(stopping) != nullptr) stops_.run(words_.code(stopping)->number);
-}
-
-// A line of a lathe cycle's contour.
-void BlockExecutor::add_to_contour(const Block& block) {
-  state_.line = block.line;
-  lathe_.add_to_contour(words_.read(block, parameters_, reporter_) && (block.assignments.empty() || assign(block)));
-}
-
-void BlockExecutor::end_contour() {
-  if (lathe_.end_contour()) cycle_ = &lathe_;
 }
 
 // The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
@@ -209,9 +176,26 @@ bool BlockExecutor::execute_words() {
   if (speaks_grbl() && state_.modal.inverse_time()) state_.feed = words_.has('F') ? words_['F'] : 0;
   if (words_.has('S') && !set_spindle_speed()) return false;
   if (words_.has('T') && !tools_.select()) return false;
-  if (!only_moves && !execute_after_words()) return false;
+  if (!only_moves) {
+    for (const ModalGroup group : {macro, input_output, tool_change}) {
+      if (!run(group)) return false;
+    }
+    if (tools_.has_begun()) return begin(tools_, true);
+    if (!execute_after_words()) return false;
+  }
   block_.word = all;
+  return execute_motion();
+}
+
+bool BlockExecutor::execute_motion() {
   return block_.motion == nullptr || move(block_.motion->number);
+}
+
+// The words of an M6 with a cycle, once the tool is changed.
+bool BlockExecutor::execute_after_change() {
+  if (!execute_after_words()) return false;
+  block_.word = place_of_words(reporter_.block());
+  return execute_motion();
 }
 
 bool BlockExecutor::execute_before_words() {
@@ -219,7 +203,7 @@ bool BlockExecutor::execute_before_words() {
 }
 
 bool BlockExecutor::execute_after_words() {
-  for (const ModalGroup group : {macro, input_output, tool_change, spindle, coolant, overrides, user}) {
+  for (const ModalGroup group : {spindle, coolant, overrides, user}) {
     if (!run(group)) return false;
   }
   if (!stops_.dwell()) return false;
@@ -460,6 +444,10 @@ bool BlockExecutor::moves_straight() const {
   if (block_.motion == nullptr && !speaks_grbl()) return false;
   const CodeNumber number = block_.motion != nullptr ? block_.motion->number : state_.modal[motion];
   return number == code(0) || number == code(1);
+}
+
+bool BlockExecutor::run_user_code(CodeNumber number) {
+  return subprograms_.has_user_code(number) ? subprograms_.call_user_code(number) : input_output_.run_user_code(number);
 }
 
 bool BlockExecutor::run_non_modal(CodeNumber number) {

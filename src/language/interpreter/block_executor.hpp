@@ -105,12 +105,15 @@ class BlockExecutor : private CodeFamily {
   bool execute_words();
   bool execute_before_words();
   bool execute_after_words();
+  bool execute_after_change();
+  bool execute_motion();
   bool run(ModalGroup group);
 
   // Words and groups, in the order in which they are executed.
   bool set_spindle_speed();
   bool run_spindle_group(CodeNumber code);
   bool run_non_modal(CodeNumber code);
+  bool run_user_code(CodeNumber code);
   bool moves_straight() const;
   bool move(CodeNumber code);
   bool move_by(CodeNumber code);
@@ -118,6 +121,7 @@ class BlockExecutor : private CodeFamily {
 
   // Saving and restoring the modal state.
   bool keep_modal_state(CodeNumber code);
+  void restore_after_sub(const OperationSource& source);
   void restore(const ModalSnapshot& saved);
   void restore_spindles(const ModalSnapshot& saved);
   void restore_switches(const ModalSnapshot& saved);

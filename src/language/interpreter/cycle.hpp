@@ -11,6 +11,7 @@
 
 #include "passo/base/source.hpp"
 #include "passo/interpreter/operation.hpp"
+#include "passo/interpreter/probe_outcome.hpp"
 
 namespace passo {
 
@@ -18,7 +19,7 @@ class Cycle : public Source<Operation> {
  public:
   [[nodiscard]] bool next(Operation& operation) final {
     while (given_ == count_) {
-      if (done_) return false;
+      if (done_ || awaits()) return false;
       given_ = count_ = 0;
       done_ = !step();
     }
@@ -29,6 +30,10 @@ class Cycle : public Source<Operation> {
   }
   // Returns the tool position after the step of the last returned operation, in work coordinates.
   const Point& position() const { return position_; }
+  // Whether the next step depends on the outcome of a probe move, so that next() returns false until apply().
+  // `outcome`: null: it is unknown, as in a check.
+  virtual bool awaits() const { return false; }
+  virtual void apply(const ProbeOutcome* /*outcome*/) {}
 
  protected:
   static constexpr std::size_t longest_step = 20;

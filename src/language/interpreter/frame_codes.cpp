@@ -42,6 +42,15 @@ void FrameCodes::use_tool_offset(const Point& offset) {
   change_frame(operation::SetToolOffset{offset});
 }
 
+void FrameCodes::shift_work_z(double way) {
+  for (int system = 1; system <= work_systems; ++system) {
+    Point offset = parameters_.point(work_offset_parameter(system));
+    offset[Axis::z] += way;
+    parameters_.set_point(work_offset_parameter(system), offset);
+  }
+  activate_system(system_of(state_.modal[work_system]), true);
+}
+
 void FrameCodes::restore_tool_offset(const ModalSnapshot& saved) {
   if (state_.modal[tool_length] == saved.modal[tool_length] && state_.frame.tool_offset() == saved.tool_offset) return;
   state_.modal.set(tool_length, saved.modal[tool_length]);

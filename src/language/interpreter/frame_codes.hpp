@@ -21,6 +21,8 @@ class FrameCodes : private CodeFamily {
   bool set_g92(CodeNumber code);
   bool set_scaling();
   void use_tool_offset(const Point& offset);
+  // Moves the zero of all work coordinate systems along Z, e.g. to the tip of another tool.
+  void shift_work_z(double way);
   void restore_tool_offset(const ModalSnapshot& saved);
 
  private:

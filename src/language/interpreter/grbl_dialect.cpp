@@ -193,7 +193,8 @@ class GrblCheck {
     }
     const bool readable = hundredths >= 0 && hundredths < 100 && std::fmod(hundredths, 10) == 0;
     const CodeNumber number = readable ? code(whole, static_cast<int>(hundredths / 10)) : CodeNumber{-1};
-    if (!is_known(word.letter, number)) {
+    const bool changes_tool = state_.measured.by_plan && word.letter == 'M' && number == code(6);
+    if (!changes_tool && !is_known(word.letter, number)) {
       // G54.1 is a G54 with too many digits, and G64 is an unknown code.
       const bool whole_known = is_known(word.letter, code(whole));
       const bool digits_too_many = hundredths != 0 && (word.letter == 'M' || (whole_known && !has_fractions(whole)));

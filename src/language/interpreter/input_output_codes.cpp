@@ -75,9 +75,10 @@ bool InputOutputCodes::read_input() {
 
 bool InputOutputCodes::run_user_code(CodeNumber number) {
   if (!block_.options.user_codes) {
-    return fail("gcode.user-code", words_.span(user),
-                fmt::format("{} is a user code, which is not allowed", spelling('M', number)),
-                "--user-codes, if the program runs correctly without this code");
+    return fail(
+        "gcode.user-code", words_.span(user),
+        fmt::format("{} is a user code, which is not allowed", spelling('M', number)),
+        "--user-codes, if the program runs correctly without this code, or a subroutine for it in a folder of --subs");
   }
   emit(operation::UserCode{number / 10, words_.has('P') ? words_['P'] : -1, words_.has('Q') ? words_['Q'] : -1});
   return true;

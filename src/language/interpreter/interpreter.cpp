@@ -9,6 +9,8 @@
 #include "program_flow.hpp"
 #include "rules.hpp"
 
+#include "passo/interpreter/tool_change_plan.hpp"
+
 namespace passo {
 namespace {
 
@@ -123,7 +125,8 @@ class Interpreter::Implementation {
                       .sub_folders = options.sub_folders,
                       .dialect = options.dialect,
                       .open_ended = options.open_ended,
-                      .more_grbl_axes = options.more_grbl_axes.c_str()},
+                      .more_grbl_axes = options.more_grbl_axes.c_str(),
+                      .change_macro = options.tool_change != nullptr ? options.tool_change->macro : std::string()},
             .bounds = {.idle_passes = options.idle_passes,
                        .repeated_steps = options.repeated_steps,
                        .main_passes = options.main_passes},

@@ -20,8 +20,8 @@ ModalSnapshot snapshot_of(const ProgramState& state) {
           .mist = state.mist,
           .flood = state.flood,
           .feed_override = state.feed_override,
-          .adaptive_feed = state.adaptive_feed,
-          .feed_hold = state.feed_hold};
+          .adaptive_feed = state.feed_permissions.adaptive,
+          .feed_hold = state.feed_permissions.hold};
 }
 
 // M70 saves, M71 forgets, M72 restores. M73 saves, and the end of the sub then restores.
@@ -44,6 +44,15 @@ bool BlockExecutor::keep_modal_state(CodeNumber number) {
 }
 
 void BlockExecutor::leave_sub(const OperationSource& source) {
+  restore_after_sub(source);
+  if (block_.ended || !tools_.changes_by_macro(state_.call_depth)) return;
+  block_.source = source;
+  block_.word = {};
+  tools_.go_on_after_macro();
+  cycle_ = &tools_;
+}
+
+void BlockExecutor::restore_after_sub(const OperationSource& source) {
   const auto left = static_cast<std::size_t>(state_.call_depth) + 1;
   if (left >= snapshots_.size() || !std::exchange(snapshots_[left].valid, false)) return;
   if (!snapshots_[left].restore_at_return) return;
@@ -96,10 +105,10 @@ void BlockExecutor::restore_switches(const ModalSnapshot& saved) {
   if (std::exchange(state_.feed_override, saved.feed_override) != saved.feed_override) {
     emit(operation::SetFeedOverride{saved.feed_override});
   }
-  if (std::exchange(state_.adaptive_feed, saved.adaptive_feed) != saved.adaptive_feed) {
+  if (std::exchange(state_.feed_permissions.adaptive, saved.adaptive_feed) != saved.adaptive_feed) {
     emit(operation::SetAdaptiveFeed{saved.adaptive_feed});
   }
-  if (std::exchange(state_.feed_hold, saved.feed_hold) != saved.feed_hold)
+  if (std::exchange(state_.feed_permissions.hold, saved.feed_hold) != saved.feed_hold)
     emit(operation::SetFeedHold{saved.feed_hold});
 }
 

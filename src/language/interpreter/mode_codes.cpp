@@ -115,8 +115,8 @@ bool ModeCodes::switch_overrides(CodeNumber number) {
     case code(51):
       if (!spindle_word(SpindleChoice::one, range)) return false;
       break;
-    case code(52): emit(operation::SetAdaptiveFeed{state_.adaptive_feed = on}); return true;
-    case code(53): emit(operation::SetFeedHold{state_.feed_hold = on}); return true;
+    case code(52): emit(operation::SetAdaptiveFeed{state_.feed_permissions.adaptive = on}); return true;
+    case code(53): emit(operation::SetFeedHold{state_.feed_permissions.hold = on}); return true;
     default: emit(operation::SetFeedOverride{state_.feed_override = on});
   }
   for (std::uint8_t i = range.first; i < range.end; ++i) {

@@ -28,6 +28,10 @@ template <bool State::*flag>
 double flag_of(const State& state) {
   return truth(state.*flag);
 }
+template <bool FeedPermissions::*flag>
+double feed_flag_of(const State& state) {
+  return truth(state.feed_permissions.*flag);
+}
 double current_feed(const State& state) {
   return state.feed / state.length_unit();
 }
@@ -97,8 +101,8 @@ constexpr PredefinedParameter others[] = {
     {"_flood", flag_of<&State::flood>},
     {"_feed_override", flag_of<&State::feed_override>},
     {"_speed_override", speed_override},
-    {"_adaptive_feed", flag_of<&State::adaptive_feed>},
-    {"_feed_hold", flag_of<&State::feed_hold>},
+    {"_adaptive_feed", feed_flag_of<&FeedPermissions::adaptive>},
+    {"_feed_hold", feed_flag_of<&FeedPermissions::hold>},
     {"_current_tool", current_tool},
     {"_selected_tool", selected_tool},
     {"_current_pocket", current_pocket},

@@ -181,6 +181,7 @@ class ProgramFlow final : public CallStack {
   void leave_frame();
   void report_unknown_sub(Symbol label, Span span, bool numbered);
   void call_program(const SubprogramJump& jump);
+  void call_user_code(const SubprogramJump& jump);
   void enter_program(const Frame& frame, File* file);
   void run_again();
   Followed end_program(const SubprogramJump& jump);

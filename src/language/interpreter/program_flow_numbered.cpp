@@ -13,6 +13,10 @@
 namespace passo {
 
 ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
+  if (jump.kind == SubprogramJump::Kind::user_code) {
+    call_user_code(jump);
+    return Followed::goes_on;
+  }
   if (!check_numbered_programs(jump.span, jump.code())) {
     return jump.kind == SubprogramJump::Kind::leave && frames_.empty() ? Followed::main_ends : Followed::goes_on;
   }
@@ -44,6 +48,19 @@ void ProgramFlow::call_program(const SubprogramJump& jump) {
   frame.modal_macro = jump.kind == Kind::modal_macro;
   if (jump.is_macro()) frame.arguments = jump.arguments;
   enter_program(frame, file);
+}
+
+// A user code calls a subroutine with O-words, in the file of its name.
+void ProgramFlow::call_user_code(const SubprogramJump& jump) {
+  const Symbol label = symbols_.intern(fmt::format("m{}", jump.program));
+  if (!may_call(jump.span)) return;
+  Frame frame{&lines_.file(), lines_.after(), label, {}, open_.size(), reporter_.errors()};
+  File* const file = lines_.find_sub(label);
+  if (file == nullptr) return report_unknown_sub(label, jump.span, false);
+  frame.place = file->subs.at(label.id);
+  if (!check_style(frame.place, label, jump.span, {})) return;
+  parameters_.enter_sub(jump.arguments);
+  enter(frame, file);
 }
 
 void ProgramFlow::enter_program(const Frame& frame, File* file) {

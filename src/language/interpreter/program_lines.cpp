@@ -260,12 +260,23 @@ bool ProgramLines::find_in(File& file, Symbol label) {
 
 // The first file of that name counts, as in LinuxCNC.
 ProgramLines::File* ProgramLines::open_named(Symbol label) {
+  if (!options_.change_macro.empty() && symbols_.name(label) == fmt::format("{}", change_macro_number)) {
+    return open_change_macro(label);
+  }
   const std::string name = std::string(symbols_.name(label)) + ".ngc";
   File* file = open_in(folder_of_file(files_.front()->name), name);
   for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
     file = open_in(options_.sub_folders[i], name);
   }
   return file != nullptr && find_in(*file, label) ? file : nullptr;
+}
+
+// The modes of the caller are restored at the end (M73).
+ProgramLines::File* ProgramLines::open_change_macro(Symbol label) {
+  const std::string text = fmt::format("O{}\nM73\n{}M99\n", change_macro_number, options_.change_macro);
+  files_.push_back(std::make_unique<File>(ProgramReader::from_text("[tool_change] of the machine file", text),
+                                          files_.size(), symbols_));
+  return find_in(*files_.back(), label) ? files_.back().get() : nullptr;
 }
 
 ProgramLines::File* ProgramLines::open_in(const std::string& folder, const std::string& name) {

@@ -28,6 +28,9 @@
 
 namespace passo {
 
+// The number of the program that M6 calls, with the lines of the machine file. Nobody numbers a program so.
+inline constexpr std::int32_t change_macro_number = 999'999'006;
+
 class ProgramLines {
  public:
   struct Options {
@@ -36,6 +39,7 @@ class ProgramLines {
     Dialect dialect = Dialect::linuxcnc;
     bool open_ended = false;        // the lines arrive one by one, with push_line()
     LetterSet more_grbl_axes = {};  // axes that the Grbl dialect accepts in addition to X, Y and Z
+    std::string change_macro = {};  // the lines that M6 calls as the program change_macro_number; empty: none
   };
   struct SubPlace {
     ReaderPosition at;      // the line with its O-word
@@ -118,6 +122,7 @@ class ProgramLines {
   bool label_of_skipped(const Control& control, Symbol& label) const;
   bool find_in(File& file, Symbol label);
   File* open_named(Symbol label);
+  File* open_change_macro(Symbol label);
   File* open_in(const std::string& folder, const std::string& name);
 
   Options options_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "code_table.hpp"
 
@@ -69,6 +70,23 @@ struct PathTolerance {
   Mm merge{0};
 };
 
+// What is known about the lengths of tools in this program, on a machine that measures them (ToolChangePlan). `contact`
+// is the machine Z at which a tool touched.
+struct MeasuredTools {
+  std::int32_t tool = 0;                 // the tool in the spindle, if it was measured; 0: it was not
+  double contact = 0;                    // of that tool
+  std::optional<double> reference = {};  // contact of the first tool
+  double work_shift = 0;                 // by which the work's Z is moved now
+  bool any_change = false;               // the program has named its tool before
+  bool by_plan = false;                  // M6 moves and measures
+};
+
+// Whether M50 to M53 let the machine's factor and the hold button act on the feed.
+struct FeedPermissions {
+  bool adaptive = false;
+  bool hold = true;
+};
+
 struct ProgramState {
   ModalState modal;
   Frame frame;
@@ -81,15 +99,15 @@ struct ProgramState {
   bool mist = false;
   bool flood = false;
   bool feed_override = true;
-  bool adaptive_feed = false;
-  bool feed_hold = true;
+  FeedPermissions feed_permissions;
   PathTolerance tolerance;
   bool on_machine = false;  // false: a preview
   ToolTable tools;
   Tool spindle_tool;                // the data of the tool in the spindle, whose number is `tool`
   std::int32_t tool = 0;            // the tool in the spindle; 0: none
   std::int32_t selected_tool = -1;  // the tool of the last T; -1: no T yet
-  std::uint32_t line = 0;           // the line of the block being executed
+  MeasuredTools measured;
+  std::uint32_t line = 0;  // the line of the block being executed
   int call_depth = 0;
 
   // Returns the millimetres per length unit of the program.

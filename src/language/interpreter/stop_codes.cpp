@@ -1,5 +1,7 @@
 #include "stop_codes.hpp"
 
+#include <utility>
+
 #include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
@@ -30,6 +32,7 @@ void StopCodes::end_program(bool pallet) {
   const auto is_on = [&](std::string_view name) {
     return block_.options.settings && block_.options.settings->is_on("RS274NGC", name);
   };
+  if (state_.measured.work_shift != 0) frame_.shift_work_z(-std::exchange(state_.measured.work_shift, 0));
   if (!is_on("DISABLE_AUTO_G54")) frame_.activate_system(1, false);
   if (is_on("DISABLE_G92_PERSISTENCE")) (void)frame_.set_g92(code(92, 1));
   if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});

@@ -2,6 +2,11 @@
 // … #26. The table is Fanuc's (argument specification I).
 #include "subprogram_codes.hpp"
 
+#include <algorithm>
+#include <string>
+
+#include "file_place.hpp"
+#include "program_lines.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -53,6 +58,14 @@ bool SubprogramCodes::program_words(SubprogramJump& found) {
          (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
 }
 
+void SubprogramCodes::call_change_macro(Span span) {
+  SubprogramJump call;
+  call.kind = Kind::macro;
+  call.span = span;
+  call.program = change_macro_number;
+  jump_ = call;
+}
+
 void SubprogramCodes::call_macro(bool readable) {
   SubprogramJump call;
   call.kind = words_.has_code(macro, code(65)) ? Kind::macro : Kind::find_macro;
@@ -92,6 +105,31 @@ bool SubprogramCodes::check_macro_words(const SubprogramJump& call) {
 
 bool SubprogramCodes::end_macro_calls(CodeNumber /*number*/) {
   modal_macro_.reset();
+  return true;
+}
+
+bool SubprogramCodes::has_user_code(CodeNumber number) const {
+  const std::string name = fmt::format("m{}.ngc", number / 10);
+  return std::ranges::any_of(block_.options.sub_folders,
+                             [&](const std::string& folder) { return is_regular_file(file_in_folder(folder, name)); });
+}
+
+// P and Q are #1 and #2 of the subroutine, -1 if the block does not have them. The block contains nothing else, because
+// the subroutine runs after the block.
+bool SubprogramCodes::call_user_code(CodeNumber number) {
+  for (const Word& word : reporter_.block().words) {
+    if (word.span == words_.span(user) || word.letter == 'P' || word.letter == 'Q') continue;
+    return fail("gcode.unused-word", word.span,
+                fmt::format("{} beside {}, which calls a subroutine", word.letter, spelling('M', number)),
+                fmt::format("only {}, P and Q in the block", spelling('M', number)));
+  }
+  SubprogramJump call;
+  call.kind = Kind::user_code;
+  call.span = words_.span(user);
+  call.program = number / 10;
+  call.arguments[0] = words_.has('P') ? words_['P'] : -1;
+  call.arguments[1] = words_.has('Q') ? words_['Q'] : -1;
+  jump_ = call;
   return true;
 }
 

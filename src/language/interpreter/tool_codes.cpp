@@ -39,6 +39,8 @@ bool ToolCodes::change(CodeNumber number) {
       return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool number");
     if (!whole_word('Q', 0, highest_tool, tool) || !find_tool(tool, words_.span('Q'), known)) return false;
     load_tool(tool);
+    state_.measured.tool = 0;
+    state_.measured.any_change = true;
     emit(operation::SetToolNumber{tool});
     return true;
   }
@@ -46,11 +48,115 @@ bool ToolCodes::change(CodeNumber number) {
     return fail("gcode.missing-tool", words_.span(tool_change), interpreter_says::no_tool_selected,
                 interpreter_says::tool_before);
   }
+  if (block_.options.tool_change != nullptr && !before_macro_) {  // inside the macro, M6 asks and waits
+    if (!check_uncompensated("M6") || !check_alone()) return false;
+    begin_cycle(state_.selected_tool, false);
+    begun_ = true;
+    return true;
+  }
   load_tool(state_.selected_tool);
   emit(operation::StartToolChange{});
   spindles_.stop();
   emit(operation::ChangeTool{state_.tool});
   return true;
+}
+
+void ToolCodes::begin_cycle(std::int32_t to, bool only_checks) {
+  ToolChangeCycle::Start start{.machine = state_.machine_position(),
+                               .frame = state_.frame,
+                               .known = state_.measured,
+                               .after_macro = before_macro_,
+                               .from = state_.tool,
+                               .to = to,
+                               .only_checks = only_checks,
+                               .spindle_turns = state_.spindles[0].direction != SpindleDirection::off,
+                               .mist = state_.mist,
+                               .flood = state_.flood};
+  const auto remark = state_.tools.remarks.find(to);
+  if (remark != state_.tools.remarks.end()) start.remark = remark->second;
+  next_tool_ = to;
+  only_checks_ = only_checks;
+  spindles_.stop();
+  cycle_.emplace(*block_.options.tool_change, start, block_.source);
+}
+
+// Other words would be executed before the subroutine has changed the tool.
+bool ToolCodes::check_alone() {
+  if (block_.options.tool_change->way != ToolChangeWay::macro) return true;
+  if (speaks_grbl()) {
+    return fail("gcode.change-macro", words_.span(tool_change), "the tool change has lines of another dialect",
+                "a program in LinuxCNC's dialect");
+  }
+  const bool others = (words_.groups() & ~bit_of(tool_change)) != 0 || block_.motion != nullptr;
+  if (!others) return true;
+  return fail("gcode.change-macro", words_.span(tool_change), "M6 calls a subroutine, and has other codes beside it",
+              "M6 and T in a block of their own");
+}
+
+bool ToolCodes::begin_last_check() {
+  const ToolChangePlan* const plan = block_.options.tool_change.get();
+  const MeasuredTools& known = state_.measured;
+  if (plan == nullptr || !plan->wear || known.tool == 0 || known.tool != state_.tool || cutter_.active()) return false;
+  begin_cycle(state_.tool, true);
+  return true;
+}
+
+// The cycle has moved the tool to where it ends; the length comes into force there, and moves nothing.
+bool ToolCodes::finish() {
+  const ToolChangeCycle& done = *cycle_;
+  if (done.calls_macro()) {
+    state_.measured = done.known();
+    before_macro_ = done.back();
+    macro_depth_ = state_.call_depth;
+    return calls_macro_ = true;
+  }
+  before_macro_.reset();
+  if (done.gave_up()) {
+    block_.ended = true;
+    return fail(
+        "gcode.tool-not-measured", words_.span(tool_change),
+        fmt::format("tool {} was not measured in {} tries: {}", next_tool_, ToolChangeCycle::most_tries, done.reason()),
+        "a tool setter that works, and a tool that reaches it");
+  }
+  const double work_shift = state_.measured.work_shift;
+  state_.measured = done.known();
+  state_.measured.work_shift = work_shift;
+  if (state_.feed > 0 && !state_.modal.inverse_time()) emit_feed_rate(state_.feed);
+  if (only_checks_) return true;
+  load_tool(next_tool_);
+  if (next_tool_ == 0) return true;
+  if (done.is_measured()) {
+    use_length(state_.measured.contact);
+  } else {
+    use_table_length();
+  }
+  return true;
+}
+
+void ToolCodes::use_length(double contact) {
+  const ToolChangePlan& plan = *block_.options.tool_change;
+  MeasuredTools& known = state_.measured;
+  if (plan.use == LengthUse::work) {
+    const double shift = contact - *known.reference;
+    frame_.shift_work_z(shift - std::exchange(known.work_shift, shift));
+    return;
+  }
+  Tool* entry = state_.tools.find(next_tool_);
+  if (entry == nullptr && state_.tools.add({.number = next_tool_})) entry = state_.tools.find(next_tool_);
+  state_.spindle_tool.offset[Axis::z] = contact - (plan.use == LengthUse::absolute ? plan.setter_z : *known.reference);
+  if (entry != nullptr) {
+    entry->offset = state_.spindle_tool.offset;
+    state_.spindle_tool.place = entry->place;
+    emit(operation::SetToolTableEntry{entry->place, entry});
+  }
+  use_table_length();
+}
+
+// As G43 does.
+void ToolCodes::use_table_length() {
+  if (block_.options.tool_change->use == LengthUse::work) return;
+  state_.modal.set(tool_length, code(43));
+  frame_.use_tool_offset(state_.spindle_tool.offset);
 }
 
 void ToolCodes::load_tool(std::int32_t number) {
@@ -97,7 +203,8 @@ bool ToolCodes::tool_offset(Point& offset) {
     return false;
   }
   if (tool != nullptr) offset = tool->offset;
-  if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_table_told_, true)) {
+  const bool may_lack_table = block_.options.tool_change != nullptr;  // M6 measures
+  if (number != 0 && !may_lack_table && state_.tools.name.empty() && !std::exchange(missing_table_told_, true)) {
     reporter_.warning(
         "gcode.no-tool-table", words_.span(tool_length),
         state_.tools.find(number) == nullptr

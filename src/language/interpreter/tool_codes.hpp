@@ -1,20 +1,37 @@
 // ToolCodes: the codes and words of tools (T, M6, M61, G43, G49, G10 L0, L1, L10, L11): the tool in the spindle, its
-// offset, and its entry in the tool table.
+// offset, and its entry in the tool table. On a machine that measures its tools, M6 is a cycle (ToolChangeCycle).
 #pragma once
 
-#include "code_family.hpp"
+#include <optional>
+#include <utility>
+
+#include "cycle_codes.hpp"
 #include "frame_codes.hpp"
 #include "spindle_codes.hpp"
+#include "tool_change_cycle.hpp"
 
 namespace passo {
 
-class ToolCodes : private CodeFamily {
+class ToolCodes final : public CycleCodes {
  public:
   ToolCodes(BlockContext& block, FrameCodes& frame, SpindleCodes& spindles)
-      : CodeFamily(block), frame_(frame), spindles_(spindles) {}
+      : CycleCodes(block), frame_(frame), spindles_(spindles) {}
 
   bool select();
   bool change(CodeNumber code);
+  // Whether an M6 has begun a cycle whose block has other words, which wait for its end.
+  bool has_begun() const { return begun_; }
+  bool take_begun() { return std::exchange(begun_, false); }
+  // Returns whether the tool is now to be changed by the lines of the machine file. Called once after each cycle.
+  bool take_macro_call() { return std::exchange(calls_macro_, false); }
+  // Whether the subroutine that was left was that of the change. `depth`: call depth of its caller.
+  bool changes_by_macro(int depth) const { return before_macro_ && depth == macro_depth_; }
+  // Begins the cycle that goes on behind it.
+  void go_on_after_macro() { begin_cycle(next_tool_, false); }
+  // Begins a cycle that measures the used tool at the end of the program. Returns false if there is nothing to measure.
+  bool begin_last_check();
+  Cycle& cycle() override { return *cycle_; }
+  bool finish() override;
   bool set_length(CodeNumber code);
   bool set_table();
 
@@ -23,6 +40,10 @@ class ToolCodes : private CodeFamily {
   bool set_tool_table_entry();
   bool find_tool(std::int32_t number, Span span, const Tool*& tool);
   void load_tool(std::int32_t number);
+  void begin_cycle(std::int32_t to, bool only_checks);
+  bool check_alone();
+  void use_length(double contact);
+  void use_table_length();
   bool tool_offset(Point& offset);
   bool check_tool_entry_words(Tool*& tool);
   void set_tool_offsets(Tool& tool);
@@ -31,6 +52,13 @@ class ToolCodes : private CodeFamily {
   SpindleCodes& spindles_;
   bool missing_table_told_ = false;
   bool was_loaded_ = false;
+  std::optional<ToolChangeCycle> cycle_;
+  std::int32_t next_tool_ = 0;  // of the cycle
+  bool only_checks_ = false;
+  bool begun_ = false;
+  bool calls_macro_ = false;
+  std::optional<Point> before_macro_;  // the machine position before the change; set while the macro runs
+  int macro_depth_ = 0;                // call depth of its caller
 };
 
 }  // namespace passo

@@ -109,7 +109,10 @@ void FrequentMistakes::turn_spindle(const Operation& operation, SpindleDirection
   spindle_ = direction;
   turned_at_zero_.reset();
   left_on_.reset();
+  // Line 0: the interpreter itself, before the program begins.
+  keeps_spindle_off_ = direction == SpindleDirection::off && !has_turned_ && operation.source.line > 0;
   if (direction == SpindleDirection::off) return;
+  has_turned_ = true;
   left_on_ =
       warning(operation, "path.spindle-left-on", mistakes_say::spindle_left_on, mistakes_say::spindle_off_before);
   if (speed_ > 0) return;
@@ -127,7 +130,7 @@ void FrequentMistakes::feed(const Operation& operation) {
   if (!has_spindle_) return;
   if (turned_at_zero_) {
     diagnostics_.add_certain(*std::exchange(turned_at_zero_, std::nullopt));
-  } else if (spindle_ == SpindleDirection::off && !probes_) {
+  } else if (spindle_ == SpindleDirection::off && !probes_ && !keeps_spindle_off_) {
     warn(operation, "path.spindle-off-in-feed", mistakes_say::feed_without_spindle, mistakes_say::spindle_first);
   }
 }

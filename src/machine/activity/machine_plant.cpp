@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/interpreter/tool_change_plan.hpp"
 
 namespace passo {
 
@@ -113,6 +114,20 @@ ScrewModel screw_model(const AxisDescription& axis, const MotorRow& motor) {
   return model;
 }
 
+namespace {
+
+// The simulated setter: every tool touches it in the middle of the window.
+TouchBox tool_setter_of(const ToolChangePlan& plan) {
+  constexpr double radius = 10;  // mm
+  TouchBox box;
+  box.ranges[Axis::x] = {plan.measure_at->x - radius, plan.measure_at->x + radius};
+  box.ranges[Axis::y] = {plan.measure_at->y - radius, plan.measure_at->y + radius};
+  box.ranges[Axis::z].high = (plan.window_low + plan.window_high) / 2;
+  return box;
+}
+
+}  // namespace
+
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
          const std::vector<Touchable>& things) {
   plant.stand_at(truth_at(machine, stands_at));
@@ -127,6 +142,8 @@ void fit(FittedPlant& plant, const MachineDescription& machine, const Point& sta
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
   for (const Touchable& thing : things) add(plant, thing, machine);
+  if (!things.empty() || machine.tool_change == nullptr || !machine.tool_change->measure_at) return;
+  add(plant, tool_setter_of(*machine.tool_change), machine);
 }
 
 IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at, const std::vector<Touchable>& things) {

@@ -9,7 +9,7 @@ ProgramStages::ProgramStages(ProgramReader program, const MachineDescription& ma
                              std::vector<ProbeOutcome> known)
     : path_options_(path_options(machine, program.name(), options.start)),
       answers_(answers, std::move(known)),
-      interpreter_(std::move(program), options, diagnostics, answers_),
+      interpreter_(std::move(program), on_machine(machine, options), diagnostics, answers_),
       operations_(interpreter_),
       path_builder_(operations_, path_options_, diagnostics, answers_),
       path_until_error_(path_builder_, diagnostics),

@@ -24,8 +24,15 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   options.spindle_limit = machine.tool.highest_rpm;
   options.spindle_run_up = machine.spindle.run_up;
   options.threads_hold_speed = machine.spindle.counts_per_turn == 0;
+  if (machine.park.at_end != ParkDescription::AtEnd::stay) options.end_height = machine.top_of_travel();
+  if (machine.park.at_end == ParkDescription::AtEnd::park) options.park = machine.park.place;
   options.file = program;
   options.start = start;
+  return options;
+}
+
+InterpreterOptions on_machine(const MachineDescription& machine, InterpreterOptions options) {
+  options.tool_change = machine.tool_change;
   return options;
 }
 

@@ -33,7 +33,7 @@ std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
 }  // namespace
 
 StreamedProgram::StreamedProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start)
-    : options_(std::move(options)),
+    : options_(on_machine(machine, std::move(options))),
       path_options_(path_options(machine, "line")),
       answers_(StoredResults::Answers{}),
       queue_(motion_limits(machine)) {

@@ -2,6 +2,7 @@
 
 #include "passo/base/counted.hpp"
 #include "passo/base/sensible_number.hpp"
+#include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
@@ -160,6 +161,36 @@ std::string describe_spindle(const SpindleDescription& spindle) {
       spindle.ripple_rate.value());
 }
 
+std::string describe_tool_change(const ToolChangePlan& plan) {
+  std::string line = "tool change     ";
+  switch (plan.way) {
+    case ToolChangeWay::setter: line += "by hand, tool setter"; break;
+    case ToolChangeWay::plate: line += "by hand, touch plate"; break;
+    case ToolChangeWay::rack: line += fmt::format("rack of {}", plan.rack.pockets); break;
+    case ToolChangeWay::macro: line += "by lines of G-code"; break;
+  }
+  if (!plan.measures) return line + fmt::format(", not measured; across at Z{:g}\n", plan.safe_z);
+  line += plan.measure_at ? fmt::format(" at X{:g} Y{:g}", plan.measure_at->x, plan.measure_at->y)
+                          : std::string(" at the work's X0 Y0");
+  line += fmt::format(", touching at Z{:g} to Z{:g}, across at Z{:g}; ", plan.window_low, plan.window_high, plan.safe_z);
+  switch (plan.use) {
+    case LengthUse::absolute: line += fmt::format("lengths from the nose, Z{:g}", plan.setter_z); break;
+    case LengthUse::reference: line += "lengths from the first tool"; break;
+    case LengthUse::work: line += "the work's Z follows the tool"; break;
+  }
+  if (plan.wear) line += fmt::format("; used tools within {:g} mm", *plan.wear);
+  return line + "\n";
+}
+
+std::string describe_park(const ParkDescription& park) {
+  if (!park.place && park.at_end == ParkDescription::AtEnd::stay) return "";
+  std::string line = "park            ";
+  line += park.place ? fmt::format("X {:g} Y {:g} (machine)", (*park.place)[Axis::x], (*park.place)[Axis::y])
+                     : std::string("no position");
+  constexpr const char* ends[] = {"stay where they are", "raise the tool", "park the tool"};
+  return line + fmt::format("; programs that end {}\n", ends[static_cast<std::size_t>(park.at_end)]);
+}
+
 }  // namespace
 
 std::string describe(const MachineDescription& machine) {
@@ -174,6 +205,8 @@ std::string describe(const MachineDescription& machine) {
   out += describe_spindle(machine.spindle);
   out += describe_pins(machine.pins);
   out += describe_homing(machine);
+  if (machine.tool_change) out += describe_tool_change(*machine.tool_change);
+  out += describe_park(machine.park);
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) {
     out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor) +
            describe_alarm(machine.axes[motor]);

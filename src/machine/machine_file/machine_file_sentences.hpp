@@ -35,5 +35,12 @@ inline constexpr SentenceRow unknown_axis{"machine.unknown-axis", "there is no a
 inline constexpr SentenceRow axis_table{"expected.axis-table", "a table for each axis, as in [axis.X]"};
 inline constexpr SentenceRow shared_switch{"machine.homing.shared-switch",
                                            "the two motors of axis {axis} share limit switch {input}"};
+inline constexpr SentenceRow park_outside{"machine.park.outside",
+                                          "the park position {axis} {place} is outside the travel"};
+inline constexpr SentenceRow park_without_plane{"machine.park.no-plane", "a park position needs the axes X and Y"};
+inline constexpr SentenceRow park_without_place{"machine.park.no-place",
+                                                "programs shall end at the park position, but there is none"};
+inline constexpr SentenceRow end_without_z{"machine.park.no-z",
+                                           "Z moves first at the end of a program, but the machine has no axis Z"};
 
 }  // namespace passo::machine_file_says

@@ -6,12 +6,16 @@
 #include <utility>
 
 #include "axis_keys.hpp"
+#include "board_reader.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
 #include "machine_file_sentences.hpp"
+#include "park_reader.hpp"
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
+#include "spindle_reader.hpp"
 #include "surface_radius_reader.hpp"
+#include "tool_change_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
 
@@ -21,24 +25,10 @@ namespace passo {
 namespace {
 
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
-
 constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
-
-constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
-constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
-constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
-constexpr NumberKey direction_setup_key{"direction_setup_us", 0, 15, "0.65"};
-constexpr NumberKey direction_hold_key{"direction_hold_us", 0, 15, "0.65"};
-constexpr NumberKey items_key{"held_items", 8, 240, "240"};
 
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey tool_diameter_key{"diameter_mm", 0, 1000, "3"};
-
-constexpr NumberKey counts_key{"encoder_counts_per_turn", 4, 1e6, "4096"};
-constexpr NumberKey run_up_key{"run_up_s", 0, 1000, "0.5"};
-constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
-constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
-constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
 
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
@@ -46,10 +36,6 @@ constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
 constexpr std::string_view torque_table = "torque";
 constexpr std::string_view home_table = "home";
 constexpr std::string_view second_table = "second_motor";
-
-// Fewer ticks for an event are impossible: on any processor its interrupt takes longer.
-constexpr double fewest_ticks_an_event = 16;
-constexpr double longest_interval_ticks = 65535;
 
 class MachineReader {
  public:
@@ -73,6 +59,7 @@ class MachineReader {
   void read_silence(const TomlEntry& entry);
   void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
+  void read_park_of(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -113,9 +100,11 @@ MachineDescription MachineReader::read() {
   const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
   const TomlEntry* silence = top.table("silence", "a table [silence]", Need::optional);
   const TomlEntry* work = top.table("work", "a table [work]", Need::optional);
+  const TomlEntry* park = top.table("park", "a table [park]", Need::optional);
   const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
+  const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -126,50 +115,17 @@ MachineDescription MachineReader::read() {
   if (work != nullptr) look_at_work(*work);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
+  if (park != nullptr) read_park_of(*park);
   read_homing(homing);
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
 
 void MachineReader::read_board(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "board", entry.place, reporter_);
-  BoardDescription& board = machine_.board;
-  const auto clock = reader.number(clock_key, Need::required);
-  auto rate = reader.number(event_rate_key, Need::required);
-  const auto pulse = reader.number(step_pulse_key, Need::optional);
-  if (const auto time = reader.number(direction_setup_key, Need::optional))
-    board.direction_setup = Seconds(*time * 1e-6);
-  if (const auto time = reader.number(direction_hold_key, Need::optional)) board.direction_hold = Seconds(*time * 1e-6);
-  if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
-  board.held_items_are_given = reader.has(items_key.name);
-  read_windings(reader, board);
+  event_rate_ = passo::read_board(reader, machine_.board);
   finish(reader);
-
-  if (clock && rate) {
-    board.clock = Hertz(*clock);
-    const double fastest = *clock / fewest_ticks_an_event;
-    // Twice the slowest rate: every slower rate of steps then has a multiple between the two.
-    const double slowest = 2 * *clock / longest_interval_ticks;
-    if (*rate > fastest || *rate < slowest) {
-      reader.error(
-          "machine.event-rate", event_rate_key.name,
-          fmt::format("a board with a clock of {} Hz cannot make {} events/s", *clock, *rate),
-          fmt::format("{} from {:.0f} to {:.0f}: an event takes at least {} clock ticks, and an interval has 16 bits",
-                      event_rate_key.name, std::ceil(slowest), fastest, fewest_ticks_an_event));
-      rate.reset();
-    }
-  }
-  if (!rate) return;
-  event_rate_ = board.highest_event_rate = Hertz(*rate);
-  if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
-  // A driver wants a pause as long as the pulse.
-  const double longest_us = 1e6 / (2 * *rate);
-  if ((pulse || !reader.has(step_pulse_key.name)) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
-    reader.error(
-        "machine.step-pulse", step_pulse_key.name,
-        fmt::format("a step pulse of {:g} us and a pause of the same length do not fit into an event at {:g} events/s",
-                    board.step_pulse.value() * 1e6, *rate),
-        fmt::format("{} = {:g} or less, or a lower {}", step_pulse_key.name, longest_us, event_rate_key.name));
-  }
 }
 
 void MachineReader::read_tool(const TomlEntry& entry) {
@@ -189,15 +145,7 @@ void MachineReader::read_probe(const TomlEntry& entry) {
 
 void MachineReader::read_spindle(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "spindle", entry.place, reporter_);
-  SpindleDescription& spindle = machine_.spindle;
-  if (const auto counts = reader.whole_number(counts_key, Need::optional)) {
-    spindle.counts_per_turn = static_cast<int>(*counts);
-  }
-  if (const auto time = reader.number(run_up_key, Need::optional)) spindle.run_up = Seconds(*time);
-  spindle.run_up_is_given = reader.has(run_up_key.name);
-  if (const auto droop = reader.number(droop_key, Need::optional)) spindle.droop = *droop / 100;
-  if (const auto ripple = reader.number(ripple_key, Need::optional)) spindle.ripple = *ripple / 100;
-  if (const auto rate = reader.number(ripple_rate_key, Need::optional)) spindle.ripple_rate = Hertz(*rate);
+  machine_.spindle = passo::read_spindle(reader);
   finish(reader);
 }
 
@@ -224,6 +172,13 @@ void MachineReader::read_pins(const TomlEntry* inputs, const TomlEntry* outputs)
     read_outputs(reader, machine_.pins);
     finish(reader);
   }
+}
+
+// Called when all axes are known.
+void MachineReader::read_park_of(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "park", entry.place, reporter_);
+  machine_.park = read_park(reader, machine_.axes);
+  finish(reader);
 }
 
 // Called when all axes are known.

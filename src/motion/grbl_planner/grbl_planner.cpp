@@ -26,6 +26,15 @@ double square(double value) {
 
 }  // namespace
 
+Point GrblLimits::measured(Point way) const {
+  if (!core_xy) return way;
+  const double x = way[Axis::x];
+  const double y = way[Axis::y];
+  way[Axis::x] = x + y;
+  way[Axis::y] = x - y;
+  return way;
+}
+
 GrblPlanner::GrblPlanner(const GrblLimits& limits, const Point& start) : limits_(limits), at_(start) {
   assert(limits.blocks >= 1);
   for (const Axis axis : all_axes) {
@@ -67,7 +76,8 @@ double GrblPlanner::junction2(const Point& direction) const {
 Seconds GrblPlanner::add_line(const Point& end, MmPerSecond feed, std::uint32_t source, Seconds when) {
   at_ = end;
   const Point step = rounded(end);
-  const Point way = step - last_step_;
+  const Point moved = step - last_step_;
+  const Point way = limits_.measured(moved);
   const double length = std::sqrt(dot(way, way));
   if (length <= 0) return std::max(when, Seconds(0));
   if (blocks_.size() == limits_.blocks) end_first(profile());
@@ -79,7 +89,8 @@ Seconds GrblPlanner::add_line(const Point& end, MmPerSecond feed, std::uint32_t 
                          .start = last_step_,
                          .end = step,
                          .length = Mm(length),
-                         .acceleration = MmPerSecond2(limit_along(direction, strongest_))}};
+                         .acceleration = MmPerSecond2(limit_along(direction, strongest_)),
+                         .scale = limits_.core_xy ? std::sqrt(dot(moved, moved)) / length : 1}};
   const double fastest = limit_along(direction, fastest_);
   const double wanted = block.motion.rapid ? fastest * limits_.rapid_factor : feed.value() * limits_.feed_factor;
   block.nominal2 = square(std::min(std::max(wanted, slowest), fastest));
@@ -192,15 +203,18 @@ void GrblPlanner::move_first(const Profile& profile, double time) {
 
 void GrblPlanner::add_phase(double acceleration, double time) {
   if (time <= 0) return;
-  const GrblPhase phase{.block = blocks_.front().motion,
-                        .begun = Seconds(now_),
-                        .duration = Seconds(time),
-                        .from = Mm(done_of_first_),
-                        .speed = MmPerSecond(speed_),
-                        .acceleration = MmPerSecond2(acceleration)};
-  if (listener_) listener_(phase);
-  done_of_first_ = std::min(phase.end(), phase.block.length).value();
-  speed_ = std::max(phase.end_speed().value(), 0.0);
+  const GrblBlock& block = blocks_.front().motion;
+  if (listener_) {
+    listener_({.block = block,
+               .begun = Seconds(now_),
+               .duration = Seconds(time),
+               .from = Mm(done_of_first_ * block.scale),
+               .speed = MmPerSecond(speed_ * block.scale),
+               .acceleration = MmPerSecond2(acceleration * block.scale)});
+  }
+  const double end_speed = speed_ + acceleration * time;
+  done_of_first_ = std::min(done_of_first_ + (speed_ + end_speed) / 2 * time, block.length.value());
+  speed_ = std::max(end_speed, 0.0);
   now_ += time;
 }
 

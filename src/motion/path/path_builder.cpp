@@ -74,7 +74,8 @@ bool PathBuilder::next(PathItem& item) {
     held_.pop_front();
     return true;
   }
-  bool has_item = next_chord(item) || next_spline_piece(item) || next_probe_step(item) || next_tap_step(item);
+  bool has_item = next_chord(item) || next_spline_piece(item) || next_probe_step(item) || next_tap_step(item) ||
+                  next_end_step(item);
   while (!has_item && next_operation()) has_item = add(operation_, item);
   if (!has_item && !options_.open_ended) switch_off();
   // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
@@ -158,12 +159,16 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::SetMist& mist) { return set_output(commanded_.mist, mist.on); },
           [&](const operation::SetFlood& flood) { return set_output(commanded_.flood, flood.on); },
           [&](const operation::Dwell& dwell) { return act(Action::Kind::dwell, dwell.time); },
-          [&](const operation::ChangeTool& change) { return act(Action::Kind::tool_change, Seconds(0), change.tool); },
+          [&](const operation::ChangeTool& change) {
+            act(Action::Kind::tool_change, Seconds(0), change.tool);
+            return std::get<Action>(item).by_machine = change.by_machine, true;
+          },
           [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop, Seconds(0), hand_.at_stop()); },
           [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
           [&](const operation::ProgramEnd&) {
             switch_off();
-            return act(Action::Kind::program_end);
+            end_step_ = EndStep::rise;
+            return next_end_step(item);
           },
           []<OfOthers What>(const What&) { return false; },
       },
@@ -205,6 +210,26 @@ bool PathBuilder::next_probe_step(PathItem& item) {
   if (probe_step_ == ProbeStep::rest && answers_.probe() != nullptr) position_ = answers_.probe()->rest;
   probe_step_ = ProbeStep::none;
   return false;
+}
+
+bool PathBuilder::next_end_step(PathItem& item) {
+  const auto go = [&](const Point& end) { return add_curve(Curve::line(position_, end), true, item); };
+  if (end_step_ == EndStep::rise) {
+    end_step_ = EndStep::park;
+    Point end = position_;
+    end[Axis::z] = std::max(end[Axis::z], options_.end_height.value_or(end[Axis::z]));
+    if (options_.end_height && go(end)) return true;
+  }
+  if (end_step_ == EndStep::park) {
+    end_step_ = EndStep::end;
+    Point end = position_;
+    for (const Axis axis : {Axis::x, Axis::y}) end[axis] = options_.park ? (*options_.park)[axis] : end[axis];
+    if (options_.park && go(end)) return true;
+  }
+  if (end_step_ != EndStep::end) return false;
+  end_step_ = EndStep::none;
+  item = Action{.kind = Action::Kind::program_end, .outputs = outputs(), .heeds = heeds(), .source = operation_.source};
+  return true;
 }
 
 // Each thing that the machine lacks is reported once.

@@ -4,6 +4,7 @@ export const cam = {
   'cam.files': 'Drawings',
   'cam.drop': 'Drop drawings or a picture here',
   'cam.forget': 'Remove the drawings',
+  'cam.remove': 'Remove {name}',
   'cam.lengths': 'Lengths without a unit are in {unit}; 30mil, 1/8in and 2mm work too. An empty field uses the value shown in grey.',
   'cam.result': 'Program',
   'cam.picture': 'Picture of the cut',

@@ -63,6 +63,8 @@ export const job = {
   'job.tools': 'Tools: {count}',
   'job.tools.library': 'From the tool library: {tools}',
   'job.tool.add': 'Add tool T{number}',
+  'job.tool.remove': 'Remove tool T{number}',
+  'job.tool.used': 'Operations that use it: {operations}',
   'job.tool.name': 'Name',
   'job.tool.shape': 'Shape',
   'job.tool.shape.flat': 'flat',

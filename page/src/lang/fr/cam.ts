@@ -7,6 +7,7 @@ export const cam: Same<typeof en> = {
   'cam.files': 'Dessins',
   'cam.drop': 'Déposer ici des dessins ou une image',
   'cam.forget': 'Retirer les dessins',
+  'cam.remove': 'Retirer {name}',
   'cam.lengths': 'Les longueurs sans unité sont en {unit} ; 30mil, 1/8in et 2mm sont aussi acceptés. Un champ vide prend la valeur affichée en gris.',
   'cam.result': 'Programme',
   'cam.picture': 'Aperçu de l’usinage',

@@ -66,6 +66,8 @@ export const job: Same<typeof en> = {
   'job.tools': 'Outils : {count}',
   'job.tools.library': 'De la bibliothèque d’outils : {tools}',
   'job.tool.add': 'Ajouter l’outil T{number}',
+  'job.tool.remove': 'Supprimer l’outil T{number}',
+  'job.tool.used': 'Opérations qui l’utilisent : {operations}',
   'job.tool.name': 'Nom',
   'job.tool.shape': 'Forme',
   'job.tool.shape.flat': 'plate',

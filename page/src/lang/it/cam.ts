@@ -7,6 +7,7 @@ export const cam: Same<typeof en> = {
   'cam.files': 'Disegni',
   'cam.drop': 'Trascina qui disegni o un’immagine',
   'cam.forget': 'Rimuovi i disegni',
+  'cam.remove': 'Rimuovi {name}',
   'cam.lengths': 'Le lunghezze senza unità sono in {unit}; vanno bene anche 30mil, 1/8in e 2mm. Un campo vuoto usa il valore in grigio.',
   'cam.result': 'Programma',
   'cam.picture': 'Anteprima della lavorazione',

@@ -66,6 +66,8 @@ export const job: Same<typeof en> = {
   'job.tools': 'Utensili: {count}',
   'job.tools.library': 'Dalla libreria utensili: {tools}',
   'job.tool.add': 'Aggiungi l’utensile T{number}',
+  'job.tool.remove': 'Rimuovi l’utensile T{number}',
+  'job.tool.used': 'Operazioni che lo usano: {operations}',
   'job.tool.name': 'Nome',
   'job.tool.shape': 'Forma',
   'job.tool.shape.flat': 'piana',

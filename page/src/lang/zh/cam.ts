@@ -7,6 +7,7 @@ export const cam: Same<typeof en> = {
   'cam.files': '图纸',
   'cam.drop': '把图纸或图片拖到这里',
   'cam.forget': '移除图纸',
+  'cam.remove': '移除 {name}',
   'cam.lengths': '不带单位的长度按 {unit} 计；也可写 30mil、1/8in、2mm。留空则采用灰色数值。',
   'cam.result': '程序',
   'cam.picture': '加工效果图',

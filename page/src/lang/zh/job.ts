@@ -66,6 +66,8 @@ export const job: Same<typeof en> = {
   'job.tools': '刀具：{count}',
   'job.tools.library': '来自刀具库：{tools}',
   'job.tool.add': '添加刀具 T{number}',
+  'job.tool.remove': '删除刀具 T{number}',
+  'job.tool.used': '使用它的工序：{operations}',
   'job.tool.name': '名称',
   'job.tool.shape': '形状',
   'job.tool.shape.flat': '平底',

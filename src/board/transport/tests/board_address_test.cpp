@@ -28,14 +28,18 @@ TEST(BoardAddress, may_be_of_a_machine_that_speaks_grbl) {
       (BoardAddress{.kind = Kind::serial, .place = "/dev/ttyUSB0", .port = "", .baud = 230'400, .speaks_grbl = true}));
   EXPECT_EQ(*parse_board_address("grbl:tcp:fluid.local:23"),
             (BoardAddress{.kind = Kind::tcp, .place = "fluid.local", .port = "23", .speaks_grbl = true}));
+  EXPECT_EQ(
+      *parse_board_address("grbl:tcp:192.168.1.7:8888@115200"),
+      (BoardAddress{
+          .kind = Kind::tcp, .place = "192.168.1.7", .port = "8888", .behind_baud = 115'200, .speaks_grbl = true}));
   EXPECT_EQ(*parse_board_address("grbl:ws://fluidnc.local"),
             (BoardAddress{.kind = Kind::websocket, .place = "fluidnc.local", .port = "81", .speaks_grbl = true}));
   EXPECT_EQ(*parse_board_address("grbl:ws://[::1]:8080/"),
             (BoardAddress{.kind = Kind::websocket, .place = "::1", .port = "8080", .speaks_grbl = true}));
   EXPECT_EQ(parse_board_address("grbl:ws://[::1]")->port, "81");
-  for (const char* text :
-       {"grbl:", "grbl", "grbl:ws:", "grbl:ws://", "grbl:ws://host/path", "grbl:ws://host:x", "ws://host",
-        "grbl:tcp:", "grbl:tcp:host", "grbl:virtual", "grbl:sim:uno", "grbl:/dev/a@", "grbl:serial:"}) {
+  for (const char* text : {"grbl:", "grbl", "grbl:ws:", "grbl:ws://", "grbl:ws://host/path", "grbl:ws://host:x",
+                           "ws://host", "grbl:tcp:", "grbl:tcp:host", "grbl:tcp:host:23@", "grbl:tcp:host:23@fast",
+                           "grbl:virtual", "grbl:sim:uno", "grbl:/dev/a@", "grbl:serial:"}) {
     EXPECT_FALSE(parse_board_address(text)) << text;
   }
 }

@@ -168,6 +168,20 @@ TEST(Nesting, what_does_not_fit_on_one_sheet_goes_on_the_next) {
   EXPECT_EQ(nest->sheets.size(), 3);
 }
 
+// The rules that put a disc between two others need a second sheet.
+TEST(Nesting, discs_lie_in_rows_and_columns_where_only_so_all_of_them_fit) {
+  for (const double spare : {0.1, 4.0, 10.0}) {
+    const double side = 3 * 30 + 2 * 4 + 2 * 5 + spare;
+    const std::vector<NestShape> shapes = {{.name = "disc", .outlines = {disc_ring(15, 0, 0)}, .quantity = 9}};
+    const NestOptions options{
+        .sheet = at_mm(side, side), .gap = to_nanometres(Mm(4)), .margin = to_nanometres(Mm(5)), .rounds = 20};
+    const auto nest = nest_on_sheets(shapes, options, {});
+    ASSERT_TRUE(nest.has_value());
+    EXPECT_EQ(expect_apart(shapes, options, *nest), 9U);
+    EXPECT_EQ(nest->sheets.size(), 1U) << spare;
+  }
+}
+
 // A circle drawn twice, with chords of two lengths: the corners of both, so it is not convex. After a quarter turn its
 // edges are parallel to those before.
 TEST(Nesting, shapes_with_parallel_edges_keep_their_distance) {

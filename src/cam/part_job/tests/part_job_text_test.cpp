@@ -179,6 +179,32 @@ TEST(PartJobText, copies_inserts_and_removes_operations) {
   EXPECT_EQ(edited(in_line, move(1, 2)), "refused: the tables of operation have no heads [[operation]]");
 }
 
+TEST(PartJobText, removes_a_table_with_the_tables_below_it) {
+  const auto without_table = [](const std::string& text, const std::string& path) {
+    return edited(text, [&](TomlText& toml) { return toml.remove_table(path); });
+  };
+  const std::string text =
+      "[job]\nx = 1\n\n# A drill.\n[tool.3] # \"[tool.4]\"\nshape = \"drill\"\n\n[tool.3.chip_load_mm]\nmdf = 0.1\n# "
+      "end\n\n"
+      "# The next.\n[ tool . \"30\" ]\nshape = \"flat\"\n\n# float\n\n[[operation]]\ntool = 3\n[tool.3.more]\ny = 2\n";
+  EXPECT_EQ(without_table(text, "tool.3"),
+            "[job]\nx = 1\n\n# The next.\n[ tool . \"30\" ]\nshape = \"flat\"\n\n# float\n\n[[operation]]\ntool = 3\n");
+  EXPECT_EQ(without_table(text, "tool.3.more"), text.substr(0, text.find("[tool.3.more]")));
+  EXPECT_EQ(without_table("[tool.1]\r\na = 1\r\n", "tool.1"), "");
+  EXPECT_EQ(without_table("[tool]\n1 = { a = 1 }\n2 = { a = 2 }\n", "tool.1"), "[tool]\n2 = { a = 2 }\n");
+  EXPECT_EQ(without_table("[tool]\n1.a = 1\n", "tool.1"), "refused: tool.1 is a table");
+  EXPECT_EQ(without_table(text, "tool.4"), "refused: there is no tool.4");
+  EXPECT_EQ(without_table(text, "job.x"), "refused: job.x is no table");
+  EXPECT_EQ(without_table(text, "operation"), "refused: operation is no table");
+  EXPECT_EQ(without_table(text, "operation.1"), "refused: there is no operation.1");
+  EXPECT_EQ(without_table(text, ""), "refused: there is no ");
+  // A head inside of a value is none.
+  const std::string quoted = "[tool.1]\na = [\n[1],\n]\nb = \"\"\"\n[tool.2]\n\"\"\"\n[tool.2]\nc = 1\n";
+  EXPECT_EQ(without_table(quoted, "tool.2").starts_with("refused") ||
+                without_table(quoted, "tool.2") == quoted.substr(0, quoted.rfind("[tool.2]")),
+            true);
+}
+
 // Any file that is built from awkward pieces: after each edit the reader finds the change, and all other lines are
 // there.
 TEST(PartJobText, survives_random_edits) {

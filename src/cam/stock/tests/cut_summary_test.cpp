@@ -34,6 +34,8 @@ TEST(CutSummary, a_slot_is_cut_with_the_whole_tool_and_its_second_pass_with_half
   EXPECT_EQ(summary.cutting_moves(), 4U);
   EXPECT_NEAR(summary.engagement().value, 1, 0.01);
   EXPECT_EQ(summary.engagement().line, 2U);
+  // Line 2 alone is a slot. Line 3 leaves it sideways, with half of the tool in the stock.
+  EXPECT_NEAR(summary.heavy_way(), 40, 0.01);
   EXPECT_EQ(summary.depth().line, 1U);
   EXPECT_NEAR(summary.depth().value, 2, 1e-5);
   // Line 2 takes 40 x 6 x 2 mm³ in 4 s, and line 4 half of that in 2 s.
@@ -51,6 +53,17 @@ TEST(CutSummary, short_moves_count_together_over_a_way_of_the_tools_radius) {
   EXPECT_NEAR(summary.rate().value, (3 + 29 * 0.05) / 0.3, 1e-9);
   EXPECT_EQ(summary.rate().line, 7U);
   EXPECT_NEAR(summary.engagement().value, 6 / 3.0 / 6, 1e-9);
+}
+
+TEST(CutSummary, a_descent_is_no_heavy_cut) {
+  CutSummary summary({flat_tool(6)});
+  MoveCut ramp = feed(1, 10, 30, 60, 1);
+  ramp.way_level = 9.96;
+  summary.add(ramp);
+  EXPECT_NEAR(summary.engagement().value, 1, 1e-9);
+  EXPECT_EQ(summary.heavy_way(), 0);
+  summary.add(feed(2, 10, 60, 60, 1));
+  EXPECT_EQ(summary.heavy_way(), 10);
 }
 
 TEST(CutSummary, rapids_one_after_another_are_one_trouble_with_the_greatest_depth) {

@@ -180,5 +180,24 @@ TEST(CuttingFeeds, are_within_every_limit_for_every_tool_and_material) {
   }
 }
 
+TEST(WorkMaterial, is_recognized_by_common_words) {
+  const auto is = [](std::string_view words, WorkMaterial material) {
+    const auto found = work_material_of(words);
+    return found && *found == material;
+  };
+  EXPECT_TRUE(is("pine", WorkMaterial::softwood));
+  EXPECT_TRUE(is("Oak, white", WorkMaterial::hardwood));
+  EXPECT_TRUE(is("birch plywood", WorkMaterial::plywood));
+  EXPECT_TRUE(is("aluminium 6082", WorkMaterial::aluminium));
+  EXPECT_TRUE(is("EN AW-6061", WorkMaterial::aluminium));
+  EXPECT_TRUE(is("Delrin", WorkMaterial::hdpe));
+  for (const char* const words : {"", "oaks", "steel", "pineapple", "foamy", "\xff\xfe"}) {
+    EXPECT_FALSE(work_material_of(words)) << words;
+  }
+  for (const std::string_view name : work_material_names()) {
+    EXPECT_EQ(name_of(*work_material_of(name)), name);
+  }
+}
+
 }  // namespace
 }  // namespace passo

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -59,10 +60,10 @@ double volume_of(const std::vector<BodyTriangle>& triangles) {
   return sum / 6;
 }
 
-std::vector<BodyTriangle> written(const HeightField& field, std::size_t step) {
+std::vector<BodyTriangle> written(const HeightField& field, std::size_t step, const WallHeights& walls = {}) {
   std::string bytes;
   OutputFile file = OutputFile::into(bytes);
-  const std::uint64_t count = write_stock_body(field, step, file);
+  const std::uint64_t count = write_stock_body(field, step, walls, file);
   EXPECT_TRUE(file.commit().has_value());
   const std::vector<BodyTriangle> triangles = triangles_in(bytes);
   EXPECT_EQ(triangles.size(), count);
@@ -87,6 +88,35 @@ TEST(StockBody, has_a_hole_where_the_stock_is_cut_through) {
                            triangle[0][1] > 2.8F && triangle[1][1] > 2.8F && triangle[2][1] > 2.8F &&
                            triangle[0][1] < 3.6F && triangle[1][1] < 3.6F && triangle[2][1] < 3.6F;
     EXPECT_FALSE(is_inside);
+  }
+}
+
+// A round pocket: its wall runs in all directions.
+TEST(StockBody, is_closed_at_walls_and_has_their_heights) {
+  constexpr double radius = 1.03;
+  constexpr double depth = 2;
+  const auto height = [&](double x, double y) { return std::hypot(x - 2.5, y - 3.2) < radius ? -depth : 0.0; };
+  for (const double bottom : {-4.0, -depth}) {
+    HeightField field = *HeightField::create({{1, 2, bottom}, {4, 4.5, 0}}, Mm(0.25));
+    for (std::size_t row = 0; row < field.rows(); ++row) {
+      for (std::size_t column = 0; column < field.columns(); ++column) {
+        field.set_height(column, row, height(field.x_of(column), field.y_of(row)));
+      }
+    }
+    WallHeights walls = WallHeights::at_walls_of(field, 1);
+    for (WallHeights::Patch& patch : walls.patches()) {
+      HeightField& points = patch.heights;
+      for (std::size_t row = 0; row < points.rows(); ++row) {
+        for (std::size_t column = 0; column < points.columns(); ++column) {
+          points.set_height(column, row, height(points.x_of(column), points.y_of(row)));
+        }
+      }
+    }
+    const double exact = 3 * 2.5 * -bottom - std::numbers::pi * radius * radius * depth;
+    const std::vector<BodyTriangle> triangles = written(field, 1, walls);
+    expect_closed(triangles);
+    EXPECT_NEAR(volume_of(triangles), exact, 0.05);
+    EXPECT_GT(std::abs(volume_of(written(field, 1)) - exact), 0.05);
   }
 }
 

@@ -119,9 +119,7 @@ int run_file(const BoardFilesArguments& arguments, GrblConnection& opened, const
   }
   const double time = (active - begun).value();
   const ordered_json json = {{"path", arguments.run}, {"time_s", time}};
-  return print_text(arguments.json ? json.dump(2) + "\n"
-                                   : fmt::format("{}: {:.1f} s; stopped at {} (machine)\n", arguments.run, time,
-                                                 opened.place_words()));
+  return print_text(arguments.json ? json.dump(2) + "\n" : fmt::format("{}: {:.1f} s\n", arguments.run, time));
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
                                                                const PinSetup& wiring) {
   if (address.speaks_grbl) {
     return Failure{
-        "a machine with Grbl is not a Passo board: only passo run, passo home and passo serve can use it [board.grbl]"};
+        "a machine with Grbl is not a Passo board: only passo run, jog, home, check, serve and board settings can use "
+        "it [board.grbl]"};
   }
   if (address.kind != BoardAddress::Kind::emulated) {
     auto line = open_board(address);

@@ -238,8 +238,10 @@ Region carved_of(const PartDrawing& part, const EngraveJob& engrave) {
 Region cleared(VCarvePlan& plan, const EngraveJob& engrave, Diagnostics& findings, const WorkProgress& progress) {
   PocketOptions options = engrave.clearing;
   options.depth = plan.floor_z;
-  PocketPlan floor = plan_pocket(plan.floor, options, findings, progress);
+  Diagnostics of_floor;
+  PocketPlan floor = plan_pocket(plan.floor, options, of_floor, progress);
   Region left = std::move(floor.unreached);
+  bool is_cleaned = false;
   if (engrave.is_inlay && !plan.mill.tools.empty()) {
     // The crests between two ways of the tip stay below the plug.
     const VCarveOptions& carving = engrave.carving;
@@ -247,8 +249,12 @@ Region cleared(VCarvePlan& plan, const EngraveJob& engrave, Diagnostics& finding
                                     2 * std::tan(carving.angle_degrees / 360 * std::numbers::pi) *
                                         static_cast<double>(engrave.crest.count));
     std::vector<MillRun> runs = clean_floor(left, plan.floor_z, {apart}, carving.step);
-    if (!runs.empty()) left = {};
+    is_cleaned = !runs.empty();
+    if (is_cleaned) left = {};
     std::ranges::move(runs, std::back_inserter(plan.mill.tools.front().runs));
+  }
+  for (const Diagnostic& finding : of_floor.all()) {
+    if (!is_cleaned || finding.code != "pocket.narrow") findings.add(finding);
   }
   std::ranges::move(plan.mill.tools, std::back_inserter(floor.mill.tools));
   plan.mill.tools = std::move(floor.mill.tools);

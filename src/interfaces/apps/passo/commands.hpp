@@ -235,8 +235,10 @@ struct ServeArguments {
   std::string mqtt_login;               // file with USER:PASSWORD for the broker; empty: no login
   bool check = false;                   // only checks whether these options can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
+  std::string macros;                   // folder with macros and subroutines; empty: none
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
   std::string system;                   // a folder with system files, as for `board list`
+  std::optional<double> ahead;          // motion that may lie in a Grbl board, s
 };
 int serve(const ServeArguments& arguments);
 

@@ -32,8 +32,9 @@ GrblLimits limits_of_axes(const MachineDescription& machine) {
 
 }  // namespace
 
-// USB itself and a network are faster than every board.
+// USB itself and a network are faster than every board, but behind a network there may be a serial line.
 double grbl_bytes_per_second(const BoardAddress& address, const GrblMachine& machine) {
+  if (address.kind == BoardAddress::Kind::tcp) return address.behind_baud / bits_per_byte;
   const bool is_native_usb = address.place.starts_with("/dev/ttyACM") && machine.firmware != "Grbl";
   return address.kind == BoardAddress::Kind::serial && !is_native_usb ? address.baud / bits_per_byte : 0;
 }

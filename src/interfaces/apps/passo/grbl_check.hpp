@@ -11,7 +11,7 @@
 #include "passo/judge/judgement.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/sender/grbl_forecast.hpp"
-#include "passo/sender/grbl_program.hpp"
+#include "passo/sender/grbl_program_check.hpp"
 #include "passo/transport/board_address.hpp"
 
 namespace passo {

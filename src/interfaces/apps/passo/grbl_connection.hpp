@@ -1,17 +1,16 @@
-// GrblConnection: a connected machine with a Grbl 1.1 controller, over a serial port or a network connection.
+// GrblConnection: a connected Grbl board that is asked for its properties, settings and files. Where Passo
+// moves it, GrblMachineConnection has a session.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 
-#include "board_claim.hpp"
+#include "grbl_machine_connection.hpp"
 
 #include "passo/sender/file_upload.hpp"
 #include "passo/sender/grbl_sender.hpp"
-#include "passo/transport/stream_port.hpp"
 
 namespace passo {
 
@@ -28,40 +27,24 @@ class GrblConnection {
 
   GrblSender& sender() { return sender_; }
   const GrblSender& sender() const { return sender_; }
-  Seconds now() const { return port_->elapsed(); }
-  // Sends pending data and processes received data, for at most `most`.
-  void poll(Seconds most);
-  // Polls until the machine has executed all lines and is idle, or reports a fault. Ctrl-C brakes, and drops the
-  // remaining lines. Shows requests to the operator. `look`, if set, is called after each turn. Returns false if it was
-  // interrupted, or if there is a fault.
-  [[nodiscard]] bool poll_until_rest(const std::function<void()>& look = {});
-  // Returns the request to the operator, if it is new: once for each wait.
-  std::string_view news_of_wait();
-  // Shows why the machine is not idle with all lines executed. Returns the exit code.
-  [[nodiscard]] int give_up() const;
-  // Unlocks the machine by homing it, or one axis. Returns false, with a message, on failure.
-  [[nodiscard]] bool home(int& code, std::optional<Axis> axis = {});
+  Seconds now() const { return link_.port->now(); }
   // Sends a file. Returns false, with a message and `code`, if the board has not received it.
   [[nodiscard]] bool upload(FileUpload upload, int& code);
   // Asks a question, and waits for the answer. Empty, with a message and `code`, if there is none.
   std::optional<GrblAnswer> ask(const std::string& line, Seconds most, int& code);
-  // Returns "X1.000 Y2.000 Z0.000", all axes of the machine, machine coordinates; or that the position is unknown.
-  std::string place_words() const;
+  // Shows why the board does not answer. Returns the exit code.
+  [[nodiscard]] int give_up() const;
+  // Sends pending data and processes received data, for at most `most`.
+  void poll(Seconds most);
 
  private:
-  GrblConnection(std::string board, BoardClaim claim, std::unique_ptr<StreamPort> port)
-      : board_(std::move(board)), claim_(std::move(claim)), port_(std::move(port)), sender_(port_->elapsed()) {}
-
+  GrblConnection(std::string board, GrblLink link)
+      : board_(std::move(board)), link_(std::move(link)), sender_(link_.port->now()) {}
   [[nodiscard]] bool greet(int& code);
 
   std::string board_;
-  BoardClaim claim_;
-  std::unique_ptr<StreamPort> port_;
+  GrblLink link_;
   GrblSender sender_;
-  std::string_view last_wait_;
 };
-
-// Describes the fault: position in the program, cause and code.
-std::string describe(const GrblFault& fault, const std::string& program);
 
 }  // namespace passo

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <string_view>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "from_line.hpp"
-#include "grbl_connection.hpp"
+#include "grbl_check.hpp"
+#include "grbl_machine_connection.hpp"
+#include "grbl_time_left.hpp"
+#include "machine_connection.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
 #include "program_messages.hpp"
@@ -18,181 +20,134 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/base/counted.hpp"
-#include "passo/sender/grbl_program.hpp"
+#include "passo/job/job_end.hpp"
+#include "passo/link/await.hpp"
 
 namespace passo {
 namespace {
 
-// Holds and overrides of the command line, at their times.
-class TimedBytes {
- public:
-  TimedBytes(const ScheduledChanges& changes, Seconds begun) : changes_(changes.all()), begun_(begun) {}
-  // True: a hold has ended the run.
-  bool look(GrblConnection& opened) {
-    GrblSender& sender = opened.sender();
-    const Seconds now = opened.now() - begun_;
-    const bool rests = holds_ && sender.report() && sender.report()->state == "Hold" && sender.report()->detail <= 0;
-    if (rests && ends_) return true;
-    if (rests && !rested_) resume_at_ = now + pause_;
-    rested_ = rested_ || rests;
-    if (rested_ && now >= resume_at_) {
-      sender.resume();
-      holds_ = rested_ = false;
-    }
-    while (!holds_ && next_ < changes_.size() && changes_[next_].at <= now) {
-      const auto& change = changes_[next_++];
-      if (change.factor) {
-        sender.override_feed(static_cast<int>(std::lround(*change.factor * 100)));
-        continue;
-      }
-      sender.hold();
-      holds_ = true;
-      ends_ = !change.pause;
-      pause_ = change.pause.value_or(Seconds(0));
-    }
-    return false;
-  }
+// The place of a simulated machine is counted; that of a Grbl machine is what it reports.
+std::vector<double> place_of(const MachineSession& session, const MachineDescription& machine) {
+  std::vector<double> place;
+  for (const AxisDescription& axis : machine.axes) place.push_back(session.status().now_at[axis.axis]);
+  return place;
+}
 
- private:
-  const std::vector<ScheduledChanges::Change>& changes_;
-  Seconds begun_;
-  std::size_t next_ = 0;
-  bool holds_ = false;
-  bool ends_ = false;    // the hold ends the run
-  bool rested_ = false;  // in the hold
-  Seconds pause_{0};
-  Seconds resume_at_{0};
-};
-
-// The machine is idle, in known modes. False, with a message and `code`.
-bool make_ready(GrblConnection& opened, const std::string& board, bool homes, int& code) {
-  GrblSender& sender = opened.sender();
-  if (homes && !opened.home(code)) return false;
-  if (sender.report()->state == "Alarm") {
-    const std::string alarm = sender.alarm_words();
-    code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. Home it with --home, or unlock "
-                                         "it at its position with $X from another sender [grbl.locked]",
-                                         board, alarm.empty() ? "" : " (", alarm, alarm.empty() ? "" : ")"));
-    return false;
+// Homes the machine, or one axis. Returns false, with a message and `code`, on failure.
+bool home_first(GrblMachineConnection& opened, const std::string& board, std::optional<Axis> axis, int& code) {
+  GrblMachineSession& session = opened.session();
+  const auto ticket = session.request(request::Home{.axis = axis});
+  Answered answered{.outcome = Outcome::failed};
+  if (ticket) {
+    opened.poll_until_done();
+    answered = answer_of(session.take_changes(), *ticket);
+  } else {
+    answered.refused = ticket.error();
   }
-  for (const char* line : {"G21G90G94G17G40G49G54", "M5", "M9"}) sender.add(line);
-  sender.ask_for_offsets();
-  if (!opened.poll_until_rest()) {
-    code = opened.give_up();
-    return false;
-  }
-  if (sender.place()) return true;
-  code = fail(exit_failed, board + ": the machine's status reports have no position; $10=1 adds it [grbl.no-place]");
+  if (answered.outcome == Outcome::done) return true;
+  const std::string words = answered.refused  ? describe(*answered.refused)
+                            : session.fault() ? describe(*session.fault(), "")
+                                              : answered.message();
+  code = interrupted_by() != 0 ? exit_of_signal() : fail(exit_failed, fmt::format("{}: {}", board, words));
   return false;
 }
 
-// The program is checked before anything moves.
-ProgramCheck told_check(const ProgramReader& program, const MachineDescription& machine,
-                        const InterpreterOptions& options, const GrblTarget& target) {
-  Diagnostics findings;
-  const ProgramCheck check = check_for_grbl(program, machine, options, target, findings);
-  show(findings);
-  return check;
+// The machine is idle and not locked. False, with a message and `code`.
+bool make_ready(GrblMachineConnection& opened, const RunArguments& arguments, int& code) {
+  if (arguments.home && !home_first(opened, arguments.board, {}, code)) return false;
+  if (!opened.session().is_locked()) return true;
+  const std::string alarm = opened.session().sender().alarm_words();
+  code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. Home it with --home, or unlock "
+                                       "it at its position with $X from another sender [grbl.locked]",
+                                       arguments.board, alarm.empty() ? "" : " (", alarm, alarm.empty() ? "" : ")"));
+  return false;
 }
 
-// Gives the sender lines, as many as it wants, up to the next stop.
-void feed(GrblSender& sender, GrblProgram& lines) {
-  while (sender.wants_lines()) {
-    const auto line = lines.next();
-    if (!line) return;
-    sender.add(line->text, line->line, line->silence);
-  }
-}
-
-struct GrblRunResult {
-  Seconds time{0};
-  std::uint64_t lines = 0;
-};
-
-// Of each axis that the machine has.
-nlohmann::ordered_json place_json(const GrblMachine& machine, const Point& place) {
+// Of each axis that the board has.
+nlohmann::ordered_json place_json(const GrblMachineSession& session) {
+  const Point place = session.sender().place().value_or(Point());
   nlohmann::ordered_json json;
-  for (const char letter : machine.axes) {
+  for (const char letter : session.board().axes) {
     if (const auto axis = axis_of(letter)) json[std::string(1, letter)] = place[*axis];
   }
   return json;
 }
 
-void print(const GrblRunResult& result, const RunArguments& arguments, const GrblConnection& opened,
-           const ProgramCheck& check) {
-  const Point place = opened.sender().place().value_or(Point());
-  const GrblMachine& machine = opened.sender().machine();
+void print(Seconds time, const RunArguments& arguments, GrblMachineConnection& opened, const ProgramCheck& check) {
+  const GrblMachineSession& session = opened.session();
+  const GrblMachine& board = session.board();
   if (arguments.json) {
     const nlohmann::ordered_json all = {{"program", arguments.program.program},
                                         {"grbl",
-                                         {{"firmware", machine.firmware},
-                                          {"version", machine.version},
-                                          {"receive_buffer", opened.sender().buffer_size()}}},
+                                         {{"firmware", board.firmware},
+                                          {"version", board.version},
+                                          {"receive_buffer", session.sender().buffer_size()}}},
                                         {"moves", check.moves},
-                                        {"lines", result.lines},
-                                        {"time_s", result.time.value()},
-                                        {"position_mm", place_json(machine, place)}};
+                                        {"lines", session.lines_of_program()},
+                                        {"time_s", time.value()},
+                                        {"position_mm", place_json(session)}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
     fmt::print(
         "{}: {} in {}, {:.1f} s; stopped at {} (machine). Steps were not counted, because {} {} does not report them\n",
-        arguments.program.program, counted(check.moves, "move"), counted(result.lines, "line"), result.time.value(),
-        opened.place_words(), machine.firmware, machine.version);
+        arguments.program.program, counted(check.moves, "move"), counted(session.lines_of_program(), "line"),
+        time.value(), opened.place_words(), board.firmware, board.version);
   }
 }
 
-// `waits`: the stop at which nobody can be asked, if there is one.
-int end_broken_off(const RunArguments& arguments, GrblConnection& opened, const std::optional<OperatorWait>& waits) {
-  const GrblSender& sender = opened.sender();
+int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened, const Answered& answered) {
+  const GrblMachineSession& session = opened.session();
   std::string words = interrupted_by() != 0 ? "interrupted" : "held";
-  if (sender.fault()) {
-    words = describe(*sender.fault(), arguments.program.program);
-  } else if (waits && interrupted_by() == 0) {
-    words = fmt::format(
-        "{} waits at {}, but there is no terminal to ask the operator: run it in a terminal, or with --yes when "
-        "everything is prepared [run.waits]",
-        arguments.program.program, describe(*waits));
+  if (session.fault()) {
+    words = describe(*session.fault(), arguments.program.program);
+  } else if (answered.refused) {
+    words = describe(*answered.refused);
+  } else if (answered.fault && interrupted_by() == 0) {
+    words = fmt::format("{} [{}]", answered.fault->message(), answered.fault->code());
   }
+  const auto& report = session.sender().report();
   // The report may be from before the brake, if the machine has not answered any more.
   const int failed =
       fail(exit_failed, fmt::format("{}; the machine was last in state {} at {} (machine coordinates). A Grbl machine "
                                     "cannot resume exactly where it stopped: start at a line with --from-line",
-                                    words, sender.report()->state, opened.place_words()));
+                                    words, report ? report->state : "unknown", opened.place_words()));
   return interrupted_by() != 0 ? exit_of_signal() : failed;
 }
 
-int stream(const RunArguments& arguments, GrblConnection& opened, GrblProgram& lines, const ProgramCheck& check,
-           const ScheduledChanges& changes) {
-  GrblSender& sender = opened.sender();
+// Runs a program that was checked. Returns the exit code.
+int stream(const RunArguments& arguments, GrblMachineConnection& opened, const MachineDescription& machine,
+           request::Start start, const ProgramCheck& check, GrblTimeLeft& time_left, ScheduledChanges& changes) {
+  GrblMachineSession& session = opened.session();
+  Diagnostics late;
+  start.findings = &late;
   ProgressDisplay progress(arguments.program.program, !arguments.quiet);
   ProgramMessages messages(arguments.program.program, !arguments.quiet);
-  lines.hear([&](const Operation& operation) { messages.show(operation, [&] { progress.clear(); }); });
+  start.watchers.operations = [&](const Operation& operation) { messages.show(operation, [&] { progress.clear(); }); };
+  std::optional<Seconds> begun;
+  start.watchers.path = [&](const PathItem&) {
+    if (begun) return;
+    begun = session.now();
+    changes.begin(*begun);
+  };
   OperatorPrompt prompt(arguments.program.program);
-  const Seconds begun = opened.now();
-  const std::uint64_t lines_before = sender.lines_sent();
-  TimedBytes timed(changes, begun);
-  while (!(lines.ended() && !lines.stop() && sender.at_rest()) && !sender.stopped()) {
-    feed(sender, lines);
-    opened.poll(GrblConnection::between_looks);
-    if (interrupted_by() != 0 || timed.look(opened)) sender.stop();
-    if (const std::string_view wait = opened.news_of_wait(); !wait.empty()) {
-      progress.clear();
-      note(std::string(wait));
-    }
-    if (check.nominal_time > Seconds(0)) progress.update(std::min(1.0, lines.nominal_time() / check.nominal_time));
-    if (!lines.stop() || !sender.at_rest()) continue;
-    progress.clear();
-    if (!asks_operator()) {
-      sender.stop();
-    } else if (prompt.hears_enter(*lines.stop())) {
-      prompt = OperatorPrompt(arguments.program.program);
-      lines.go_on();
-    }
+  Answered answered{.outcome = Outcome::failed};
+  const auto ticket = session.request(std::move(start));
+  if (!ticket) answered.refused = ticket.error();
+  while (session.busy()) {
+    const Seconds most = begun ? changes.act(session, [&] { return place_of(session, machine); }) : endless;
+    opened.poll(std::min({most, GrblMachineSession::between_looks, prompt.poll(session)}));
+    const MachineStatus status = session.status();
+    if (status.progress) progress.update(*status.progress, time_left.left(status));
   }
+  if (ticket) answered = answer_of(session.take_changes(), *ticket);
+  if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   progress.clear();
-  if (sender.stopped() || sender.fault()) return end_broken_off(arguments, opened, lines.stop());
-  print({.time = opened.now() - begun, .lines = sender.lines_sent() - lines_before}, arguments, opened, check);
-  return exit_done;
+  if (answered.outcome == Outcome::done) {
+    print(session.now() - begun.value_or(session.now()), arguments, opened, check);
+    return exit_done;
+  }
+  if (!session.fault()) show(late);
+  return end_broken_off(arguments, opened, answered);
 }
 
 }  // namespace
@@ -223,47 +178,54 @@ bool suits_grbl(const RunArguments& arguments) {
 }
 
 int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
-                InterpreterOptions options, const ScheduledChanges& changes) {
+                InterpreterOptions options, ScheduledChanges& changes) {
   int code = exit_done;
   brake_on_signals();
-  const auto opened = GrblConnection::open(arguments.board, code);
-  if (!opened || !make_ready(*opened, arguments.board, arguments.home, code)) return code;
-  const GrblSender& sender = opened->sender();
-  options.start = *sender.place();
-  set_offsets(options, sender.machine());
-  const GrblTarget target = GrblTarget::of(sender.machine());
-  const ProgramCheck check = told_check(program, machine, options, target);
+  const Seconds ahead(arguments.ahead.value_or(GrblSender::default_ahead.value()));
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, ahead, code);
+  if (!opened || !make_ready(*opened, arguments, code)) return code;
+  const GrblMachineSession& session = opened->session();
+  options.start = session.status().position.place;
+  set_offsets(options, session.board());
+  Diagnostics findings;
+  const ProgramCheck check = check_for_grbl(program, machine, options, GrblTarget::of(session.board()), findings);
+  show(findings);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
     note("the program starts at " + opened->place_words() + " (machine coordinates), with the offsets of the machine");
-  GrblProgram lines(program, machine, options, target, !arguments.yes);
+  const auto address = parse_board_address(arguments.board);
+  const double rate = address ? grbl_bytes_per_second(*address, session.board()) : 0;
+  GrblTimeLeft time_left(program.again(), machine, options, grbl_timing_of(session.board(), rate), check.nominal_time);
+  request::Start start{.program = program.again(),
+                       .options = options,
+                       .nominal_time = check.nominal_time,
+                       .waits_for_operator = !arguments.yes};
   if (arguments.start.line > 0) {
     const auto way = way_to_line(arguments, program, machine, options, code);
     if (!way) return code;
-    lines.begin_at(*way);
+    start.from = way->at;
+    start.lead_in = way->lead_in;
   }
-  opened->sender().follow(target.zero, Seconds(arguments.ahead.value_or(GrblSender::default_ahead.value())));
-  return stream(arguments, *opened, lines, check, changes);
+  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes);
 }
 
-int home_grbl(const HomeArguments& arguments) {
+int home_grbl(const HomeArguments& arguments, const MachineDescription& machine) {
   if (arguments.repeat > 1) {
     return fail(exit_bad_program,
                 "--repeat is not possible with Grbl, which does not report where its switches closed [grbl.cannot]");
   }
   int code = exit_done;
   brake_on_signals();
-  const auto opened = GrblConnection::open(arguments.board, code);
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, GrblSender::default_ahead, code);
   if (!opened) return code;
-  const Seconds begun = opened->now();
+  const Seconds begun = opened->session().now();
   const std::optional<Axis> axis =
       arguments.axis.empty() ? std::nullopt : axis_of(static_cast<char>(std::toupper(arguments.axis.front())));
-  if (!opened->home(code, axis)) return code;
-  const Point place = opened->sender().place().value_or(Point());
-  const double time = (opened->now() - begun).value();
+  if (!home_first(*opened, arguments.board, axis, code)) return code;
+  const double time = (opened->session().now() - begun).value();
   if (arguments.json) {
     const nlohmann::ordered_json all = {
-        {"homed", true}, {"time_s", time}, {"position_mm", place_json(opened->sender().machine(), place)}};
+        {"homed", true}, {"time_s", time}, {"position_mm", place_json(opened->session())}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
     fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, opened->place_words());

@@ -15,7 +15,7 @@ bool suits_grbl(const RunArguments& arguments);
 // Checks the program from the current machine position and with the machine's offsets, and streams it. Returns the exit
 // code.
 int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
-                InterpreterOptions options, const ScheduledChanges& changes);
-int home_grbl(const HomeArguments& arguments);
+                InterpreterOptions options, ScheduledChanges& changes);
+int home_grbl(const HomeArguments& arguments, const MachineDescription& machine);
 
 }  // namespace passo

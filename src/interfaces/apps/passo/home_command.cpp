@@ -63,7 +63,7 @@ int home(const HomeArguments& arguments) {
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
   if (!machine) return exit_bad_machine;
-  if (names_grbl_machine(arguments.board)) return home_grbl(arguments);
+  if (names_grbl_machine(arguments.board)) return home_grbl(arguments, *machine);
   if (!arguments.axis.empty()) {
     return fail(exit_bad_program, "AXIS " + arguments.axis +
                                       ": this board homes all its axes together; only Grbl boards home single axes "

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "grbl_connection.hpp"
 #include "jog_keys.hpp"
 #include "machine_connection.hpp"
 #include "program_input.hpp"
@@ -68,8 +69,8 @@ struct Ending {
 // The button is held: the lease is renewed, and a real machine is looked at more often than that.
 constexpr Seconds between_renewals{0.02};
 
-Ending jog_to_rest(MachineConnection& opened, const JogWords& words, const JogArguments& arguments) {
-  BoardMachineSession& session = opened.session();
+// `is_real`: the time of the session is that of the world.
+Ending jog_to_rest(MachineSession& session, bool is_real, const JogWords& words, const JogArguments& arguments) {
   const KnownPosition from = session.status().position;
   const JogWay way{.direction = words.way,
                    .speed = MmPerSecond(arguments.feed / seconds_per_minute),
@@ -88,7 +89,7 @@ Ending jog_to_rest(MachineConnection& opened, const JogWords& words, const JogAr
     }
     const bool holds = !arguments.held || session.now() - begun < Seconds(*arguments.held);
     if (holds && !brakes) try_request(session, request::RenewKeepAlive{});
-    session.poll(opened.has_board() ? between_renewals : endless);
+    session.poll(is_real ? between_renewals : endless);
   }
   const Answered answered = answer_of(session.take_changes(), *ticket);
   const MachineStatus status = session.status();
@@ -143,6 +144,24 @@ std::optional<std::string> wrong_numbers(const JogArguments& arguments) {
   return {};
 }
 
+// Without words: by keys.
+int jog_on_grbl(const JogArguments& arguments, const MachineDescription& machine,
+                const std::optional<JogWords>& words) {
+  int code = exit_done;
+  brake_on_signals();
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, GrblSender::default_ahead, code);
+  if (!opened) return code;
+  GrblMachineSession& session = opened->session();
+  if (!words) return jog_by_keys(session, true, machine, MmPerSecond(arguments.feed / seconds_per_minute));
+  const Ending ending = jog_to_rest(session, true, *words, arguments);
+  if (session.fault()) {
+    return fail(exit_failed, fmt::format("{}: {}", arguments.board, describe(*session.fault(), "")));
+  }
+  if (!ending.failure.empty()) return fail(exit_failed, ending.failure);
+  print(ending, machine, arguments.json);
+  return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;
+}
+
 }  // namespace
 
 int jog(const JogArguments& arguments) {
@@ -160,12 +179,16 @@ int jog(const JogArguments& arguments) {
   if (const auto wrong = wrong_numbers(arguments)) return fail(exit_bad_program, *wrong);
   int code = exit_done;
   outlive_readers();
+  if (names_grbl_machine(arguments.board)) return jog_on_grbl(arguments, *machine, by_keys ? std::nullopt : words);
   const auto opened = MachineConnection::open(*machine, {.board = arguments.board}, code);
   if (!opened) return code;
   brake_on_signals();
   if (!opened->greet(opened->any_greeting(), code)) return code;
-  if (by_keys) return jog_by_keys(*opened, *machine, MmPerSecond(arguments.feed / seconds_per_minute));
-  const Ending ending = jog_to_rest(*opened, *words, arguments);
+  if (by_keys) {
+    return jog_by_keys(opened->session(), opened->has_board(), *machine,
+                       MmPerSecond(arguments.feed / seconds_per_minute));
+  }
+  const Ending ending = jog_to_rest(opened->session(), opened->has_board(), *words, arguments);
   if (opened->session().status().trouble == LinkError::stopped) {
     return fail(exit_failed, "the board: " + stop_words(*opened, *machine));
   }

@@ -7,12 +7,15 @@
 #include <string_view>
 
 #include "commands.hpp"
+#include "machine_connection.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include <fmt/format.h>
 #include <poll.h>
 #include <termios.h>
 #include <unistd.h>
+
+#include "passo/link/await.hpp"
 
 namespace passo {
 namespace {
@@ -116,8 +119,8 @@ class RawTerminal {
 
 class KeyJog {
  public:
-  KeyJog(MachineConnection& machine, const MachineDescription& description, MmPerSecond speed)
-      : session_(machine.session()), real_time_(machine.has_board()), description_(description), speed_(speed) {}
+  KeyJog(MachineSession& session, bool is_real, const MachineDescription& description, MmPerSecond speed)
+      : session_(session), real_time_(is_real), description_(description), speed_(speed) {}
 
   int run() {
     fmt::print(
@@ -192,8 +195,8 @@ class KeyJog {
 
 }  // namespace
 
-int jog_by_keys(MachineConnection& machine, const MachineDescription& description, MmPerSecond speed) {
-  return KeyJog(machine, description, speed).run();
+int jog_by_keys(MachineSession& session, bool is_real, const MachineDescription& description, MmPerSecond speed) {
+  return KeyJog(session, is_real, description, speed).run();
 }
 
 }  // namespace passo

@@ -5,11 +5,14 @@
 // others: a short press makes a short move, and a held key continues after a moment.
 #pragma once
 
-#include "machine_connection.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/session/machine_session.hpp"
 
 namespace passo {
 
-// Returns the exit code. `speed` is the initial speed; the keys + and - change it.
-int jog_by_keys(MachineConnection& machine, const MachineDescription& description, MmPerSecond speed);
+// Returns the exit code. `is_real`: the time of the session is that of the world. `speed` is the initial speed; the
+// keys
+// + and - change it.
+int jog_by_keys(MachineSession& session, bool is_real, const MachineDescription& description, MmPerSecond speed);
 
 }  // namespace passo

@@ -8,6 +8,12 @@ void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
 }
 
+void add_ahead(CLI::App& command, std::optional<double>& ahead) {
+  command
+      .add_option("--ahead", ahead, "grbl: how long the machine may go on after the connection is lost, s (default: 1)")
+      ->check(CLI::Range(0.1, 60.0));
+}
+
 void add_board(CLI::App& command, std::string& board) {
   command.add_option("-b,--board", board,
                      "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico (see passo board), for "
@@ -72,6 +78,7 @@ void add_home_options(CLI::App& command, HomeArguments& arguments) {
 void add_serve_options(CLI::App& command, ServeArguments& arguments) {
   command.add_option("-m,--machine", arguments.machine, "machine file (TOML; default: an example machine)");
   add_board(command, arguments.board);
+  add_ahead(command, arguments.ahead);
   command.add_option("--grbl-tcp", arguments.grbl_tcp,
                      "HOST:PORT for G-code senders; port 0 picks a free port (default, if no interface is given: "
                      "127.0.0.1:7071, and the web interface at 127.0.0.1:7080)");
@@ -93,6 +100,8 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
                      "file with the token that HTTP clients must give; required if other computers can reach HOST");
   command.add_option("--http-name", arguments.http_names,
                      "host name under which browsers reach this server, e.g. through a proxy; can be repeated");
+  command.add_option("--macros", arguments.macros,
+                     "folder with macros (.ngc) for buttons and keys, and with subroutines for all programs");
   command.add_option("--data", arguments.data, "folder for the job queue, the job history and the alarms");
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");

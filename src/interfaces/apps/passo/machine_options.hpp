@@ -2,6 +2,7 @@
 // machine.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "commands.hpp"
@@ -14,6 +15,7 @@ namespace passo {
 
 void add_machine(CLI::App& command, std::string& machine);
 void add_board(CLI::App& command, std::string& board);
+void add_ahead(CLI::App& command, std::optional<double>& ahead);
 // Adds --system, a folder with the files of another computer's system.
 void add_system(CLI::App& command, std::string& system);
 

@@ -18,6 +18,7 @@
 #include "command_table.hpp"
 #include "command_words.hpp"
 #include "commands.hpp"
+#include "going_commands.hpp"
 #include "grade_options.hpp"
 #include "machine_options.hpp"
 #include "probing_commands.hpp"
@@ -54,6 +55,8 @@ constexpr const char* examples = R"(Examples:
   passo explain part.ngc:12                                   explain line 12, with the modes that are active there
   passo machine router.toml                                   describe a machine file
   passo probe corner --side front-left -o corner.ngc          generate a probing program
+  passo frame part.ngc -m router.toml -v work.var             generate a program that moves around the job
+  passo go park -m router.toml                                generate a program that parks the tool
   passo level board.ngc --map board.csv -o level.ngc          apply a height map to a program
   passo cam drill pads.dxf -o board.ngc                       generate a program for the holes of a circuit board
   passo tools feeds tools.toml -t 3 --material plywood        calculate feeds and speeds of a cutter
@@ -110,6 +113,11 @@ const std::vector<Command>& all_commands() {
        options_of<MachineArguments, add_machine_options, machine>},
       {"board", "list, flash, query and monitor boards", add_board_help, board_commands()},
       {"probe", "generate a probing program", options_of<ProbeArguments, add_probe_options, probe>},
+      {"frame", "generate a program that moves around a job, to show where it lies",
+       options_of<FrameArguments, add_frame_options, frame>},
+      {"go", "generate a program that goes to the park position, a home or the work zero, Z first",
+       options_of<GoArguments, add_go_options, go>},
+      {"macro", "generate a program from a macro and its values", options_of<MacroArguments, add_macro_options, macro>},
       {"level", "apply a height map to a program, or show a height map",
        options_of<LevelArguments, add_level_options, level>},
       {"cam", "generate programs from drawings and pictures: parts, pockets, circuit boards, reliefs", nullptr,

@@ -23,13 +23,13 @@ class OperatorPrompt {
   // Must be called before each turn. Prompts when the program waits, and detects the Enter key. Returns the maximum
   // duration of the turn. If prompts are impossible, stops the program.
   Seconds poll(MachineSession& session);
-  // Does the same for a machine without a session that has stopped: returns true when Enter was pressed. Takes at most
-  // 50 ms.
-  bool hears_enter(const OperatorWait& wait);
   bool gave_up() const { return fault_.has_value(); }
   const std::optional<ActivityFault>& fault() const { return fault_; }
 
  private:
+  // Returns true when Enter was pressed. Takes at most 50 ms.
+  bool hears_enter(const OperatorWait& wait);
+
   std::string program_;
   bool asked_ = false;
   std::optional<ActivityFault> fault_;

@@ -5,9 +5,11 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "passo/operations/length_text.hpp"
 #include "passo/tooling/tool_warnings.hpp"
+#include "passo/tooling/work_material.hpp"
 
 namespace passo {
 namespace {
@@ -37,6 +39,16 @@ ToolUse use_of(const PartJob& job, const PartOperation& operation, const TriedOp
   return use;
 }
 
+// Neither the file nor a chip load gives a feed rate.
+std::string no_feed_words(const PartJob& job) {
+  const std::string material = job.stock ? job.stock->material : "";
+  const auto names = work_material_names();
+  return fmt::format(
+      "the feed rate is the default, because the tool has none and {}; known are {}",
+      material.empty() ? "the stock has no material" : fmt::format("there are no chip loads for '{}'", material),
+      fmt::join(names, ", "));
+}
+
 }  // namespace
 
 std::string option_text(PartOperation operation, std::string_view name) {
@@ -50,6 +62,7 @@ std::vector<std::string> tool_notes(const PartJob& job, const PartOperation& ope
   const PartTool& tool = job.tools.at(operation.tool);
   std::vector<std::string> notes;
   if (!tool.feeds_from.empty() && !operation.has("feed")) notes.push_back(tool.feeds_from);
+  if (!tool.feed && !operation.has("feed") && operation.kind != PartKind::drill) notes.push_back(no_feed_words(job));
   for (const ToolWarning& warning : warnings_of(tool.tool, use_of(job, operation, tried), material)) {
     notes.push_back(fmt::format("warning: {}: {} [{}]", warning.message, warning.advice, warning.code));
   }

@@ -108,10 +108,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       .add_option("--after", arguments.start.after,
                   "distance along the toolpath after the start of that line's move, mm; needs --from-line")
       ->check(CLI::NonNegativeNumber);
-  command
-      .add_option("--ahead", arguments.ahead,
-                  "grbl: how long the machine may go on after the connection is lost, s (default: 1)")
-      ->check(CLI::Range(0.1, 60.0));
+  add_ahead(command, arguments.ahead);
   command.add_option("--journal", arguments.journal,
                      "board: file for the data that --resume needs (default: $XDG_STATE_HOME/passo/BOARD.journal or "
                      "~/.local/state/passo/BOARD.journal)");

@@ -1,7 +1,6 @@
 // passo run: checks the program, runs it on the machine, and writes the files that were asked for.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -240,6 +239,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   LinkMonitor line = link_monitor();
   const Seconds longest_turn = run.opened.is_on_a_line() ? LinkMonitor::between_looks : endless;
   OperatorPrompt prompt(run.arguments.program.program);
+  const auto place = [&] { return place_of(run.opened.machine(), machine); };
   run.changes.begin(session.now());
   const auto ticket = session.request(std::move(start));
   if (!ticket) {
@@ -250,7 +250,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
       const bool is_broken = run.port != nullptr && !run.port->poll();
       const bool must_stop = interrupted_by() != 0 || run.outputs.failed() || is_broken;
       if (must_stop && !std::exchange(brakes, true)) stop(session);
-      const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
+      const Seconds most = run.changes.any() ? run.changes.act(session, place) : endless;
       session.poll(std::min({most, longest_turn, prompt.poll(session)}));
       if (run.opened.is_on_a_line()) line.update(session.board());
       if (!run.opened.has_board()) tails.update(session, run.opened.machine(), machine);

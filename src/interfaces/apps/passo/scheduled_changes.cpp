@@ -103,9 +103,8 @@ bool ScheduledChanges::add_adaptive_feed(const std::string& file) {
   return true;
 }
 
-Seconds ScheduledChanges::act(BoardMachineSession& session, const VirtualMachine& machine,
-                              const MachineDescription& description) {
-  const Seconds most = update_rest(session, machine, description);
+Seconds ScheduledChanges::act(MachineSession& session, const std::function<std::vector<double>()>& place) {
+  const Seconds most = update_rest(session, place);
   for (; next_ < changes_.size() && changes_[next_].at <= now(session) && session.busy(); ++next_) {
     // The next hold waits until this hold is over.
     if (changes_[next_].is_hold() && holds_now_) break;
@@ -114,7 +113,7 @@ Seconds ScheduledChanges::act(BoardMachineSession& session, const VirtualMachine
   return most;
 }
 
-void ScheduledChanges::apply(const Change& change, BoardMachineSession& session) {
+void ScheduledChanges::apply(const Change& change, MachineSession& session) {
   if (!change.is_hold()) {
     try_request(session, request::Override{.feed = change.factor, .adaptive_feed = change.adaptive});
     return;
@@ -128,8 +127,7 @@ void ScheduledChanges::apply(const Change& change, BoardMachineSession& session)
 
 // Decides how long the machine goes on resting, and returns that time. A hold lasts until its pause is over; a hold
 // without a pause stops the program. A feed of 0 lasts until the next change; if there is none, the program is stopped.
-Seconds ScheduledChanges::update_rest(BoardMachineSession& session, const VirtualMachine& machine,
-                                      const MachineDescription& description) {
+Seconds ScheduledChanges::update_rest(MachineSession& session, const std::function<std::vector<double>()>& place) {
   const MachineStatus status = session.status();
   if (!session.busy() || status.state != MachineState::hold || !status.rests) return endless;
   if (!holds_now_) {
@@ -141,7 +139,7 @@ Seconds ScheduledChanges::update_rest(BoardMachineSession& session, const Virtua
   HoldSummary& hold = holds_.back();
   if (!resume_at_) {
     hold.rest = now(session);
-    hold.place = place_of(machine, description);
+    hold.place = place();
     resume_at_ = now(session) + pause_.value_or(Seconds(0));
   }
   if (pause_ && *resume_at_ - now(session) > hardly_any) return *resume_at_ - now(session);

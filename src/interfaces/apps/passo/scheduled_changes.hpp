@@ -2,6 +2,7 @@
 // feed at given times.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,17 @@ class ScheduledChanges {
   // faulty adaptive feed file, on standard error, and returns nothing.
   static std::optional<ScheduledChanges> read(const ChangeArguments& arguments);
 
+  bool any() const { return !changes_.empty(); }
+  // Must be called when the program begins. `now` is the board's time.
+  void begin(Seconds now) { begun_ = now; }
+  // Must be called before each turn of the session. Returns the maximum duration of the turn. `place`: that of each
+  // axis now.
+  Seconds act(MachineSession& session, const std::function<std::vector<double>()>& place);
+
+  // The holds in which the machine has stopped.
+  std::vector<HoldSummary> holds() const;
+
+ private:
   struct Change {
     Seconds at{0};
     std::optional<double> factor = {};    // feed factor
@@ -54,22 +66,10 @@ class ScheduledChanges {
     std::optional<Seconds> pause = {};    // duration of a hold; empty: the hold ends the run
     bool is_hold() const { return !factor && !adaptive; }
   };
-  // In order of time.
-  const std::vector<Change>& all() const { return changes_; }
-  bool any() const { return !changes_.empty(); }
-  // Must be called when the program begins. `now` is the board's time.
-  void begin(Seconds now) { begun_ = now; }
-  // Must be called before each turn of the session. Returns the maximum duration of the turn.
-  Seconds act(BoardMachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
 
-  // The holds in which the machine has stopped.
-  std::vector<HoldSummary> holds() const;
-
- private:
-  Seconds now(const BoardMachineSession& session) const { return session.now() - begun_; }
-  Seconds update_rest(BoardMachineSession& session, const VirtualMachine& machine,
-                      const MachineDescription& description);
-  void apply(const Change& change, BoardMachineSession& session);
+  Seconds now(const MachineSession& session) const { return session.now() - begun_; }
+  Seconds update_rest(MachineSession& session, const std::function<std::vector<double>()>& place);
+  void apply(const Change& change, MachineSession& session);
   [[nodiscard]] bool add_adaptive_feed(const std::string& file);
 
   std::vector<Change> changes_;

@@ -189,6 +189,7 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
     grbl.apply_offsets(things.grbl_board->offsets());
     grbl.share_offsets(
         [board = things.grbl_board](const SavedParameters& parameters) { board->store_offsets(parameters); });
+    things.grbl_board->watch_offsets([&grbl, board = things.grbl_board] { grbl.apply_offsets(board->offsets()); });
   }
   if (!arguments.data.empty()) remember(grbl, arguments.data);
   std::unique_ptr<ServedStatus> status;
@@ -216,7 +217,8 @@ int serve_grbl_board(const ServeArguments& arguments, const std::string& text, c
                      ServeDaemon::Lines lines, ServiceNotice& service) {
   int code = exit_done;
   brake_on_signals();
-  const auto opened = GrblMachineConnection::open(arguments.board, machine, code, arguments.system);
+  const Seconds ahead(arguments.ahead.value_or(GrblSender::default_ahead.value()));
+  const auto opened = GrblMachineConnection::open(arguments.board, machine, ahead, code, arguments.system);
   if (!opened) return code;
   return serve_machine({.arguments = arguments,
                         .text = text,
@@ -241,6 +243,11 @@ int serve(const ServeArguments& given) {
   if (!things) return exit_bad_program;
   if (!things->empty() && arguments.board != "virtual") {
     return fail(exit_bad_program, "--touch is only for the simulated machine [serve.touch]");
+  }
+  if (arguments.ahead && !names_grbl_machine(arguments.board)) {
+    return fail(exit_bad_program,
+                "--ahead is only for --board grbl:; boards of Passo brake by themselves when the connection is lost "
+                "[serve.ahead]");
   }
   if (arguments.check) return check_serve(arguments, machine->name);
   int code = exit_done;

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "passo/macro/macro.hpp"
+
 namespace passo {
 namespace {
 
@@ -42,10 +44,11 @@ struct ServedServices {
 };
 
 ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       const ServedServices& services,
+                       const ServedServices& services, const std::string& macro_folder,
                        std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
+  options.macro_folder = macro_folder;
   options.keep_offsets = std::move(keep);
   options.wall_time = seconds_since_1970;
   options.page = [page](const WebRequest& request) -> std::optional<WebAnswer> {
@@ -68,6 +71,18 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
   options.timer = &services.timer;
   if (jobs.journal != nullptr) options.broken_off = jobs.journal->found();
   return options;
+}
+
+// Shows what is wrong with single macros; these are left out.
+bool macros_are_good(const std::string& folder, int& code) {
+  if (folder.empty()) return true;
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    code = fail(exit_bad_program, fmt::format("--macros {}: there is no such folder [serve.macros]", folder));
+    return false;
+  }
+  show(read_macro_folder(folder).findings, folder);
+  return true;
 }
 
 // As many connections as files may be open, and some files left: for the board, for what is kept, and for a newcomer. A
@@ -102,7 +117,7 @@ ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& 
       api_(machine, session, owner,
            api_options(
                arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
-               {boards_.contact, boards_.settings, maker_, studies_, timer_},
+               {boards_.contact, boards_.settings, maker_, studies_, timer_}, arguments.macros,
                [this](const SavedParameters& parameters, const ToolTable& tools) { return keep(parameters, tools); })) {
 }
 
@@ -111,6 +126,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
                                            int& code) {
   const auto place = web_place(arguments, code);
   if (!place) return nullptr;
+  if (!macros_are_good(arguments.macros, code)) return nullptr;
   std::unique_ptr<JobHistory> history;
   std::unique_ptr<ServedOffsets> offsets;
   if (!arguments.data.empty()) {
@@ -188,6 +204,11 @@ void ServedWeb::follow_board(GrblMachineSession& board, double bytes_per_second)
   api_.apply_offsets(board.offsets(api_.parameters()));
   board_ = &board;
   boards_.settings.use(board);
+  board.watch_offsets([this] {
+    api_.apply_offsets(board_->offsets(api_.parameters()));
+    if (grbl_ != nullptr) grbl_->apply_offsets(api_.parameters());
+    if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
+  });
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {

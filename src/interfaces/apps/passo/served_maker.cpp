@@ -58,10 +58,7 @@ bool ServedMaker::keep(const std::string& name, std::string_view bytes) {
     fs::remove(temporary, failed);
     return false;
   }
-  if (name == read_name_) {
-    reader_.end();
-    read_name_.clear();
-  }
+  forget_reading(name);
   if (same != kept_.end()) {
     *same = {.name = name, .bytes = bytes.size()};
   } else {
@@ -111,6 +108,22 @@ void ServedMaker::poll_shapes() {
   shapes.words = content_of(folder + BackgroundProcess::said_file).substr(0, BackgroundProcess::longest_words);
   if (good) shapes.json = content_of(folder + BackgroundProcess::printed_file);
   if (!good && shapes.words.empty()) shapes.words = words_of_end(*end);
+}
+
+void ServedMaker::forget_reading(const std::string& name) {
+  if (name != read_name_) return;
+  reader_.end();
+  read_name_.clear();
+}
+
+bool ServedMaker::remove(const std::string& name) {
+  const auto found = find(name);
+  if (found == kept_.end()) return false;
+  forget_reading(name);
+  std::error_code none;
+  fs::remove(folder_.path(name), none);
+  kept_.erase(found);
+  return true;
 }
 
 void ServedMaker::clear() {

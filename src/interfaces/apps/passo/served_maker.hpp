@@ -21,6 +21,7 @@ class ServedMaker final : public CamService {
   std::optional<std::string> content(const std::string& name, std::size_t most) const override;
   std::string folder() const override;
   CamShapes shapes(const std::string& name) override;
+  bool remove(const std::string& name) override;
   void clear() override;
   bool begin(const CamOrder& order) override;
   const CamResult& result() override;
@@ -38,6 +39,7 @@ class ServedMaker final : public CamService {
   };
   std::vector<Kept>::const_iterator find(const std::string& name) const;
   void poll_shapes();
+  void forget_reading(const std::string& name);  // its shapes are read no longer
 
   TemporaryFolder folder_;
   std::vector<Kept> kept_;

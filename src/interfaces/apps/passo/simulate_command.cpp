@@ -139,16 +139,24 @@ int write_picture(const std::string& path, const SimulateArguments& arguments, c
   return done ? exit_done : fail(exit_failed, done.error().message);
 }
 
-int write_files(const SimulateArguments& arguments, const Simulation& simulation, const CutTarget* target) {
+// The stock as a body: between the cells, its walls are cut a second time.
+int write_stl(const SimulateArguments& arguments, const StockJob& job, const FeedLook& look, unsigned threads,
+              const Simulation& simulation) {
+  const std::size_t step = arguments.stl_step.value_or(usual_body_step(simulation.field));
+  WallHeights walls = WallHeights::at_walls_of(simulation.field, step);
+  cut_walls(job, look, simulation.tools, threads, simulation.field, walls);
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.stl);
+  if (!file) return fail(exit_failed, file.error().message);
+  write_stock_body(simulation.field, step, walls, *file);
+  const Status<OutputError> done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+int write_pictures(const SimulateArguments& arguments, const Simulation& simulation, const CutTarget* target) {
   for (const std::string& picture : arguments.pictures) {
     if (const int code = write_picture(picture, arguments, simulation, target); code != exit_done) return code;
   }
-  if (arguments.stl.empty()) return exit_done;
-  Result<OutputFile, OutputError> file = OutputFile::open(arguments.stl);
-  if (!file) return fail(exit_failed, file.error().message);
-  write_stock_body(simulation.field, arguments.stl_step.value_or(usual_body_step(simulation.field)), *file);
-  const Status<OutputError> done = file->commit();
-  return done ? exit_done : fail(exit_failed, done.error().message);
+  return exit_done;
 }
 
 // Reads the files of tools and machine into the wishes. Returns an exit code.
@@ -196,7 +204,9 @@ int simulate_job(const SimulateArguments& arguments, const Wishes& wishes, const
     const double sideways = is_body ? std::sqrt(2) + 1 + thinner_for(cell) / cell : 2;
     simulation.difference->unseen_sideways = sideways * cell.value();
   }
-  if (const int code = write_files(arguments, simulation, target ? &*target : nullptr); code != exit_done) return code;
+  int code = write_pictures(arguments, simulation, target ? &*target : nullptr);
+  if (code == exit_done && !arguments.stl.empty()) code = write_stl(arguments, job, look, threads, simulation);
+  if (code != exit_done) return code;
   Diagnostics findings(std::numeric_limits<std::size_t>::max());
   add_findings(simulation, findings);
   if (!arguments.json) show(findings);

@@ -77,8 +77,11 @@ std::string to_text(const Simulation& simulation) {
                     duration_in_words(summary.cutting_time()), summary.rate().value, line_in_words(summary.rate())));
     add("depth of cut",
         fmt::format("{} at most{}", mm_in_words(summary.depth().value), line_in_words(summary.depth())));
-    add("engagement", fmt::format("{:.0f} % of the diameter at most{}", 100 * summary.engagement().value,
-                                  line_in_words(summary.engagement())));
+    add("engagement",
+        fmt::format("{:.0f} % of the diameter at most{}; above {:.0f} % over {:.0f} % of the cutting distance",
+                    100 * summary.engagement().value, line_in_words(summary.engagement()),
+                    100 * CutSummary::heavy_engagement,
+                    summary.cutting_way() > 0 ? 100 * std::min(1.0, summary.heavy_way() / summary.cutting_way()) : 0));
   }
   if (simulation.difference) {
     add("material left", side_in_words(simulation.difference->left));
@@ -100,29 +103,31 @@ std::string to_json(const Simulation& simulation, const Diagnostics& findings) {
                      {"shape", std::string(name_of(simulation.tools[i].cutter.kind()))},
                      {"diameter_mm", 2 * simulation.tools[i].cutter.radius.value()}});
   }
-  nlohmann::ordered_json json = {{"good", !findings.any_error()},
-                                 {"moves", summary.moves()},
-                                 {"cutting_moves", summary.cutting_moves()},
-                                 {"stock",
-                                  {{"low", as_json(field.block().low)},
-                                   {"high", as_json(field.block().high)},
-                                   {"cell_mm", field.cell()},
-                                   {"columns", field.columns()},
-                                   {"rows", field.rows()}}},
-                                 {"tools", std::move(tools)},
-                                 {"removed_mm3", summary.volume()},
-                                 {"left_mm3", field.volume()},
-                                 {"cutting_time_s", summary.cutting_time().value()},
-                                 {"cutting_way_mm", summary.cutting_way()},
-                                 {"mean_removal_mm3_s", summary.mean_rate()},
-                                 {"largest_removal", as_json(summary.rate(), "mm3_s")},
-                                 {"largest_depth", as_json(summary.depth(), "mm")},
-                                 {"largest_engagement", as_json(summary.engagement(), "of_diameter")},
-                                 {"rapids_through_stock", summary.count(CutTrouble::Kind::rapid)},
-                                 {"cuts_deeper_than_flutes", summary.count(CutTrouble::Kind::flutes)},
-                                 {"holder_hits", summary.count(CutTrouble::Kind::holder)},
-                                 {"clamp_hits", summary.count(CutTrouble::Kind::clamp)},
-                                 {"cuts_below_stock", summary.count(CutTrouble::Kind::below)}};
+  nlohmann::ordered_json json = {
+      {"good", !findings.any_error()},
+      {"moves", summary.moves()},
+      {"cutting_moves", summary.cutting_moves()},
+      {"stock",
+       {{"low", as_json(field.block().low)},
+        {"high", as_json(field.block().high)},
+        {"cell_mm", field.cell()},
+        {"columns", field.columns()},
+        {"rows", field.rows()}}},
+      {"tools", std::move(tools)},
+      {"removed_mm3", summary.volume()},
+      {"left_mm3", field.volume()},
+      {"cutting_time_s", summary.cutting_time().value()},
+      {"cutting_way_mm", summary.cutting_way()},
+      {"mean_removal_mm3_s", summary.mean_rate()},
+      {"largest_removal", as_json(summary.rate(), "mm3_s")},
+      {"largest_depth", as_json(summary.depth(), "mm")},
+      {"largest_engagement", as_json(summary.engagement(), "of_diameter")},
+      {"heavy_engagement", {{"above_of_diameter", CutSummary::heavy_engagement}, {"way_mm", summary.heavy_way()}}},
+      {"rapids_through_stock", summary.count(CutTrouble::Kind::rapid)},
+      {"cuts_deeper_than_flutes", summary.count(CutTrouble::Kind::flutes)},
+      {"holder_hits", summary.count(CutTrouble::Kind::holder)},
+      {"clamp_hits", summary.count(CutTrouble::Kind::clamp)},
+      {"cuts_below_stock", summary.count(CutTrouble::Kind::below)}};
   if (simulation.difference) {
     json["material_left"] = as_json(simulation.difference->left);
     json["gouges"] = as_json(simulation.difference->gouge);

@@ -3,13 +3,14 @@
 #include <numbers>
 
 #include "fake_pair.hpp"
+#include "grbl_program_lines.hpp"
 #include "kit/example_machine.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "passo/sender/grbl_forecast.hpp"
 #include "passo/sender/grbl_machine_session.hpp"
-#include "passo/sender/grbl_program.hpp"
+#include "passo/sender/grbl_program_check.hpp"
 
 namespace passo {
 namespace {
@@ -76,7 +77,7 @@ class GrblAxes : public testing::Test {
     options.start = *pair.sender.place();
     Diagnostics findings;
     EXPECT_TRUE(check_for_grbl(reader, machine, options, target, findings).good) << render(findings, false);
-    GrblProgram program(reader, machine, options, target, false);
+    test::GrblProgramLines program(reader, machine, options, target, false);
     std::vector<std::uint32_t> sources;
     const auto feed = [&] {
       while (pair.sender.wants_lines()) {

@@ -187,6 +187,9 @@ TEST(GrblDialects, broken_lines_tell_nothing) {
   EXPECT_TRUE(machine.settings.empty());
   EXPECT_FALSE(read_grbl_report("<Idle|MPos:nan,0,0>")->machine_place);
   EXPECT_FALSE(read_grbl_report("<Idle|Bf:-1,1e9>")->bytes_free);
+  EXPECT_EQ(read_grbl_report("<Run|FS:1500,8000>")->feed, 1500);
+  EXPECT_EQ(read_grbl_report("<Run|F:12.5>")->feed, 12.5);
+  EXPECT_FALSE(read_grbl_report("<Run|FS:inf,0>")->feed);
 }
 
 }  // namespace

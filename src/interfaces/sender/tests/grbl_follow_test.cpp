@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "followed_pair.hpp"
+#include "grbl_program_lines.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "passo/sender/grbl_program.hpp"
 
 namespace passo {
 namespace {
@@ -129,7 +128,7 @@ TEST(GrblFollow, costs_no_time) {
     Diagnostics findings;
     auto program = ProgramReader::open(file.path());
     ASSERT_TRUE(program) << name;
-    GrblProgram lines(*program, router, {}, {}, false);
+    test::GrblProgramLines lines(*program, router, {}, {}, false);
     std::vector<std::string> texts;
     while (const auto line = lines.next()) texts.push_back(line->text);
     double times[2] = {0, 0};

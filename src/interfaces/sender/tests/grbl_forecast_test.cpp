@@ -1,7 +1,10 @@
 #include "passo/sender/grbl_forecast.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <regex>
 #include <string>
 
 #include <fmt/format.h>
@@ -55,6 +58,29 @@ TEST(GrblForecast, measures_arcs_along_their_chords) {
   EXPECT_NEAR(forecast.finish().time.value(), circle / 10 + 10.0 / 500, 0.005);
 }
 
+// GrblCode writes the F with which the tool has the programmed feed, here 10 mm/s.
+TEST(GrblForecast, knows_that_a_core_xy_measures_its_motors) {
+  GrblMachine machine;
+  machine.axes = "XYZ";
+  for (const char* line : {"[OPT:VC,15,128]", "$11=0.010", "$12=0.002", "$100=400", "$101=400", "$102=400", "$110=6000",
+                           "$111=6000", "$112=6000", "$120=100000", "$121=100000", "$122=100000"}) {
+    machine.hear(line);
+  }
+  const auto time = [&](const char* line) {
+    GrblForecast forecast(limits_of(machine), network, {}, {});
+    forecast.add(line, 1);
+    return forecast.finish().time.value();
+  };
+  EXPECT_NEAR(time("G1F848.528X100Y0Z0"), 10, 1e-3);
+  EXPECT_NEAR(time("G1F848.528X100Y100Z0"), std::sqrt(2) * 10, 1e-3);
+  EXPECT_NEAR(time("G1F600X0Y0Z50"), 5, 1e-3);
+  EXPECT_NEAR(time("G3F848.528X-20Y0Z0I-10J0"), std::numbers::pi, 5e-3);
+  EXPECT_NEAR(time("G93G1F6X100Y100Z20"), 10, 1e-3);
+  // $110 and $111 are the motors' speeds: 100 mm/s. Along a diagonal one motor makes the whole way.
+  EXPECT_NEAR(time("G0X100Y0Z0"), 1, 2e-3);
+  EXPECT_NEAR(time("G0X100Y100Z0"), 2, 2e-3);
+}
+
 // 0.1 mm per line at 100 mm/s: a thousand lines a second, and the connection carries half of them.
 TEST(GrblForecast, tells_what_the_connection_costs_and_which_feed_it_carries) {
   constexpr double line = 11520 / 24.0;  // lines per second
@@ -73,6 +99,36 @@ TEST(GrblForecast, tells_what_the_connection_costs_and_which_feed_it_carries) {
   EXPECT_GT(faster.time.value(), 20'000 / line) << "the last byte of a line must have arrived";
   EXPECT_LT(faster.time.value(), 20'000 / line * 1.02);
   EXPECT_NEAR(faster.unhindered.value(), 2000.0 / 80 + 80.0 / 500, 0.01);
+}
+
+// The programs of ../shared/peers/motion-mm on grblHAL's simulator, whose times stand in the README there. The
+// simulator reads its input at 115,200 baud, also from the network: the 122,327 bytes of p02 alone take 10.6 s.
+TEST(GrblForecast, is_within_a_percent_of_grblhal) {
+  const std::filesystem::path folder = std::filesystem::path(PASSO_SOURCE_DIR) / "../shared/peers/motion-mm";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/peers/motion-mm beside this checkout";
+  std::ifstream readme(folder / "README.md");
+  static const std::regex pattern(R"(\| (p\d\d) .*\| ([0-9.]+) \|$)");  // the last column
+  int compared = 0;
+  for (std::string row; std::getline(readme, row);) {
+    std::smatch found;
+    if (!std::regex_match(row, found, pattern)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (!entry.path().filename().string().starts_with(found[1].str() + "_")) continue;
+      GrblLimits limits = router();
+      limits.acceleration[Axis::z] = MmPerSecond2(500);
+      limits.blocks = 100;
+      GrblForecast forecast(limits, {.bytes_per_second = 11520, .buffer = 1023}, {}, {});
+      std::ifstream program(entry.path());
+      for (std::string line; std::getline(program, line);) {
+        if (!line.empty() && line[0] != '(' && line[0] != '%') forecast.add(line, 0);
+      }
+      const double ratio = forecast.finish().time.value() / std::stod(found[2]);
+      fmt::print("{:.4f} of grblHAL's time: {}\n", ratio, entry.path().filename().string());
+      EXPECT_NEAR(ratio, 1, 0.01) << entry.path().filename();
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 6);
 }
 
 }  // namespace

@@ -158,6 +158,7 @@ TEST_F(GrblSessions, a_released_key_stops_a_jog_soon) {
     ASSERT_TRUE(run.ask(request::RenewKeepAlive{}));
   }
   EXPECT_NEAR(run.grbl.speed(), 40, 1) << "it reaches its speed";
+  EXPECT_NEAR(run.session.status().speed_now.value(), 40, 1) << "as the board reports it";
   const double was = run.grbl.place()[Axis::x];
   const Seconds released = run.session.now();
   ASSERT_TRUE(run.ask(request::Stop{}));
@@ -172,6 +173,22 @@ TEST_F(GrblSessions, a_released_key_stops_a_jog_soon) {
   EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::stopped);
   EXPECT_EQ(run.session.state(), MachineState::idle);
   EXPECT_NEAR(run.session.status().position.place[Axis::x], run.grbl.place()[Axis::x], 1e-3);
+}
+
+TEST_F(GrblSessions, a_cancel_at_the_end_of_a_jog_does_not_leave_a_board_that_takes_no_line) {
+  run.grbl.put(120, 100);  // it brakes for longer than the pause between two cancels
+  run.grbl.second_cancel_is_late = true;
+  ASSERT_TRUE(run.go_online());
+  const auto ticket = run.ask(request::Jog{
+      .way = {.direction = Point{{{1, 0, 0}}}, .speed = MmPerSecond(40), .distance = Mm(0)}, .lease = Seconds(2)});
+  run.play_for(Seconds(1));
+  ASSERT_TRUE(run.ask(request::Stop{}));
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  const double x = run.grbl.place()[Axis::x];
+  const auto done = run.ask_and_wait(grbl_start("G91 G1 X2 F1200\nM2\n"));
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->outcome, Outcome::done);
+  EXPECT_NEAR(run.grbl.place()[Axis::x], x + 2, 0.005);
 }
 
 TEST_F(GrblSessions, a_jog_ends_with_its_lease_and_without_its_host) {

@@ -1,4 +1,7 @@
 // Spindles, inputs and outputs, probing, user codes.
+#include <filesystem>
+#include <fstream>
+
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,6 +57,39 @@ TEST(UserCodes, carry_their_number_and_words_where_they_are_allowed) {
   EXPECT_EQ(code.number, 101);
   EXPECT_EQ(code.p, 1.5);
   EXPECT_EQ(code.q, -1);
+}
+
+// A folder with the subroutine of M123.
+InterpreterOptions with_m123(const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_user_codes";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "m123.ngc") << text;
+  InterpreterOptions options;
+  options.sub_folders = {folder.string()};
+  return options;
+}
+
+TEST(UserCodes, call_the_subroutine_of_their_name_with_p_and_q) {
+  const InterpreterOptions options = with_m123("o<m123> sub\nG0 X#1 Y#2\no<m123> endsub\n");
+  const Interpreted result = interpret_text("G21\nM123 P7 Q8\nM123 Q5\nG0 Z1\nM2\n", options);
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_THAT(result.calls(), HasSubstr("STRAIGHT_TRAVERSE(7.0000, 8.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
+                                        "STRAIGHT_TRAVERSE(-1.0000, 5.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
+                                        "STRAIGHT_TRAVERSE(-1.0000, 5.0000, 1.0000"));
+  EXPECT_TRUE(result.all<operation::UserCode>().empty());
+}
+
+TEST(UserCodes, with_a_subroutine_stand_alone_and_do_not_call_themselves_endlessly) {
+  const InterpreterOptions options = with_m123("o<m123> sub\nM123 P#1\no<m123> endsub\n");
+  const auto code = [&](const std::string& text) {
+    const Interpreted result = interpret_text(text, options);
+    return result.diagnostics.any_error() ? result.diagnostics.all().front().code : std::string();
+  };
+  EXPECT_EQ(code("G21\nM123 P7\nM2\n"), "gcode.calls-too-deep");
+  EXPECT_EQ(code("G21\nG1 X1 F100 M123\nM2\n"), "gcode.unused-word");
+  EXPECT_EQ(code("G21\nM124 P7\nM2\n"), "gcode.user-code") << "no file";
+  with_m123("o<m124> sub\no<m124> endsub\n");
+  EXPECT_EQ(code("G21\nM123 P7\nM2\n"), "gcode.unknown-sub") << "the file has another subroutine";
 }
 
 TEST(Probing, a_preview_stops_before_the_end_as_rs274_does) {

@@ -64,7 +64,10 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
                             "[spindle]\n",
                             "[silence]\n",
                             "[work]\n",
+                            "[park]\n",
                             "[homing]\n",
+                            "[tool_change]\n",
+                            "[tool_change.rack]\n",
                             "[inputs]\n",
                             "[outputs]\n",
                             "[axis.X]\n",
@@ -96,9 +99,10 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   EXPECT_GE(seen.size(), 49U);
 
   for (const char* source :
-       {"machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
+       {"machine/machine_file/board_reader", "machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
         "machine/machine_file/machine_reader", "machine/machine_file/homing_reader", "machine/machine_file/pins_reader",
-        "machine/machine_file/screw_reader", "machine/machine_file/torque_reader", "core/toml/table_reader",
+        "machine/machine_file/park_reader", "machine/machine_file/screw_reader",
+        "machine/machine_file/tool_change_reader", "machine/machine_file/torque_reader", "core/toml/table_reader",
         "core/toml/toml_document"}) {
     const std::string code = content_of(fmt::format("src/{}.cpp", source));
     for (std::size_t i = code.find("\"machine."); i != std::string::npos; i = code.find("\"machine.", i + 1)) {

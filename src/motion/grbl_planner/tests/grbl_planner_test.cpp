@@ -130,6 +130,39 @@ TEST(GrblPlanner, stops_if_lines_are_late) {
               20.0 / 50 + 0.1 + 2 * (0.05 - (50 + dip) / 2 * 0.05 / 50), 1e-6);
 }
 
+// Along X both motors move as far as the tool; along a diagonal one of them moves twice as far in each axis.
+TEST(GrblPlanner, plans_the_motors_of_a_core_xy) {
+  GrblLimits limits = limits_of_router();
+  limits.core_xy = true;
+  const auto time = [&](const Point& end, double feed) {
+    PerLine lines;
+    GrblPlanner planner(limits, {});
+    planner.hear([&](const GrblPhase& phase) { lines.add(phase); });
+    planner.add_line(end, MmPerSecond(feed), 1, Seconds(0));
+    const double taken = planner.wait_for_rest(Seconds(0), Seconds(0)).value();
+    EXPECT_NEAR(lines[1].length, std::hypot(end[Axis::x], end[Axis::y]), 1e-9) << "the tool's way";
+    EXPECT_NEAR(lines[1].time, taken, 1e-9);
+    return taken;
+  };
+  EXPECT_NEAR(time(at(100), infinite), 100.0 / 100 + 100.0 / 500, 1e-9);
+  EXPECT_NEAR(time(at(100, 100), infinite), 200.0 / 100 + 100.0 / 500, 1e-9);
+  const double tool = 50 * std::numbers::sqrt2 / 2;  // mm/s at a feed of 50 mm/s
+  const double acceleration = 500;
+  EXPECT_NEAR(time(at(0, 100), 50), 100 / tool + tool / acceleration, 1e-9);
+  EXPECT_NEAR(time(at(60, 60), 50), 120.0 / 50 + 50.0 / 500, 1e-9);
+  // A right angle between the diagonals: one motor stops, the other one starts.
+  PerLine lines;
+  GrblPlanner planner(limits, {});
+  planner.hear([&](const GrblPhase& phase) { lines.add(phase); });
+  planner.add_line(at(50, 50), MmPerSecond(80), 1, Seconds(0));
+  planner.add_line(at(100, 0), MmPerSecond(80), 2, Seconds(0));
+  planner.wait_for_rest(Seconds(0), Seconds(0));
+  const double sine = std::sqrt(0.5);
+  const double along_motor = std::sqrt(500 * std::numbers::sqrt2 * 0.01 * sine / (1 - sine));
+  EXPECT_NEAR(lines[1].exit, along_motor / std::numbers::sqrt2, 1e-9);
+  EXPECT_NEAR(lines[1].top, 80 / std::numbers::sqrt2, 1e-9);
+}
+
 TEST(GrblPlanner, divides_arcs_by_the_tolerance) {
   std::vector<GrblBlock> blocks;
   GrblPlanner planner(limits_of_router(), at(10));

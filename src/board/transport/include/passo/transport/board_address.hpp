@@ -5,6 +5,7 @@
 //   serial:/dev/ttyUSB0@115200    at another baud rate
 //   sim:uno                       that board's firmware on an emulated chip, in this process
 //   grbl:/dev/ttyUSB0             a machine with Grbl 1.1, at 115,200 baud; also @BAUD and grbl:tcp:HOST:PORT
+//   grbl:tcp:HOST:PORT@115200     the same behind a serial line of that rate, which somebody connects to the network
 //   grbl:ws://HOST:PORT           the same through a WebSocket; without a port, 81
 //   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; IPv6 addresses in brackets: [::1]
 #pragma once
@@ -25,6 +26,7 @@ struct BoardAddress {
   std::string place;           // device, host, or emulated board
   std::string port;            // tcp, websocket
   unsigned baud = usual_baud;  // serial
+  unsigned behind_baud = 0;    // tcp: of a serial line behind the network; 0: there is none
   bool speaks_grbl = false;    // the other end is a machine that accepts G-code, not a board
 
   bool operator==(const BoardAddress&) const = default;

@@ -45,6 +45,8 @@ class CutSummary {
   static constexpr std::size_t most_kept = 10;
   // mm: smaller values are rounding errors.
   static constexpr double least_depth = 0.005;
+  // A cut wider than this fraction of the diameter is heavy: a slot, or an inside corner.
+  static constexpr double heavy_engagement = 0.7;
 
   explicit CutSummary(std::vector<ToolShape> tools) : tools_(std::move(tools)) {}
 
@@ -60,6 +62,8 @@ class CutSummary {
   const LargestOf& depth() const { return depth_; }            // mm, in a feed move
   const LargestOf& engagement() const { return engagement_; }  // 0 to 1
   const LargestOf& rate() const { return rate_; }              // mm³/s
+  // mm of cutting_way() above heavy_engagement, without descents: a helix cuts a slot, but a thin one.
+  double heavy_way() const { return heavy_way_; }
 
   // In program order, at most `most_kept` of each kind. Consecutive moves with the same problem are merged into one,
   // with the maximum depth.
@@ -95,6 +99,7 @@ class CutSummary {
   double cut_by_feeds_ = 0;
   double cutting_way_ = 0;
   double cutting_time_ = 0;
+  double heavy_way_ = 0;
   LargestOf depth_;
   LargestOf engagement_;
   LargestOf rate_;

@@ -26,6 +26,7 @@
 #include "passo/geometry/curve.hpp"
 #include "passo/geometry/tool_shape.hpp"
 #include "passo/stock/height_field.hpp"
+#include "passo/stock/wall_heights.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -68,6 +69,9 @@ class StockCutter {
 
   // `field` must outlive the cutter. `watcher` receives every move, in program order, in batches.
   StockCutter(HeightField& field, const StockCutterOptions& options, Watcher watcher);
+  // Cuts `walls` instead of the field, from the height of the uncut stock. `field`: the stock after the same moves, to
+  // which the walls belong. Clamps and holders are ignored. Both must outlive the cutter.
+  StockCutter(const HeightField& field, WallHeights& walls, const StockCutterOptions& options);
   ~StockCutter();
   StockCutter(const StockCutter&) = delete;
   StockCutter& operator=(const StockCutter&) = delete;

@@ -93,5 +93,8 @@ struct CutHooks {
 // Cuts the field by the program. `look` and `tools` must be those of this program. `threads`: 1 to 64.
 void cut_stock(const StockJob& job, const StockWishes& wishes, const FeedLook& look,
                const std::vector<ToolShape>& tools, unsigned threads, HeightField& field, const CutHooks& hooks);
+// Finds the heights at the walls of a field that cut_stock() has cut by the same program.
+void cut_walls(const StockJob& job, const FeedLook& look, const std::vector<ToolShape>& tools, unsigned threads,
+               const HeightField& field, WallHeights& walls);
 
 }  // namespace passo

@@ -58,6 +58,9 @@ class TomlText {
   // `to`: the number that the table then has.
   Status<TomlTextError> move_table(std::string_view list, std::size_t number, std::size_t to);
   Status<TomlTextError> remove_table(std::string_view list, std::size_t number);
+  // Removes a table with a head, [tool.3], with the tables below it, [tool.3.chip_load_mm], and the comments directly
+  // above and below. One without a head must be written on one line. A table that is not there is an error.
+  Status<TomlTextError> remove_table(std::string_view path);
 
   // A value as TOML has it. Empty: a number that is not finite.
   static std::string words_of(const Setting& setting);

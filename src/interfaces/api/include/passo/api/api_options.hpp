@@ -40,6 +40,8 @@ struct ApiOptions {
   JobKeeper* keeper = nullptr;
   FileStamp machine_file = {};            // fingerprint of the file when it was read
   MachineFileAccess machine_access = {};  // for the editor
+  // The folder with macros, and with the subroutines that programs may call. Empty: there is none.
+  std::string macro_folder = {};
   // The initial offsets and tools of the programs, and a function that saves them after a change; it returns the reason
   // for a failure, or an empty text.
   SavedParameters parameters = {};

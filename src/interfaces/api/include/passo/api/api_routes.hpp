@@ -19,6 +19,7 @@ class OwnerApi;
 class PortsApi;
 class ProgramsApi;
 class SettingsApi;
+class SmallJobsApi;
 class StudiesApi;
 struct ApiCall;
 struct WebAnswer;
@@ -27,7 +28,7 @@ template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
 using ApiHandler = std::variant<AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>, AnswerOf<MachineFileApi>,
                                 AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>, AnswerOf<SettingsApi>,
-                                AnswerOf<StudiesApi>>;
+                                AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };

@@ -56,6 +56,8 @@ class CamService {
   virtual std::string folder() const = 0;
   // Reads a kept drawing, in a process of its own. The first call begins, later ones tell how it goes.
   virtual CamShapes shapes(const std::string& name) = 0;
+  // Deletes a kept file. Returns false if there is none.
+  virtual bool remove(const std::string& name) = 0;
   // Deletes all files, and ends the running order.
   virtual void clear() = 0;
   // Starts an order. Returns false if an order is running, or if it cannot be started.

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "passo/activity/job_outline.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/api/program_path.hpp"
 #include "passo/base/result.hpp"
@@ -48,6 +49,8 @@ struct StoredProgram {
   std::uint64_t path = 0;               // fingerprint of its path, after a successful check
   Diagnostics findings;
   ProgramPath path_points;                 // path of the last check, for viewers
+  JobOutline outline{};                    // outline of the last check, for framing
+  bool is_small = false;                   // made on request, e.g. to frame a job; not for lists
   std::optional<HeightMap> height_map{};   // height map of the surface to which the program is to be levelled
   std::vector<std::size_t> line_starts{};  // offsets in the text, one for each fixed number of lines
 
@@ -71,6 +74,8 @@ class ProgramStore {
 
   // Adds a program. Returns null if there is no room.
   const StoredProgram* add(std::string name, Dialect dialect, std::string text);
+  // Adds a program that was made on request.
+  const StoredProgram* add_small(std::string name, std::string text);
   const StoredProgram* find(std::uint64_t id) const;
   // Returns false if there is no such program.
   bool remove(std::uint64_t id);
@@ -79,6 +84,8 @@ class ProgramStore {
   // Begins to check a program from this start position. Only one check runs at a time; a new one replaces it. A program
   // that was already found error-free from this position is not checked again, unless its path was dropped.
   void check(std::uint64_t id, const MachineDescription& machine, const Point& start);
+  // Sets the folders with subroutine files for all programs.
+  void set_sub_folders(std::vector<std::string> folders) { sub_folders_ = std::move(folders); }
   // Sets a function that returns a judge for each check. Null: the board can execute every path.
   void judge_paths(std::function<PathJudge()> new_judge) { new_judge_ = std::move(new_judge); }
   bool checks() const { return checker_ != nullptr; }
@@ -112,6 +119,7 @@ class ProgramStore {
   std::uint64_t last_id_ = 0;
   SavedParameters parameters_;
   ToolTable tools_;
+  std::vector<std::string> sub_folders_;
   std::uint64_t checked_ = 0;  // the program being checked
   std::unique_ptr<ProgramChecker> checker_;
   std::function<PathJudge()> new_judge_;

@@ -37,6 +37,8 @@ class GrblCode {
 
   // A line that is answered when all motion is complete.
   static constexpr const char* wait_for_rest = "G4P0";
+  // The modes that the lines need.
+  static constexpr const char* known_modes = "G21G90G94G17G40G49G54";
 
   // Returns the line of the program to which an item belongs.
   static std::uint32_t source_line(const PathItem& item) {

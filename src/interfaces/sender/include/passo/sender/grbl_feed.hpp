@@ -2,7 +2,8 @@
 // and with probe moves, whose results the path depends on.
 //
 // Position in the pipeline: between a source of path items and GrblSender. The source is a program (GrblProgramPath) or
-// the lines of a client (StreamedProgram).
+// the lines of a client (StreamedProgram). Their path is built as for our boards, with the offsets of the Grbl machine;
+// GrblCode converts it to lines.
 //
 //   while (feed.next()) sender.add(…);   at rest: stop() or asks() -> go_on() or take_probe()
 #pragma once
@@ -21,12 +22,17 @@
 #include "passo/interpreter/machine_results.hpp"
 #include "passo/journal/resume_point.hpp"
 #include "passo/sender/grbl_code.hpp"
-#include "passo/sender/grbl_program.hpp"
+#include "passo/sender/grbl_target.hpp"
 
 namespace passo {
 
 class GrblFeed {
  public:
+  struct Line {
+    std::string text;
+    std::uint32_t line = 0;  // line of the program
+    Seconds silence{0};      // how long the machine may not respond, because of a dwell
+  };
   // For what the machine must be at rest before the path continues.
   enum class Asks : std::uint8_t {
     nothing,
@@ -45,7 +51,7 @@ class GrblFeed {
 
   // Skips the path before that point. The lead-in comes first.
   void begin_at(const ResumePoint& point, const std::vector<PathItem>& lead_in);
-  // Whether the items lead to that point: they are no part of the path.
+  // Whether the path has not come to that point yet: what is written leads there.
   bool leads_in() const { return from_.has_value(); }
   // Receives each item when its lines are written.
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
@@ -54,12 +60,15 @@ class GrblFeed {
   void wait_at_optional(bool waits) { waits_at_optional_ = waits; }
 
   // Returns the next line. Empty: see asks(). The last line before that is answered only when all motion is complete.
-  std::optional<GrblProgram::Line> next();
+  std::optional<Line> next();
   Asks asks() const { return ready_.empty() ? asks_ : Asks::nothing; }
   // The action at which the program waits.
   const Action& stop() const { return stop_; }
   // Continues after an operator stop, or with a further line.
   void go_on();
+  // The same after a stop at `from` during which others may have moved the machine, or changed its modes. From `place`,
+  // rapids lead back: up to the higher Z, across, and down.
+  void go_on_from(const Point& place, const Point& from);
   // `triggered`: the present state of the probe.
   void take_probe_state(bool triggered, const Point& place);
   void take_probe(const ProbeOutcome& outcome);
@@ -78,7 +87,7 @@ class GrblFeed {
   bool reaches(const PathItem& item);
   void write(const PathItem& item);
   void write_probe(const Segment& segment);
-  void push(GrblProgram::Line line);
+  void push(Line line);
   void sync(Asks asks, std::uint32_t line);
 
   Source<PathItem>& path_;
@@ -89,7 +98,7 @@ class GrblFeed {
   Watcher skipped_watcher_;
   bool waits_;
   bool waits_at_optional_;
-  std::deque<GrblProgram::Line> ready_;
+  std::deque<Line> ready_;
   std::uint64_t lines_written_ = 0;
   Asks asks_ = Asks::nothing;
   Action stop_;

@@ -30,6 +30,7 @@ struct GrblFirmware {
     described,  // the same, and the board describes them ($ES)
     yaml        // in a YAML file on the board; the numbers only show some of them
   };
+  static constexpr int at_any_time = -1;
 
   std::string_view name;  // as in GrblMachine::firmware
   // Occurs in its greeting, in [VER:…] or in [FIRMWARE:…], in upper or lower case. Empty: it does not name itself.
@@ -41,6 +42,8 @@ struct GrblFirmware {
   bool measures_motors;        // built for a CoreXY ('C' in [OPT:…]), it applies F to the way of the two motors
   bool homes_single_axes;      // it knows $HX, whatever [OPT:…] says; others have 'H' there if they do
   bool converts_angles;        // with $13=1 the values of rotary axes are divided by 25.4 too
+  // It sends its modes ([GC:…]) also unasked, between other lines, if $10 has this bit. 0: never.
+  int unasked_modes;
   FeedWay feed_way;
   Settings settings;
   std::span<const std::string_view> questions;  // asked after $I, with answers that may be errors

@@ -66,6 +66,8 @@ class GrblFollower {
   // `modes`: from [GC:…], after all lines that were sent before the question. `expected`: modes() of that time.
   std::optional<Trouble> check_modes(std::string_view modes, const GrblLineModes& expected, bool in_inches) const;
   const GrblLineModes& modes() const { return sent_reader_.modes(); }
+  // The longest time between two reports of different positions, at the slowest feed that lies ahead.
+  Seconds longest_between_changes() const;
   // The line in which the board was last, and the last one that it has.
   std::uint32_t first_line() const;
   std::uint32_t last_line() const { return last_line_; }
@@ -105,7 +107,8 @@ class GrblFollower {
     double time = 0;        // s, at its highest speed
   };
 
-  double speed_of(const Point& from, const Point& to, MmPerSecond feed) const;
+  double measured_speed(const Point& way, MmPerSecond feed) const;
+  double speed_of(const Point& way, MmPerSecond feed) const;
   double braking_time(const GrblLineMotion& line) const;
   double duration_of(const GrblLineMotion& line) const;
   std::vector<std::string> straight_pieces(const std::string& text, const GrblLineMotion& line, int count) const;

@@ -69,8 +69,8 @@ class GrblForecast {
   double arrival(std::size_t bytes);
   void weigh(std::size_t bytes, double length, std::uint32_t source);
 
+  GrblLimits limits_;
   GrblLine line_;
-  GrblTarget target_;
   GrblLineReader reader_;
   GrblPlanner hindered_;
   GrblPlanner unhindered_;

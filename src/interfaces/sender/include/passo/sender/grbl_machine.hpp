@@ -36,7 +36,7 @@ struct GrblMachine {
   void hear_value_count(std::size_t count);
   // Returns what it has said in [MSG:…] since the last call, at most 50 messages: "WARN: …", "ERR: …" of FluidNC.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
-  // Returns what to ask, once, after the firmware has told its version. The board may reject these lines.
+  // Returns what to ask of the firmware, once, after it has told its version. The board may reject these lines.
   std::vector<std::string> take_questions();
 
   const GrblFirmware& row() const { return grbl_firmware(firmware); }
@@ -44,6 +44,10 @@ struct GrblMachine {
   bool is_known() const { return row().name == firmware; }
   // Returns whether M7 exists, as far as the board tells it.
   bool has_mist() const;
+  // Returns whether it was built for a CoreXY, and plans and measures the motion of its motors.
+  bool measures_motors() const;
+  // Returns whether [GC:…] may come that nobody has asked for.
+  bool tells_modes_unasked() const;
   // Returns whether grblHAL has an option: "TC" (tool changes), "ATC", "SD" (files).
   bool has_option(std::string_view name) const;
 
@@ -68,7 +72,7 @@ struct GrblMachine {
   void note_sizes();
 
   bool has_told_axes_ = false;
-  bool was_asked_ = false;
+  std::string asked_;           // the firmware whose questions were asked
   std::size_t told_bytes_ = 0;  // 0: not told yet
   std::vector<std::string> messages_;
 };

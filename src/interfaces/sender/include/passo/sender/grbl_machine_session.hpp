@@ -9,8 +9,9 @@
 // After a stop, a refused line and a probe alarm, the board is asked again who and where it is, before the activity
 // ends. Nothing is sent twice: what a lost connection, a restart or an alarm has interrupted ends there. A restart, a
 // lost connection and a timeout lead to the state fault, an alarm of the board to the state alarm; both end with
-// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again. A USB device that was unplugged and
-// returns is opened without a request, also under another name.
+// ResetMachine, which resets the board (Ctrl-X), and opens a lost connection again. In motion it stops the machine at
+// once, and the position is lost. A USB device that was unplugged and returns is opened without a request, also under
+// another name.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@
 
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/sender/grbl_port.hpp"
+#include "passo/sender/grbl_program_check.hpp"
 #include "passo/sender/grbl_sender.hpp"
 #include "passo/session/live_position.hpp"
 #include "passo/session/machine_session.hpp"
@@ -35,8 +37,9 @@ class GrblMachineSession final : public MachineSession {
   // The longest time between two exchanges with a busy board: a released key takes effect that much later at most.
   static constexpr Seconds between_looks{0.02};
 
-  // Both must outlive the session. Nothing is sent before the first poll().
-  GrblMachineSession(const MachineDescription& machine, GrblPort& port);
+  // Both must outlive the session. `ahead`: how much motion may lie in the board. Nothing is sent before the first
+  // poll().
+  GrblMachineSession(const MachineDescription& machine, GrblPort& port, Seconds ahead = GrblSender::default_ahead);
   ~GrblMachineSession() override;
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted) override;
@@ -47,7 +50,7 @@ class GrblMachineSession final : public MachineSession {
   Seconds now() const override { return port_.now(); }
   bool busy() const override;
   bool works() const override;
-  const std::string& trouble_words() const override { return trouble_.text; }
+  const std::string& trouble_words() const override { return trouble_.words.text; }
   std::optional<ProgramResults> program_results() const override;
   std::optional<Refusal> closed_limit() const override { return {}; }
   std::optional<Refusal> lost_place() const override;
@@ -55,14 +58,24 @@ class GrblMachineSession final : public MachineSession {
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
-  // Returns a function that judges the path items of one program, in order: the error is a clause that says what the
-  // board cannot do.
-  std::function<Status<std::string>(const PathItem&)> path_judge() const;
+  // What the board reports now, and for what it waits.
+  const GrblSender& sender() const { return sender_; }
+  // The board is in an alarm that $X or $H ends.
+  bool is_locked() const { return locked_; }
+  // Why the last activity ended before its end, or why the board cannot be used. Empty: nothing has gone wrong.
+  const std::optional<GrblFault>& fault() const { return trouble_.fault; }
+  // The number of lines that the current or the last program has sent.
+  std::uint64_t lines_of_program() const;
+  // Returns the board's messages since the last call: see GrblMachine::take_messages().
+  std::vector<std::string> take_messages() { return sender_.take_messages(); }
+  GrblPathJudge path_judge() const { return grbl_path_judge(GrblTarget::of(board_)); }
   // Returns the board's offsets as parameters of a program: G54 to G59.3, G28, G30 and G92. `kept`: the values of what
   // the board does not have.
   SavedParameters offsets(const SavedParameters& kept = {}) const;
   // Writes changed work offsets to the board (G10 L2), as soon as it is idle.
   void store_offsets(const SavedParameters& parameters);
+  // Calls the listener when the board has others, e.g. because a zero was set at its panel.
+  void watch_offsets(std::function<void()> listener) { connection_.offsets_listener = std::move(listener); }
 
   // Lends the sender to a reader of the board's settings, which moves nothing. The owner goes on polling the session.
   // Meanwhile every request is refused. Null: the machine is not at rest.
@@ -89,7 +102,20 @@ class GrblMachineSession final : public MachineSession {
     std::uint64_t reports = 0;  // so far
     std::string pins;
     std::string outputs;  // letters, as the board reports them
+    std::optional<Point> work_zero;
     Contact contact;
+  };
+  struct Connection {
+    Seconds ahead{1};
+    bool is_prepared = false;  // the board's modes are set, since the connection
+    std::optional<Seconds> broken_since = {};
+    bool offsets_are_old = false;
+    bool asks_offsets = false;
+    std::function<void()> offsets_listener = {};
+  };
+  struct Trouble {
+    Sentence words;
+    std::optional<GrblFault> fault;
   };
   struct News {
     std::deque<MachineChange> changes;
@@ -124,16 +150,22 @@ class GrblMachineSession final : public MachineSession {
   Refusal why_not() const;
   Answer refuse_ability(Ability ability) const;
   Answer at_once();
+  void end_at_other_zero(std::uint32_t line);
+  void switch_outputs_off();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
 
   void exchange(Seconds most);
   void hear(std::string_view line);
   void hear_report();
+  void hear_work_zero(const Point& zero);
+  void ask_for_offsets();
+  void take_board();
   void go_online();
   void connect_again(bool on_open_line);
   void look_for_device();
   void prepare();
   bool rests() const;
+  MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
 
@@ -155,6 +187,7 @@ class GrblMachineSession final : public MachineSession {
   void check_fault();
   void check_fault_of_work(const GrblFault& fault);
   void break_off(MachineEvent event, const GrblFault& fault);
+  void stop_by_reset();
   Sentence sentence_of(const GrblFault& fault) const;
   std::string words_of_restart() const;
   void send_overrides();
@@ -169,18 +202,17 @@ class GrblMachineSession final : public MachineSession {
   GrblSender sender_;
   GrblMachine board_;  // as it has described itself last
   MachineState state_ = MachineState::offline;
-  bool prepared_ = false;  // the board's modes are set, since the connection
-  bool locked_ = false;    // the board is in an alarm that $X or $H ends
+  Connection connection_;
+  bool locked_ = false;  // the board is in an alarm that $X or $H ends
   Recovery recovery_;
   bool lent_ = false;  // the sender, for the settings
-  std::optional<Seconds> broken_since_;
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;
   std::unique_ptr<Work> work_;  // the current or the last activity
   Overrides overrides_;
   ChosenStops stops_;
-  Sentence trouble_;
+  Trouble trouble_;
   std::optional<SavedParameters> to_store_;
   News news_;
   Tickets tickets_;

@@ -21,7 +21,8 @@ struct GrblReport {
   std::size_t values = 0;                   // numbers in its position: one for each axis
   std::optional<std::size_t> blocks_free = {};
   std::optional<std::size_t> bytes_free = {};
-  std::string pins = {};  // letters of the triggered inputs
+  std::optional<double> feed = {};  // its speed now, as reported: mm/min, or inches/min with $13=1
+  std::string pins = {};            // letters of the triggered inputs
   // Letters of the outputs that are on: S or C spindle, F flood, M mist. Grbl reports them now and then; empty: not in
   // this report.
   std::optional<std::string> outputs = {};

@@ -50,6 +50,8 @@ class GrblSender {
   static constexpr Seconds longest_silence{5};
   static constexpr Seconds longest_greeting{20};
   static constexpr Seconds longest_standstill{60};
+  // In the state Run, beyond the time that the smallest change of a report takes at the slowest feed in the machine.
+  static constexpr Seconds longest_stall{3};
   static constexpr Seconds default_ahead{1};
 
   // Begins the handshake with the machine at this time. Nothing is sent for 2 s, because an Arduino restarts when its
@@ -180,6 +182,7 @@ class GrblSender {
   void check_silence();
   void check_lost_bytes();
   void check_standstill();
+  bool must_move() const;
   void ask_for_status();
   bool has_work() const { return window_.last_line() != 0; }
   Seconds silence_of_oldest() const { return window_.oldest() == nullptr ? Seconds(0) : window_.oldest()->silence; }
@@ -216,12 +219,15 @@ class GrblSender {
   std::optional<GrblFollower> follower_;
   // Marks in the stream.
   struct Marks {
-    std::deque<GrblLineModes> expected;  // modes at each mark that is not answered yet
-    std::deque<std::uint32_t> lines;     // the last line before each of them
-    bool heard = false;                  // the modes of the oldest one have come
-    Seconds sent{0};                     // time of the last one
-    std::size_t since = 0;               // lines sent since
-    std::uint32_t sure_line = 0;         // the last line before the last mark that was right
+    struct Mark {
+      GrblLineModes modes;     // that the machine must have there
+      std::uint32_t line = 0;  // the last one before
+    };
+    std::deque<Mark> marked;           // that are not answered yet
+    std::optional<std::string> modes;  // told since the oldest of them is the next to be answered
+    Seconds sent{0};                   // time of the last one
+    std::size_t since = 0;             // lines sent since
+    std::uint32_t sure_line = 0;       // the last line before the last mark that was right
   };
   Marks marks_;
   struct Overrides {

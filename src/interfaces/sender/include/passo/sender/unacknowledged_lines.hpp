@@ -26,6 +26,9 @@ struct GrblAnswer {
 
 class UnacknowledgedLines {
  public:
+  // Returns the text of a line without its line end.
+  static std::string without_end(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
+
   struct Line {
     std::string text;        // including its line end
     std::uint32_t line = 0;  // line of the program; 0: none

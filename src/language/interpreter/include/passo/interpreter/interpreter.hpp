@@ -23,6 +23,7 @@
 namespace passo {
 
 class BlockWatcher;
+struct ToolChangePlan;
 
 // The dialect of G-code: LinuxCNC's RS274/NGC, or the part of it that Grbl 1.1 accepts, with Grbl's error numbers in
 // the diagnostics.
@@ -59,6 +60,8 @@ struct InterpreterOptions {
   // Whether the program's lines arrive one by one, with push_line(). next() then returns false when no line is left,
   // and continues after the next push_line().
   bool open_ended = false;
+  // What M6 does. Null: it waits for the operator.
+  std::shared_ptr<const ToolChangePlan> tool_change;
   // Letters of further axes that the Grbl dialect accepts in addition to X, Y and Z, e.g. "AC".
   std::string more_grbl_axes;
 };

@@ -201,6 +201,7 @@ struct SelectTool {
 struct StartToolChange {};  // M6 begins; ChangeTool follows
 struct ChangeTool {
   std::int32_t tool = 0;
+  bool by_machine = false;  // the tool is already in the spindle, so nobody is asked
 };
 struct SetToolNumber {
   std::int32_t tool = 0;

@@ -22,6 +22,11 @@ constexpr int rotation_parameter(int system) {
   return work_offset_parameter(system) + 9;
 }
 
+// Returns the parameter of X of the home of G28 (1) or G30 (2). The other axes follow.
+constexpr int home_parameter(int home) {
+  return 5141 + 20 * home;
+}
+
 // Returns 0 if the parameter is not saved.
 inline double saved_value(const SavedParameters& saved, int number) {
   const auto found = saved.find(number);

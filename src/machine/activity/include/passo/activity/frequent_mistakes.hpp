@@ -44,6 +44,9 @@ class FrequentMistakes : OperationWatcher {
   std::optional<Diagnostic> left_on_;  // set by M3 or M4, while the spindle is on
   // From its first probe move until a tool change, the tool is a probe. A probe does not rotate during a feed.
   bool probes_ = false;
+  // M5 before the first M3 or M4: the program feeds with the spindle off on purpose.
+  bool keeps_spindle_off_ = false;
+  bool has_turned_ = false;
   bool changes_tools_ = false;
   HandToolChange hand_;
   std::optional<Diagnostic> idle_tool_;  // a T word without a tool change so far

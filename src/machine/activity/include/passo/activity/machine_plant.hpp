@@ -34,7 +34,7 @@ StepTiming step_timing(const BoardDescription& board);
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
 // Adds the machine's screws, spindle and limit switches to a plant. `stands_at`: the true machine position. `things`:
-// the objects that the probe can touch.
+// the objects that the probe can touch. Without any, there is the tool setter of the machine, if it has one.
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at = {},
          const std::vector<Touchable>& things = {});
 

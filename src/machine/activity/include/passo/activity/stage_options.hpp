@@ -16,6 +16,9 @@
 
 namespace passo {
 
+// Adds to the options of an interpreter what the machine does at M6.
+InterpreterOptions on_machine(const MachineDescription& machine, InterpreterOptions options);
+
 bool has_jerk_limit(const MachineDescription& machine);
 
 // `start`: the machine position at the start.

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,8 @@
 #include "passo/units/units.hpp"
 
 namespace passo {
+
+struct ToolChangePlan;
 
 inline constexpr std::size_t most_motors = 8;  // motors of one board; the same number as wire's max_motors
 
@@ -179,6 +182,14 @@ struct PinsDescription {
   Seconds enable_wait{0};        // from the drivers' enable to motion
 };
 
+// Where the tool is parked, and what it does at the end of a program (M2, M30).
+struct ParkDescription {
+  enum class AtEnd : std::uint8_t { stay, rise, park };
+
+  std::optional<Point> place = {};  // X and Y in machine coordinates; empty: there is no park position
+  AtEnd at_end = AtEnd::stay;
+};
+
 struct MachineDescription {
   std::string name;
   Mm path_tolerance{0.01};
@@ -189,12 +200,21 @@ struct MachineDescription {
   SpindleDescription spindle;
   SilenceDescription silence;
   PinsDescription pins;
+  ParkDescription park;
   std::vector<AxisDescription> axes;   // in the order of the board's motors
   std::vector<Axis> homing = {};       // the axes that are homed, in the order of homing
   std::vector<int> homing_turns = {};  // group of each of them: axes with the same number seek their switches together
+  std::shared_ptr<const ToolChangePlan> tool_change = {};  // what M6 does; null: it waits for the operator
 
   bool has_rotary_axis() const {
     return std::ranges::any_of(axes, [](const AxisDescription& axis) { return is_rotary(axis.axis); });
+  }
+  // The highest Z for moves above everything: the end of the travel, or the position after homing if that is lower.
+  // Empty: the machine has no Z axis.
+  std::optional<double> top_of_travel() const {
+    const auto z = std::ranges::find(axes, Axis::z, &AxisDescription::axis);
+    if (z == axes.end()) return {};
+    return z->home && z->home->toward_high ? std::min(z->travel_high, z->home->rest()) : z->travel_high;
   }
   // The motors of the board: one for each axis, then the second motors in the order of their axes.
   std::uint8_t motor_count() const {

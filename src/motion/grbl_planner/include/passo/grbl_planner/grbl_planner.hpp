@@ -12,6 +12,7 @@
 // - The board must be able to stop at the end of the last block that it holds. A block that arrives extends the plan,
 //   also that of the block that moves.
 // - An arc becomes chords within the arc tolerance.
+// - Built for a CoreXY, the board plans the motion of the motors.
 // Junctions break acceleration limits by up to several times; the model does not hide this.
 //
 // Invariants: at most `blocks` blocks are held; no block moves faster than its feed or the limits of its axes; time
@@ -40,7 +41,12 @@ struct GrblLimits {
   std::size_t blocks = 15;                  // blocks that the planner holds, including the one that moves; at least 1
   double feed_factor = 1;                   // overrides; above 0
   double rapid_factor = 1;
+  // The motors of X and Y move by x + y and x - y. Lengths and feeds are measured along the motors, and the limits of X
+  // and Y are theirs.
+  bool core_xy = false;
 
+  // Returns a way of the tool as the board measures it.
+  Point measured(Point way) const;
   bool operator==(const GrblLimits&) const = default;
 };
 
@@ -51,12 +57,13 @@ struct GrblBlock {
   MmPerSecond feed{0};  // as programmed
   Point start;
   Point end;
-  Mm length{0};
+  Mm length{0};  // as the board measures it, like `feed` and `acceleration`
   MmPerSecond2 acceleration{0};
+  double scale = 1;  // the tool's way for each mm of `length`
 };
 
-// A part of the motion along a block, with constant acceleration. Phases follow each other; between two of them the
-// board may rest.
+// A part of the tool's motion along a block, with constant acceleration. Phases follow each other; between two of them
+// the board may rest.
 struct GrblPhase {
   const GrblBlock& block;
   Seconds begun{0};
@@ -111,7 +118,7 @@ class GrblPlanner {
   Seconds rest_at() const;
   // The source of the block that moves, and how far along the block the motion is; not without a block.
   std::uint32_t source() const { return blocks_.front().motion.source; }
-  Mm done_of_first() const { return Mm(done_of_first_); }
+  Mm done_of_first() const { return Mm(done_of_first_ * blocks_.front().motion.scale); }
 
  private:
   struct Block {

@@ -58,6 +58,9 @@ struct PathOptions {
   // True: in threads the spindle runs at the programmed speed, regardless of its override. Without an encoder this is
   // necessary: the axes cannot follow the spindle, so another speed would cut another pitch.
   bool threads_hold_speed = false;
+  // The rapids at M2 and M30: Z to this machine position, then X and Y to the park position. Empty: none.
+  std::optional<double> end_height = {};
+  std::optional<Point> park = {};
   std::string file;  // names the program in diagnostics
 };
 
@@ -127,6 +130,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   bool next_operation();
   bool begin_tap(const operation::RigidTap& tap, PathItem& item);
   bool next_tap_step(PathItem& item);
+  bool next_end_step(PathItem& item);
   void expand(const operation::RigidTap& tap);
   Mm room_to_turn(const Curve& way) const;
   void switch_off();
@@ -197,6 +201,10 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   enum class TapStep : std::uint8_t { none, turn, back, end };
   TapStep followed_tap_ = TapStep::none;
   Point tap_start_;  // machine
+
+  // The moves at the end of the program, before the end itself.
+  enum class EndStep : std::uint8_t { none, rise, park, end };
+  EndStep end_step_ = EndStep::none;
 
   Operation operation_;  // the current operation
   std::array<OperationKind, 4> tap_;

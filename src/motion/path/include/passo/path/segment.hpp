@@ -110,6 +110,7 @@ struct Action {
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after the action
   std::int32_t tool = 0;
+  bool by_machine = false;   // a tool change that waits for nobody
   bool probe_toward = true;  // for a probe move: until the probe is triggered, otherwise until it is open
   std::uint8_t limit = 0;    // for homing: the bit of the limit switch that acts as the probe
   Point place{};             // for a probe move: its start or its end, in machine coordinates

@@ -1,13 +1,13 @@
-#include "passo/sender/grbl_program.hpp"
+#include "passo/sender/grbl_program_check.hpp"
 
 #include <algorithm>
-#include <string_view>
-#include <utility>
+#include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
-#include "passo/drive/program_stop.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
+#include "passo/sender/grbl_code.hpp"
 
 namespace passo {
 namespace {
@@ -65,19 +65,28 @@ void set_offsets(InterpreterOptions& options, const GrblMachine& machine) {
   }
 }
 
+// GrblFeed writes the probe moves.
+GrblPathJudge grbl_path_judge(const GrblTarget& target) {
+  return [code = std::make_shared<GrblCode>(target)](const PathItem& item) -> Status<std::string> {
+    const auto* action = std::get_if<Action>(&item);
+    const bool is_probe =
+        action != nullptr && (action->kind == Action::Kind::probe_begin || action->kind == Action::Kind::probe_end);
+    std::vector<std::string> lines;
+    return is_probe ? Status<std::string>(Unit{}) : code->write(item, lines);
+  };
+}
+
 ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescription& machine,
                             const InterpreterOptions& options, const GrblTarget& target, Diagnostics& findings,
                             const std::function<void(const PathItem&)>& watch_path,
                             const std::function<void(const Operation&)>& watch_operations) {
   Objections objections(program.name(), findings);
-  GrblCode code(target);
-  std::vector<std::string> lines;
+  const GrblPathJudge judge_item = grbl_path_judge(target);
   ProgramCheck check = check_program(
       program.again(), machine, options, findings,
       [&](const PathItem& item) {
-        lines.clear();
-        const auto written = code.write(item, lines);
-        if (!written) objections.add(written.error(), GrblCode::source_line(item));
+        const auto possible = judge_item(item);
+        if (!possible) objections.add(possible.error(), GrblCode::source_line(item));
         if (watch_path) watch_path(item);
       },
       [&](const Operation& operation) {
@@ -86,67 +95,6 @@ ProgramCheck check_for_grbl(const ProgramReader& program, const MachineDescripti
       });
   check.good = check.good && !findings.any_error();
   return check;
-}
-
-GrblProgram::GrblProgram(const ProgramReader& program, const MachineDescription& machine,
-                         const InterpreterOptions& options, const GrblTarget& target, bool waits)
-    : code_(target), checker_(program.again(), machine, options, unheard_), waits_(waits) {
-  checker_.watch([this](const PathItem& item) { add(item); });
-  checker_.watch_operations([this, tools = options.tools](const Operation& operation) {
-    words_.watch(operation, tools);
-    if (from_line_ == 0 && listener_) listener_(operation);
-  });
-}
-
-void GrblProgram::begin_at(const Reentry& way) {
-  for (const PathItem& item : way.lead_in) write(item);
-  from_line_ = way.at.line;
-}
-
-std::optional<GrblProgram::Line> GrblProgram::next() {
-  while (!stop_ && !ended()) {
-    if (ready_.empty()) {
-      ended_ = checker_.go_on(1);
-      if (ended_) ready_.push_back({.line = {.text = GrblCode::wait_for_rest}});
-      continue;
-    }
-    Ready next = std::move(ready_.front());
-    ready_.pop_front();
-    stop_ = std::move(next.stop);
-    return std::move(next.line);
-  }
-  return {};
-}
-
-void GrblProgram::add(const PathItem& item) {
-  if (from_line_ != 0 && !reaches(item)) return;
-  write(item);
-}
-
-// From the beginning of the line on. What was set before is in the way there.
-bool GrblProgram::reaches(const PathItem& item) {
-  const auto* segment = std::get_if<Segment>(&item);
-  if (segment == nullptr || segment->source.line != from_line_) return false;
-  from_line_ = 0;
-  Segment to_start = *segment;
-  to_start.curve = Curve::line(segment->curve.end(), segment->curve.start());
-  write(to_start);
-  return true;
-}
-
-void GrblProgram::write(const PathItem& item) {
-  std::vector<std::string> lines;
-  if (!code_.write(item, lines)) return;  // the check has told it
-  const std::uint32_t line = GrblCode::source_line(item);
-  const auto* action = std::get_if<Action>(&item);
-  const Seconds silence = action != nullptr && action->kind == Action::Kind::dwell ? action->dwell : Seconds(0);
-  for (std::string& text : lines) {
-    ready_.push_back({.line = {.text = std::move(text), .line = line, .silence = silence}});
-  }
-  if (action == nullptr || !is_program_stop(*action) || !waits_) return;
-  const OperatorWait wait{.kind = action->kind, .tool = action->tool, .line = line, .words = words_.at(line)};
-  words_.pass(line);
-  ready_.push_back({.line = {.text = GrblCode::wait_for_rest, .line = line}, .stop = wait});
 }
 
 }  // namespace passo

@@ -1,0 +1,286 @@
+// A Grbl machine worked from the page alone, on firmware of other people: Grbl 1.1h on an emulated Uno, and grblHAL's
+// simulator. The simulators share the computer, so places are judged, never times.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { Daemon, example, openBrowser, passo, peers, Peer, sleep, violations, visit } from './kit';
+
+let browser: Browser;
+let folder: string;
+beforeAll(async () => {
+  browser = await openBrowser();
+  folder = mkdtempSync(join(tmpdir(), 'passo-grbl-'));
+});
+afterAll(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const pictures = process.env.PASSO_BOARD_PICTURES; // a folder, for whoever wants to look
+// A state in both themes, and on a phone.
+async function look(page: Page, name: string): Promise<void> {
+  if (pictures === undefined) return;
+  const was = page.viewportSize() ?? { width: 1280, height: 800 };
+  for (const theme of ['dark', 'light'] as const) {
+    await page.emulateMedia({ colorScheme: theme });
+    await page.screenshot({ path: `${pictures}/${name}-${theme}.png` });
+  }
+  await page.setViewportSize({ width: 360, height: 740 });
+  await page.screenshot({ path: `${pictures}/${name}-phone.png` });
+  await page.setViewportSize(was);
+  await page.emulateMedia({ colorScheme: 'dark' });
+}
+
+const click = (page: Page, name: string): Promise<void> => page.getByRole('button', { name, exact: true }).first().click();
+const agree = (page: Page, name: string): Promise<void> => page.getByRole('dialog').getByRole('button', { name, exact: true }).click();
+const whyDisabled = async (page: Page, name: string): Promise<string> => {
+  const button = page.getByRole('button', { name: new RegExp(`^${name}`) }).first(); // its name has the reason too
+  expect(await button.getAttribute('aria-disabled'), name).toBe('true');
+  return (await button.getAttribute('title')) ?? '';
+};
+
+// The board, what serves it, and a page.
+interface Bench {
+  board: Peer;
+  daemon: Daemon;
+  page: Page;
+  errors: string[];
+  end: () => Promise<void>;
+}
+
+const pace = ['110=3000', '111=3000', '112=3000', '120=200', '121=200', '122=200'];
+const write = (address: string, settings: readonly string[]): void =>
+  void execFileSync(passo, ['board', 'settings', address, ...[...pace, ...settings].flatMap((one) => ['--set', one])], { stdio: 'pipe' });
+
+async function bench(board: Peer, address: string, settings: readonly string[]): Promise<Bench> {
+  write(address, settings);
+  const daemon = await Daemon.start({ machine: example('machines/router.toml'), address });
+  const { page, context, errors } = await visit(browser, daemon, 'jog', { size: { width: 1280, height: 1000 } });
+  const end = async (): Promise<void> => {
+    await context.close();
+    await daemon.end();
+    await board.end();
+  };
+  return { board, daemon, page, errors, end };
+}
+async function uno(options: readonly string[] = [], settings: readonly string[] = []): Promise<Bench> {
+  const own = mkdtempSync(join(folder, 'uno-'));
+  const program = join(folder, 'grbl_on_uno');
+  if (!existsSync(program)) execFileSync(join(peers, 'build.sh'), [program]);
+  const line = join(own, 'line');
+  const board = await Peer.start([program, join(peers, 'grbl-1.1h-uno.elf'), line, ...options], own, () => existsSync(line));
+  return bench(board, `grbl:${line}`, settings);
+}
+let ports = 0;
+async function grblHal(settings: readonly string[] = []): Promise<Bench> {
+  const own = mkdtempSync(join(folder, 'hal-'));
+  const port = 40_000 + ((process.pid + 7919 * ++ports) % 20_000);
+  const board = await Peer.start([join(peers, 'grblHAL_sim'), '-n', '-p', String(port), '-t', '1', '-e', 'eeprom.dat'], own, () => existsSync(join(own, 'eeprom.dat')));
+  return bench(board, `grbl:tcp:127.0.0.1:${port}`, settings);
+}
+
+const xOf = async (daemon: Daemon): Promise<number> => (await daemon.status()).place.x ?? NaN;
+
+// A key is held, and released: the machine moves, and rests.
+async function jogByKey({ daemon, page }: Bench, name: string): Promise<void> {
+  await page.getByText('Keyboard jogging is on').waitFor();
+  const from = await xOf(daemon);
+  await page.keyboard.down('ArrowRight');
+  await daemon.until((status) => status.state === 'Jog' && (status.place.x ?? 0) > from + 2);
+  await look(page, `${name}-jog`);
+  await page.keyboard.up('ArrowRight');
+  await daemon.until((status) => status.state === 'Idle' && status.rests);
+  const at = await xOf(daemon);
+  expect(at).toBeGreaterThan(from + 2);
+  await sleep(400);
+  expect(await xOf(daemon)).toBe(at);
+}
+
+async function zeroHere({ daemon, page }: Bench): Promise<void> {
+  await click(page, 'Zero all');
+  await agree(page, 'Work zero');
+  for (const axis of ['x', 'y', 'z']) await expect.poll(() => page.getByTestId(`work-${axis}`).innerText()).toMatch(/^[-−]?0\.000$/);
+  const { place, work_offset: zero } = await daemon.status();
+  expect(zero?.x).toBeCloseTo(place.x ?? NaN, 3);
+}
+
+async function open({ daemon, page }: Bench, name: string, text: string): Promise<void> {
+  await page.goto(`${daemon.address}#/files`);
+  await page.setInputFiles('input[type=file]', { name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  await expect.poll(() => page.getByRole('region', { name }).getByTestId('verdict').innerText()).toMatch(/^(No errors|Has warnings)/);
+  await page.goto(`${daemon.address}#/run`);
+}
+async function start({ page }: Bench): Promise<void> {
+  await click(page, 'Start');
+  await agree(page, 'Start');
+}
+
+async function runHoldOverrideStop(all: Bench, name: string): Promise<void> {
+  const { daemon, page } = all;
+  const zero = await xOf(daemon);
+  await open(all, 'part.ngc', 'G21 G90\nG1 X80 F600\nG1 Y10 F3000\nG1 X0 Y0\nM2\n');
+  await start(all);
+  await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > zero + 2);
+  await look(page, `${name}-run`);
+  await click(page, 'Hold');
+  await page.getByText('On hold', { exact: true }).waitFor();
+  const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
+  expect(held.place.x).toBeLessThan(zero + 79);
+  expect(held.line).toBe(2);
+  await look(page, `${name}-hold`);
+  await click(page, 'Increase: Feed');
+  await click(page, 'Increase: Feed');
+  await page.getByRole('button', { name: /^Feed 120 %/ }).waitFor();
+  expect((await daemon.status()).place.x).toBe(held.place.x);
+  await click(page, 'Resume');
+  await daemon.until((status) => status.state === 'Run' && Math.abs(status.overrides.feed - 1.2) < 1e-6);
+  const ended = await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
+  expect(ended.place.x).toBeCloseTo(zero, 2);
+  // A stop brakes, and the place is known.
+  await open(all, 'long.ngc', 'G21 G90\nG1 X90 F600\nM2\n');
+  await start(all);
+  await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > zero + 2);
+  await click(page, 'Stop');
+  const stopped = await daemon.until((status) => status.job?.state === 'stopped' && status.state === 'Idle');
+  expect(stopped.lost_place).toBe(false);
+  expect(stopped.place.x).toBeLessThan(zero + 89);
+  await look(page, `${name}-stopped`);
+}
+
+// The board has forgotten where it is. A person vouches for the place, and it moves again.
+async function confirmPlace({ daemon, page }: Bench): Promise<void> {
+  await page.goto(`${daemon.address}#/jog`);
+  await page.locator('.state-next', { hasText: /jog it to a known position and confirm it/i }).waitFor();
+  expect(await whyDisabled(page, 'Start')).toContain('The machine position is unknown');
+  await click(page, 'Confirm position');
+  await agree(page, 'Confirm position');
+  await daemon.until((status) => !status.lost_place);
+}
+
+async function homeByPage({ daemon, page }: Bench): Promise<void> {
+  await page.goto(`${daemon.address}#/jog`);
+  await click(page, 'Home');
+  await agree(page, 'Home');
+  await daemon.until((status) => status.trust === 'homed' && status.state === 'Idle', 120_000);
+  await page.getByText('Homed', { exact: true }).waitFor();
+}
+
+// A program is under way when something befalls the board. The page tells it, and nothing moves by itself.
+async function breakOff(all: Bench, happens: string, code: string): Promise<void> {
+  const { board, daemon, page } = all;
+  const from = await xOf(daemon);
+  await start(all);
+  await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) < from - 2);
+  board.say(happens);
+  await page.getByText('Board disconnected', { exact: true }).waitFor();
+  const { job, lost_place: lost, speed } = await daemon.status();
+  expect(job?.why_sentence?.code).toBe(code);
+  expect(lost).toBe(true);
+  expect(speed).toBe(0);
+  expect(await page.locator('.state').innerText()).toContain('was at line 2 of the program');
+}
+async function resetByPage({ daemon, page }: Bench): Promise<void> {
+  await click(page, 'Reset');
+  await daemon.until((status) => status.state === 'Idle' && status.lost_place);
+  expect(await whyDisabled(page, 'Start')).toContain('The machine position is unknown. Home the machine');
+}
+
+describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
+  it('with Grbl 1.1h on an Uno is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
+    const all = await uno([], ['21=1']);
+    const { board, daemon, page, errors } = all;
+    expect(await whyDisabled(page, 'Home')).toContain('$22=0');
+    await look(page, 'uno-start');
+    expect(await violations(page)).toEqual([]);
+    await jogByKey(all, 'uno');
+    await zeroHere(all);
+    await runHoldOverrideStop(all, 'uno');
+    // A limit switch amid a program.
+    const from = await xOf(daemon);
+    await start(all);
+    await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > from + 2);
+    board.say('limit X 1');
+    await page.getByText('Alarm', { exact: true }).waitFor();
+    expect(await page.locator('.state').innerText()).toContain('a limit switch closed');
+    await look(page, 'uno-alarm');
+    expect(await violations(page)).toEqual([]);
+    board.say('limit X 0');
+    await click(page, 'Reset');
+    await daemon.until((status) => status.state === 'Idle');
+    await look(page, 'uno-reset');
+    await confirmPlace(all);
+    await look(page, 'uno-unlocked');
+    await jogByKey(all, 'uno-again');
+    expect(errors).toEqual([]);
+    // The console does not make up the settings of a board.
+    await page.goto(`${daemon.address}#/console`);
+    await page.getByPlaceholder('A line of G-code').fill('$$');
+    await page.keyboard.press('Enter');
+    await page.getByText('the board has its own settings').first().waitFor();
+    await all.end();
+  });
+
+  it('with Grbl 1.1h on an Uno homes, probes, and goes on after an unplugged line and a power cut', async () => {
+    const switches = ['--switch-at', 'X:500', '--switch-at', 'Y:500', '--switch-at', 'Z:250'];
+    const all = await uno([...switches, '--probe-at', 'Z:-1250'], ['22=1', '24=100', '25=500']);
+    const { daemon, page, errors } = all;
+    await look(page, 'uno-unhomed');
+    await homeByPage(all);
+    await look(page, 'uno-homed');
+    // The surface is found, and is Z0.
+    await click(page, 'Probe …');
+    await agree(page, 'Probe');
+    await expect.poll(async () => (await daemon.status()).work_offset?.z).toBeLessThan(-1);
+    await daemon.until((status) => status.state === 'Idle');
+    await look(page, 'uno-probed');
+    await open(all, 'far.ngc', 'G21 G90\nG1 X-30 F600\nM2\n');
+    await breakOff(all, 'unplug 4', 'grbl.no-answer');
+    await look(page, 'uno-unplugged');
+    expect(await violations(page)).toEqual([]);
+    await sleep(4000);
+    await resetByPage(all);
+    await homeByPage(all);
+    await page.goto(`${daemon.address}#/run`);
+    await breakOff(all, 'power', 'grbl.restarted');
+    await look(page, 'uno-power');
+    await resetByPage(all);
+    await homeByPage(all);
+    // At the line at which it was.
+    await page.goto(`${daemon.address}#/run`);
+    await page.locator('.text-line', { hasText: 'G1 X-30' }).click();
+    await page.locator('.picked-line:visible').getByRole('button', { name: /Start at line 2/ }).click();
+    await page.getByRole('dialog').locator('li').first().waitFor();
+    await look(page, 'uno-restart');
+    await agree(page, 'Start');
+    const ended = await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
+    expect(ended.place.x).toBeCloseTo(-30, 2);
+    expect(errors).toEqual([]);
+    await all.end();
+  });
+
+  it('with grblHAL is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
+    const all = await grblHal(['22=1']);
+    const { daemon, page, errors } = all;
+    await look(page, 'hal-start');
+    await jogByKey(all, 'hal');
+    await zeroHere(all);
+    await runHoldOverrideStop(all, 'hal');
+    await page.goto(`${daemon.address}#/jog`);
+    await click(page, 'Home');
+    await agree(page, 'Home');
+    await page.getByText('Alarm', { exact: true }).waitFor();
+    expect(await page.locator('.state').innerText()).toContain('homing found no switch');
+    await look(page, 'hal-alarm');
+    expect(await violations(page)).toEqual([]);
+    await click(page, 'Reset');
+    await daemon.until((status) => status.state === 'Idle');
+    await confirmPlace(all);
+    await look(page, 'hal-unlocked');
+    await jogByKey(all, 'hal-again');
+    expect(errors).toEqual([]);
+    await all.end();
+  });
+});
