@@ -361,7 +361,7 @@ MachineStatus GrblMachineSession::status() const {
       status.waits_for = OperatorWait{.kind = stop.kind,
                                       .tool = stop.tool,
                                       .line = stop.source.line,
-                                      .number = work.stops,
+                                      .number = work.hold.stops,
                                       .words = work_->words_at(stop.source.line)};
       const bool is_tool = stop.kind == Action::Kind::tool_change;
       status.holds.add(is_tool ? HoldReason::tool_change : HoldReason::program_stop);

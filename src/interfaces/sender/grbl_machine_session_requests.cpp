@@ -114,7 +114,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
   auto work = std::make_unique<Work>();
   if (start.findings != nullptr) work->findings = start.findings;
   work->watchers = start.watchers;
-  if (start.from) work->stops = start.from->stops;
+  if (start.from) work->hold.stops = start.from->stops;
   work->start = std::move(start);
   work->start->options.start = work->start->from ? work->start->options.start : position_.place;
   work->program = std::make_unique<GrblProgramPath>(std::move(work->start->program), machine_, work->start->options,

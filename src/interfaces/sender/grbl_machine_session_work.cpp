@@ -103,7 +103,7 @@ void GrblMachineSession::answer_question() {
       if (!work_->hold.stop) work_->hold.stop = Work::Stop{.place = position_.place, .zero = heard_.work_zero};
       sender_.stop_following();
       if (!std::exchange(work_->hold.told, true)) {
-        ++work_->stops;
+        ++work_->hold.stops;
         update_holds();
         publish({.kind = MachineChange::Kind::came_to_rest});
       }

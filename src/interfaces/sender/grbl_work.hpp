@@ -46,6 +46,7 @@ struct GrblMachineSession::Work {
     bool told = false;   // that the machine has come to rest
     Seconds at{0};
     std::optional<Stop> stop = {};
+    std::uint64_t stops = 0;  // of the program, so far
   };
   struct Jog {
     std::unique_ptr<JogLine> line;  // null: this is no jog
@@ -86,7 +87,6 @@ struct GrblMachineSession::Work {
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
   Progress progress;
-  std::uint64_t stops = 0;
   Hold hold;
 
   std::unique_ptr<ProgramChecker> checker;

@@ -56,7 +56,7 @@ int list(const BoardFilesArguments& arguments, GrblConnection& opened, BoardFile
   }
   ordered_json json = {{"files", ordered_json::array()}};
   std::string text;
-  for (const BoardFile& file : files.all()) {
+  for (const FileOnBoard& file : files.all()) {
     json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"can_run", file.can_run}});
     text += fmt::format("{:>10}  {}{}\n", file.bytes, file.path, file.can_run ? "" : "  (its name cannot be used)");
   }

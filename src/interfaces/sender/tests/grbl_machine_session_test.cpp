@@ -233,62 +233,6 @@ TEST_F(GrblSessions, overrides_go_to_the_board) {
   EXPECT_EQ(run.session.status().overrides.feed, 1) << "a reset of the board ends them";
 }
 
-TEST(GrblSession, homes_a_single_axis_where_the_board_can) {
-  const auto switched = [](StrictGrbl& grbl) {
-    grbl.put(22, 1);
-    grbl.options = "VH,15,128";
-  };
-  GrblSessionRun run(example_machine("router"), switched);
-  ASSERT_TRUE(run.go_online());
-  EXPECT_TRUE(run.session.abilities().can(Ability::home_axis));
-  // The place is known when all axes have been homed.
-  for (const Axis axis : {Axis::x, Axis::z, Axis::y}) {
-    EXPECT_TRUE(run.session.lost_place());
-    const auto homed = run.ask_and_wait(request::Home{.axis = axis});
-    ASSERT_TRUE(homed);
-    EXPECT_EQ(homed->outcome, Outcome::done);
-  }
-  EXPECT_FALSE(run.session.lost_place());
-  EXPECT_EQ(run.session.status().position.trust, Trust::homed);
-  EXPECT_THAT(run.port.sent, HasSubstr("$HX\n"));
-  ASSERT_TRUE(run.ask_and_wait(request::Home{.axis = Axis::x}));
-  EXPECT_FALSE(run.session.lost_place());
-}
-
-TEST_F(GrblSessions, home_no_single_axis_on_a_board_that_cannot) {
-  run.grbl.put(22, 1);
-  run.grbl.restart();
-  ASSERT_TRUE(run.go_online());
-  EXPECT_FALSE(run.ask(request::Home{.axis = Axis::x}));
-  EXPECT_EQ(run.refusal->reason, RefusalReason::board_cannot);
-  EXPECT_THAT(run.refusal->message(), HasSubstr("homes all its axes together"));
-}
-
-TEST_F(GrblSessions, open_a_device_that_was_unplugged_and_returns) {
-  run.port.is_usb = true;
-  ASSERT_TRUE(run.go_online());
-  const auto ticket = run.ask(grbl_start(square));
-  ASSERT_TRUE(ticket);
-  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 3; }));
-  run.port.unplugged = true;
-  const Seconds pulled = run.session.now();
-  ASSERT_TRUE(run.play_until(MachineState::fault));
-  EXPECT_LT(run.session.now() - pulled, Seconds(2));
-  EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::failed);
-  ASSERT_TRUE(run.play_for(Seconds(20))) << "it is looked for without end";
-  EXPECT_EQ(run.session.state(), MachineState::fault);
-  // It is opened without a request. Nothing of the program is sent again, and its place is lost.
-  const std::size_t sent = run.port.sent.size();
-  run.grbl.restart();
-  run.port.unplugged = false;
-  ASSERT_TRUE(run.play_until(MachineState::idle, Seconds(15)));
-  EXPECT_THAT(run.port.sent.substr(sent), testing::Not(HasSubstr("X10")));
-  EXPECT_TRUE(run.session.lost_place());
-  EXPECT_FALSE(run.ask(grbl_start(square)));
-  ASSERT_TRUE(run.play_for(Seconds(5)));
-  EXPECT_EQ(run.grbl.speed(), 0);
-}
-
 TEST(GrblSession, homes_and_then_knows_its_place) {
   GrblSessionRun run(example_machine("router"), [](StrictGrbl& grbl) { grbl.put(22, 1); });
   ASSERT_TRUE(run.go_online());
