@@ -36,7 +36,8 @@ ProgressDisplay::ProgressDisplay(const std::string& label, bool wanted)
 void ProgressDisplay::update(double share, std::optional<Seconds> left) {
   tell_starter(share);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  write_line(line_.update(share, Seconds(elapsed.count()), [] { return columns_of(STDERR_FILENO); }, left));
+  write_line(line_.update(
+      share, Seconds(elapsed.count()), [] { return columns_of(STDERR_FILENO); }, left));
   shown_ = this;
 }
 
