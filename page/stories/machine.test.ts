@@ -56,7 +56,7 @@ describe('the machine file', () => {
     await page.getByRole('dialog').getByText('16 → 8').waitFor();
     await agree(page, 'Save the file');
     await page.getByText('Restart passo serve to apply it.').waitFor();
-    expect(readFileSync(machine, 'utf8')).toContain('microsteps = 8              # as the switches');
+    expect(readFileSync(machine, 'utf8')).toContain('microsteps = 8              # as set on the driver');
     // Somebody else changes the file: it is not overwritten.
     await enter(page, 'X Microsteps', '4');
     writeFileSync(machine, `${readFileSync(machine, 'utf8')}# by hand\n`);

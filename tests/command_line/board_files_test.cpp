@@ -57,7 +57,7 @@ TEST_F(BoardFiles, are_sent_listed_and_run) {
     outcome = files(*board, "--run " + at);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(at + ": "));
-    EXPECT_THAT(outcome.out, HasSubstr(" s\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("stopped at X0.000"));
     outcome = files(*board, "--run " + at + "x");
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.err, HasSubstr("the board rejects"));

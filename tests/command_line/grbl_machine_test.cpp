@@ -69,6 +69,10 @@ TEST_F(GrblMachine, is_held_and_slowed_and_a_hold_may_end_the_run) {
   outcome = beside_a_machine(run(program, "-q --hold-at 0.2"));
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("held; the machine was last in state Idle at X"));
+  outcome = beside_a_machine(run(write("m0.ngc", "G21 G90\nM0\nM2\n"), "-q </dev/null"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("m0.ngc waits at line 2"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("--resume"))) << "a Grbl machine cannot";
 }
 
 TEST_F(GrblMachine, cannot_do_all_and_says_so) {

@@ -29,7 +29,7 @@ TEST_F(ToolChanges, run_on_an_example_machine_of_each_way) {
                          Way{"tool-rack", "", 8, "rack of 6 at X380 Y-280"},
                          Way{"tool-changer", "", 4, "by lines of G-code at X380 Y-280"}}) {
     SCOPED_TRACE(way.machine);
-    EXPECT_THAT(passo("machine --check " + machine(way.machine)).out, HasSubstr(way.described));
+    EXPECT_THAT(passo("machine " + machine(way.machine)).out, HasSubstr(way.described));
     const Outcome check = passo("check " + job_ + " -m " + machine(way.machine) + " --json");
     ASSERT_EQ(check.code, 0) << check.err;
     const Outcome run = passo("run " + job_ + " -m " + machine(way.machine) + way.touches + " --json --yes");
@@ -56,6 +56,7 @@ TEST_F(ToolChanges, end_with_the_reason_if_nothing_touches) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("gcode.tool-not-measured"));
   EXPECT_THAT(outcome.err, HasSubstr("tool 1 touched nothing down to Z-100.000"));
+  EXPECT_THAT(outcome.err, HasSubstr("stopped at X380.000 Y-280.000 Z50.000"));
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ class JournaledHost {
   bool may_fail = false;            // the link is so bad that the job may fail with a message
   // Set: the program waits at its stops, for this. Empty: it does not wait.
   std::function<void(const Action&)> operator_works;
+  std::uint64_t turns_between_holds = 0;  // the program is held that often, and resumed at rest; 0: never
 
  private:
   void work(MortalPort& port, bool& done) {
@@ -116,11 +117,17 @@ class JournaledHost {
     job.resume();
     while (job.advance()) {
       if (port.is_to_stop() && !job.drive().stopped()) job.drive().stop();
+      hold_now_and_then(job.drive());
       if (!job.drive().waits_for() || job.drive().stopped()) continue;
       operator_works(*job.drive().waits_for());
       job.drive().done();
     }
     done = !fails(job) && !job.drive().stopped();
+  }
+  void hold_now_and_then(MotionDrive& drive) {
+    if (turns_between_holds == 0) return;
+    if (++turns_ % turns_between_holds == 0) drive.hold();
+    if (drive.state() == MotionDrive::State::held) drive.resume();
   }
   bool fails(const DrivenProgram& job) const {
     const auto error = job.link().error();
@@ -131,6 +138,7 @@ class JournaledHost {
   const MachineDescription& machine_;
   std::string program_;
   std::uint16_t sessions_ = 0;
+  std::uint64_t turns_ = 0;
 };
 
 }  // namespace passo::test

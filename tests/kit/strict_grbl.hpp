@@ -58,7 +58,7 @@ class StrictGrbl {
   bool loses_next_line_end = false;
   bool silent = false;  // does not report
   bool ignores_hold_at_rest = false;
-  bool held_input = false;  // the hold input is active
+  bool held_input = false;             // the hold input is active
   bool second_cancel_is_late = false;  // it meets the end of the jog
 
   std::string state = "Idle";  // as reported, with its number
@@ -248,7 +248,8 @@ class StrictGrbl {
     state = motion_.moves() ? "Hold:1" : "Hold:0";
     motion_.brake();
   }
-  // A cancel that is noted while the machine jogs, and is executed when it is idle: no line is executed until a cycle start.
+  // A cancel that is noted while the machine jogs, and is executed when it is idle: no line is executed until a cycle
+  // start.
   void take_cancel() {
     asks_cancel_ = state == "Jog";
     waits_for_start_ = waits_for_start_ || (second_cancel_is_late && cancels_jog_);

@@ -1,4 +1,4 @@
-// A machine that measures its tools: the host dies, is cut off or is stopped at any instant of a program with tool
+// A machine that measures its tools: the host dies, is cut off, held or stopped at any instant of a program with tool
 // changes, and another one goes on by the journal. The tool, its length and the place are right in the end, the machine
 // never goes across below the safe height while the spindle is off.
 #include <algorithm>
@@ -158,6 +158,7 @@ class ChangeBench {
   BoardOutputs outputs() const { return machine_.counts().outputs; }
   std::size_t tool() const { return plant_.tool; }
   const Watchman& watchman() const { return watchman_; }
+  void hold_each(std::uint64_t turns) { host_.turns_between_holds = turns; }
   bool done = false;
   std::vector<std::int32_t> hand_tools;
 
@@ -196,6 +197,7 @@ void die_amid_changes(ToolChangeWay way, int trials) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
     ChangeBench bench(way);
+    bench.hold_each(random() % 2 == 0 ? 0 : 5 + random() % 200);
     const std::uint64_t lives = 1 + random() % 3;
     for (std::uint64_t life = 0; life < lives && !bench.done && !testing::Test::HasFatalFailure(); ++life) {
       bench.host(random() % moments, static_cast<HostEnd>(random() % 4));

@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { attempt } from '../core/notices';
 import { get, post, Refused, type Finding } from './api';
-import { sendDrawing } from './cam';
+import { cam, sendDrawing } from './cam';
 
 export type Value = string | number | boolean | null | Value[];
 export interface JobOperation {
@@ -125,10 +125,12 @@ export function forgetShapes(name?: string): void {
 }
 
 export async function needShapes(name: string): Promise<void> {
-  if (shapes.value[name] !== undefined || asked.has(name)) return;
+  // It may have been removed.
+  const isSent = (): boolean => cam.value?.files.includes(name) === true;
+  if (shapes.value[name] !== undefined || asked.has(name) || !isSent()) return;
   asked.add(name);
   await attempt(async () => {
-    for (;;) {
+    while (isSent()) {
       type Answer = { state: string; drawing: ShapesOfDrawing | null; words: string };
       const now = await get<Answer>(`/cam/shapes?name=${encodeURIComponent(name)}`);
       if (now.state !== 'running') {

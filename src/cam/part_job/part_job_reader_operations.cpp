@@ -58,12 +58,12 @@ bool is_set_by_job(const CamOption& option, const PartOperation& operation) {
       operation.kind == PartKind::chamfer && std::holds_alternative<CamProfileArguments>(operation.arguments);
   if (is_wide_chamfer && option.name == "chamfer") return false;
   if (is_wide_chamfer && is_not_of_chamfer(option.name)) return true;
-  constexpr std::array<std::string_view, 37> names = {
-      "output",     "picture",     "json",   "units",       "zero",     "sheet",     "mirror",    "mirror-at",
-      "align",      "align-drill", "tool",   "tools",       "drill",    "mill",      "cutter",    "angle",
-      "tip",        "clear",       "rough",  "rest",        "FILE",     "two-sided", "pins",      "parting",
-      "tool-table", "material",    "limits", "chamfer",     "neck",     "reach",     "tooth-tip", "teeth",
-      "nest",       "quantity",    "gap",    "nest-margin", "rotations"};
+  constexpr std::array<std::string_view, 38> names = {
+      "output",     "picture",     "json",   "units",       "zero",      "sheet",      "mirror",    "mirror-at",
+      "align",      "align-drill", "tool",   "tools",       "drill",     "mill",       "cutter",    "angle",
+      "tip",        "clear",       "rough",  "rest",        "FILE",      "two-sided",  "pins",      "parting",
+      "tool-table", "material",    "limits", "chamfer",     "neck",      "reach",      "tooth-tip", "teeth",
+      "nest",       "quantity",    "gap",    "nest-margin", "rotations", "most-sheets"};
   return option.kind == CamKind::drawings || is_of_program(option.name) ||
          std::ranges::find(names, option.name) != names.end();
 }

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "passo/activity/nominal_time.hpp"
-#include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/path/hand_tool_change.hpp"
 
 namespace passo {
@@ -28,19 +27,13 @@ PathOptions path_options_of(const MachineDescription* machine, const std::string
   return options;
 }
 
-// A touch plate lies on the work, and would be cut into it.
-InterpreterOptions with_changes(const MachineDescription* machine, const InterpreterOptions& options) {
-  const bool shows = machine != nullptr && machine->tool_change && machine->tool_change->way != ToolChangeWay::plate;
-  return shows ? on_machine(*machine, options) : options;
-}
-
 }  // namespace
 
 SimulatedPath::SimulatedPath(ProgramReader program, const InterpreterOptions& options,
                              const MachineDescription* machine, Diagnostics& diagnostics, AxisSet beside)
     : diagnostics_(diagnostics),
       path_options_(path_options_of(machine, program.name(), options.start, beside)),
-      interpreter_(std::move(program), with_changes(machine, options), diagnostics),
+      interpreter_(std::move(program), options, diagnostics),
       builder_(interpreter_, path_options_, diagnostics),
       watched_(builder_) {
   watched_.watch([this](const PathItem& item) { record_zeros(item); });

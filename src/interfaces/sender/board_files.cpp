@@ -80,7 +80,7 @@ void BoardFiles::hear(std::string_view question, std::span<const std::string> sa
 
 void BoardFiles::add(std::string path, std::string_view fields) {
   if (files_.size() >= most_board_files || !is_plain(path)) return;
-  FileOnBoard file{.path = std::move(path)};
+  StoredFile file{.path = std::move(path)};
   while (!fields.empty()) {
     std::string_view value = next_grbl_field(fields, '|');
     const std::string_view name = next_grbl_field(value, ':');

@@ -7,28 +7,18 @@
 #include <fmt/format.h>
 
 #include "passo/geometry/euclid.hpp"
+#include "passo/session/request_checks.hpp"
 
 namespace passo {
 namespace {
 
 constexpr double least_feed_factor = 0.1;
-constexpr double greatest_factor = 2;
 constexpr double same_position = 5e-3;  // mm
 constexpr Seconds longest_grbl_homing{300};
 constexpr int setting_of_homing = 22;
 
 Failure<Refusal> refused(RefusalReason reason) {
   return Failure{Refusal{reason}};
-}
-
-bool all_finite(const Point& point) {
-  return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
-}
-
-bool leaves_travel_of(const MachineDescription& machine, const Point& place) {
-  return std::ranges::any_of(machine.axes, [&](const AxisDescription& axis) {
-    return place[axis.axis] < axis.travel_low - same_position || place[axis.axis] > axis.travel_high + same_position;
-  });
 }
 
 int percent_of(double factor) {
@@ -76,21 +66,7 @@ Result<Ticket, Refusal> GrblMachineSession::request(Request wanted) {
 
 std::optional<Refusal> GrblMachineSession::refuse(MachineEvent event) const {
   if (next_state(state_, event)) return {};
-  return why_not();
-}
-
-Refusal GrblMachineSession::why_not() const {
-  switch (state_) {
-    case MachineState::offline: return {RefusalReason::not_ready};
-    case MachineState::alarm: return {RefusalReason::motors_stopped};
-    case MachineState::fault: return {RefusalReason::board_lost};
-    case MachineState::sleep: return {RefusalReason::asleep};
-    case MachineState::door: return {RefusalReason::door_open};
-    case MachineState::await_line: return {RefusalReason::outputs_left_on};
-    default: break;
-  }
-  if (busy()) return {RefusalReason::busy};
-  return {RefusalReason::nothing_going_on};
+  return refusal_in(state_, busy());
 }
 
 GrblMachineSession::Answer GrblMachineSession::at_once() {
@@ -154,14 +130,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::DropLines&) {
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Jog& jog) {
   if (auto refusal = refuse(MachineEvent::begin_jog)) return Failure{*refusal};
-  const double speed = jog.way.speed.value();
-  const bool good = std::isfinite(speed) && speed > 0 && all_finite(jog.way.direction) &&
-                    std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
-                    length_of(jog.way.direction) > 0;
-  if (!good) return refused(RefusalReason::bad_jog);
-  if (!(jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease)) {
-    return refused(RefusalReason::bad_lease);
-  }
+  if (auto refusal = refusal_of(jog)) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
   work->kind = ActivityKind::jog;
@@ -205,12 +174,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Home& home) {
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Probe& probe) {
   if (auto refusal = refuse(MachineEvent::begin_probe)) return Failure{*refusal};
-  if (!all_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
-    return refused(RefusalReason::bad_probe);
-  }
-  if (position_.trust != Trust::unknown && leaves_travel_of(machine_, probe.target)) {
-    return refused(RefusalReason::probe_leaves_travel);
-  }
+  if (auto refusal = refusal_of(probe, machine_, position_, Mm(same_position))) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
   work->kind = ActivityKind::probing;
@@ -294,15 +258,11 @@ void GrblMachineSession::send_overrides() {
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Override& change) {
   if (change.adaptive_feed && *change.adaptive_feed != 1) return refuse_ability(Ability::adaptive_feed);
+  if (auto refusal = refusal_of(change)) return Failure{*refusal};
   for (const auto& factor : {change.feed, change.spindle}) {
-    if (!factor) continue;
-    if (!(*factor >= 0 && *factor <= greatest_factor)) return refused(RefusalReason::bad_override);
-    if (*factor < least_feed_factor) return refuse_ability(Ability::any_override);
+    if (factor && *factor < least_feed_factor) return refuse_ability(Ability::any_override);
   }
-  if (change.rapids && !(*change.rapids >= 0.05 && *change.rapids <= 1)) {
-    return refused(RefusalReason::bad_rapid_override);
-  }
-  if (state_ == MachineState::offline || state_ == MachineState::fault) return Failure{why_not()};
+  if (state_ == MachineState::offline || state_ == MachineState::fault) return Failure{refusal_in(state_, busy())};
   if (change.feed) {
     overrides_.feed = percent_of(*change.feed) / 100.0;
     sender_.override_feed(percent_of(*change.feed));
@@ -378,7 +338,7 @@ void GrblMachineSession::switch_outputs_off() {
 
 // The board knows no other place. That it stands where it is shown can be confirmed.
 GrblMachineSession::Answer GrblMachineSession::handle(request::SetPosition& set) {
-  if (state_ != MachineState::idle) return Failure{why_not()};
+  if (state_ != MachineState::idle) return Failure{refusal_in(state_, busy())};
   if (!all_finite(set.position.place)) return refused(RefusalReason::bad_place);
   if (distance(set.position.place, position_.place) > same_position) return refuse_ability(Ability::set_position);
   unlock();

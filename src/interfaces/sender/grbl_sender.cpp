@@ -39,7 +39,8 @@ std::string printable(std::string_view text) {
   while (!text.empty()) {
     const CodePoint first = first_code_point(text);
     const std::size_t length = std::max<std::size_t>(first.length, 1);
-    const bool is_control = first.length == 0 || first.value < 0x20 || (first.value >= 0x7f && first.value < 0xa0);
+    const bool is_low = first.value < 0x20 && first.value != '\t';  // grblHAL divides fields by tabs
+    const bool is_control = first.length == 0 || is_low || (first.value >= 0x7f && first.value < 0xa0);
     if (is_control) {
       shown += '?';
     } else {

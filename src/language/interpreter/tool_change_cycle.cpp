@@ -50,8 +50,9 @@ bool ToolChangeCycle::step() {
     case Stage::latch: latch(); break;
     case Stage::judge: judge(); break;
     case Stage::go_back: go_back(); return false;
+    case Stage::give_up: gave_up_ = true; return false;
   }
-  return !gave_up_;
+  return true;
 }
 
 // The spindle was switched off before. It runs down while Z rises, and then for the whole time of the plan: nobody
@@ -204,7 +205,10 @@ void ToolChangeCycle::not_measured(std::string reason) {
   rise();
   reason_ = std::move(reason);
   if (++tries_ == most_tries) {
-    gave_up_ = true;
+    // An error ends the path where it is found. So the error has to wait until the tool is up: for a probe move of no
+    // length.
+    probe(position_);
+    stage_ = Stage::give_up;
     return;
   }
   if (!used_) {
@@ -332,8 +336,12 @@ void ToolChangeCycle::probe_to(double z, MmPerSecond speed) {
   machine_ = with_z(z);
   position_ = frame_.work_from_machine(machine_);
   emit(operation::SetFeedRate{operation::FeedPerSecond{speed}});
+  probe(position_);
+}
+
+void ToolChangeCycle::probe(const Point& work_end) {
   emit(operation::TurnProbe{true});
-  emit(operation::StraightProbe{position_, true, false});
+  emit(operation::StraightProbe{work_end, true, false});
   emit(operation::TurnProbe{false});
   awaits_ = true;
 }

@@ -66,6 +66,7 @@ class ToolChangeCycle final : public Cycle {
     latch,
     judge,
     go_back,  // over the work
+    give_up,
   };
 
   bool step() override;
@@ -99,6 +100,7 @@ class ToolChangeCycle final : public Cycle {
   void go_to(const Point& to);
   void go_to(const Point& to, MmPerSecond speed);
   void probe_to(double z, MmPerSecond speed);
+  void probe(const Point& work_end);
 
   const ToolChangePlan& plan_;
   Start start_;

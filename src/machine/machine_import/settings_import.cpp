@@ -174,6 +174,7 @@ void SettingsImport::read_axis(Axis letter, int index) {
 }
 
 // Machine zero is at the switch at the high end, even if the machine homes to the low end; grblHAL can have it there.
+// Without homing it is where the machine was switched on, which may be anywhere.
 void SettingsImport::read_travel(ImportedAxis& axis, int index) {
   auto length = number(130 + index);
   if (!length) return;
@@ -185,8 +186,9 @@ void SettingsImport::read_travel(ImportedAxis& axis, int index) {
   const bool homes_low = (mask(23).value_or(0) >> index & 1U) != 0;
   const bool starts_at_zero = is_grblhal() && (homing_ & 9U) == 9U && homes_low;
   const SourcedNumber zero{DecimalNumber(0), length->origin};
+  const bool is_anywhere = setting(22) != nullptr && (homing_ & 1U) == 0;
   axis.low = starts_at_zero ? zero : SourcedNumber{-length->value, length->origin};
-  axis.high = starts_at_zero ? *length : zero;
+  axis.high = starts_at_zero || is_anywhere ? *length : zero;
 }
 
 void SettingsImport::read_second(ImportedAxis& axis, int index) {
@@ -335,6 +337,11 @@ void SettingsImport::read_soft_limits() {
   if (setting(22) != nullptr)
     context_.understood(origin(22), (homing_ & 1U) != 0 ? "[axis.X.home]" : "no [axis.X.home]");
   if ((homing_ & 1U) != 0) return;
+  if (setting(22) != nullptr)
+    context_.warn(
+        "homing is off ($22=0): machine zero is where the machine is switched on, so the file allows the whole travel "
+        "in "
+        "both directions from there, and Passo cannot know where it ends");
   for (const int number : {23, 24, 25, 27}) {
     context_.unmapped(setting(number), fmt::format("${}", number), "homing is off ($22)");
   }

@@ -1,6 +1,5 @@
 // BoardMachineSession: how the session answers each request.
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -10,27 +9,10 @@
 #include "passo/activity/jog_line.hpp"
 #include "passo/activity/probe_line.hpp"
 #include "passo/activity/stage_options.hpp"
-#include "passo/geometry/euclid.hpp"
+#include "passo/session/request_checks.hpp"
 
 namespace passo {
 namespace {
-
-constexpr double highest_factor = 2;
-constexpr double least_rapids = 0.05;
-
-bool is_factor(const std::optional<double>& value, double highest) {
-  return !value || (*value >= 0 && *value <= highest);
-}
-
-bool is_finite(const Point& point) {
-  return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
-}
-
-bool leaves_travel(const MachineDescription& machine, const Point& place) {
-  return std::ranges::any_of(machine.axes, [&](const AxisDescription& axis) {
-    return place[axis.axis] < axis.travel_low || place[axis.axis] > axis.travel_high;
-  });
-}
 
 // The axes whose switch may be the closed one: "X or Y". Empty: no axis has a switch on that input.
 std::string axes_with_switch(const MachineDescription& machine, unsigned input) {
@@ -59,17 +41,7 @@ std::optional<Refusal> BoardMachineSession::refuse(MachineEvent event) const {
 }
 
 Refusal BoardMachineSession::why_not() const {
-  switch (state_) {
-    case MachineState::offline: return {RefusalReason::not_ready};
-    case MachineState::alarm: return refusal_in_alarm();
-    case MachineState::fault: return {RefusalReason::board_lost};
-    case MachineState::sleep: return {RefusalReason::asleep};
-    case MachineState::door: return {RefusalReason::door_open};
-    case MachineState::await_line: return {RefusalReason::outputs_left_on};
-    default: break;
-  }
-  if (busy()) return {RefusalReason::busy};
-  return {RefusalReason::nothing_going_on};
+  return state_ == MachineState::alarm ? refusal_in_alarm() : refusal_in(state_, busy());
 }
 
 std::optional<Refusal> BoardMachineSession::closed_limit() const {
@@ -240,14 +212,7 @@ void BoardMachineSession::put_on_drive(Work& work, const DriveOptions& options, 
 
 BoardMachineSession::Answer BoardMachineSession::handle(request::Jog& jog) {
   if (auto refused = refuse(MachineEvent::begin_jog)) return Failure{*refused};
-  const double speed = jog.way.speed.value();
-  const bool good = std::isfinite(speed) && speed > 0 && is_finite(jog.way.direction) &&
-                    std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
-                    length_of(jog.way.direction) > 0;
-  if (!good) return refusal(RefusalReason::bad_jog);
-  if (!(jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease)) {
-    return refusal(RefusalReason::bad_lease);
-  }
+  if (auto refused = refusal_of(jog)) return Failure{*refused};
   if (auto refused = refuse_way(jog.way.direction)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->activity = std::make_unique<JogLine>(machine_, position().place, jog.way, position().trust != Trust::unknown);
@@ -291,12 +256,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Home& home) {
 
 BoardMachineSession::Answer BoardMachineSession::handle(request::Probe& probe) {
   if (auto refused = refuse(MachineEvent::begin_probe)) return Failure{*refused};
-  if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
-    return refusal(RefusalReason::bad_probe);
-  }
-  if (position().trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
-    return refusal(RefusalReason::probe_leaves_travel);
-  }
+  if (auto refused = refusal_of(probe, machine_, position(), Mm(0))) return Failure{*refused};
   if (auto refused = refuse_way(probe.target - position().place)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->activity =
@@ -355,13 +315,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Stop&) {
 }
 
 BoardMachineSession::Answer BoardMachineSession::handle(request::Override& change) {
-  if (!is_factor(change.feed, highest_factor) || !is_factor(change.adaptive_feed, 1) ||
-      !is_factor(change.spindle, highest_factor)) {
-    return refusal(RefusalReason::bad_override);
-  }
-  if (!is_factor(change.rapids, 1) || change.rapids.value_or(1) < least_rapids) {
-    return refusal(RefusalReason::bad_rapid_override);
-  }
+  if (auto refused = refusal_of(change)) return Failure{*refused};
   overrides_.feed = change.feed.value_or(overrides_.feed);
   overrides_.adaptive_feed = change.adaptive_feed.value_or(overrides_.adaptive_feed);
   overrides_.spindle = change.spindle.value_or(overrides_.spindle);
@@ -419,7 +373,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::OperatorDone&) 
 
 BoardMachineSession::Answer BoardMachineSession::handle(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
-  if (!is_finite(set.position.place)) return refusal(RefusalReason::bad_place);
+  if (!all_finite(set.position.place)) return refusal(RefusalReason::bad_place);
   KnownPosition position = set.position;
   position.downs = this->position().downs;  // the motors stand where they stood
   stand_at(position);

@@ -53,6 +53,7 @@ export const faults = {
   'ability.grbl.set-position': 'this board keeps its own position: home it, or set the zero of the work',
   'ability.grbl.thread': 'this board cannot follow the spindle',
   'ability.grbl.home': 'homing is off on this board ($22=0)',
+  'ability.grbl.hold-input': 'the hold input of the board is still active: release it, then resume',
   // Requests that the server refuses
   'http.bad-request': 'the server cannot interpret this request',
   'http.token': 'a token is required',

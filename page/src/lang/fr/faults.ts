@@ -55,6 +55,7 @@ export const faults: Same<typeof en> = {
   'ability.grbl.set-position': 'cette carte garde sa propre position\u00a0: prenez l’origine machine, ou définissez le zéro pièce',
   'ability.grbl.thread': 'cette carte ne peut pas suivre la broche',
   'ability.grbl.home': 'la prise d’origine est désactivée sur cette carte ($22=0)',
+  'ability.grbl.hold-input': 'l’entrée de pause de la carte est encore active\u00a0: relâchez-la, puis reprenez',
   // Requests that the server refuses
   'http.bad-request': 'le serveur ne comprend pas cette requête',
   'http.token': 'un jeton est requis',

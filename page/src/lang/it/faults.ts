@@ -55,6 +55,7 @@ export const faults: Same<typeof en> = {
   'ability.grbl.set-position': 'questa scheda conserva la propria posizione: azzerare la macchina, o definire lo zero del pezzo',
   'ability.grbl.thread': 'questa scheda non può seguire il mandrino',
   'ability.grbl.home': 'l’azzeramento è disattivato su questa scheda ($22=0)',
+  'ability.grbl.hold-input': 'l’ingresso di pausa della scheda è ancora attivo: rilasciarlo, poi riprendere',
   // Requests that the server refuses
   'http.bad-request': 'il server non capisce questa richiesta',
   'http.token': 'serve un token',

@@ -55,6 +55,7 @@ export const faults: Same<typeof en> = {
   'ability.grbl.set-position': '此控制板自行保存位置：请回零，或设置工件零点',
   'ability.grbl.thread': '此控制板不能跟随主轴',
   'ability.grbl.home': '此控制板的回零功能已关闭（$22=0）',
+  'ability.grbl.hold-input': '控制板的进给保持输入仍然有效：请先松开，再继续',
   // Requests that the server refuses
   'http.bad-request': '服务器无法解析此请求',
   'http.token': '需要令牌',

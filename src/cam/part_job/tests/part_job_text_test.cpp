@@ -253,7 +253,9 @@ TEST(PartKinds, have_the_options_that_the_reader_takes) {
     EXPECT_FALSE(keys.options.empty());
     const bool draws = keys.kind != PartKind::relief;
     EXPECT_EQ(std::ranges::count(keys.options, "layer"), draws ? 1 : 0) << name_of(keys.kind);
-    EXPECT_EQ(std::ranges::count(keys.options, "output"), 0);
+    for (const char* const of_command : {"output", "nest", "most-sheets"}) {
+      EXPECT_EQ(std::ranges::count(keys.options, of_command), 0) << of_command;
+    }
   }
 }
 

@@ -56,7 +56,7 @@ int list(const BoardFilesArguments& arguments, GrblConnection& opened, BoardFile
   }
   ordered_json json = {{"files", ordered_json::array()}};
   std::string text;
-  for (const FileOnBoard& file : files.all()) {
+  for (const StoredFile& file : files.all()) {
     json["files"].push_back({{"path", file.path}, {"bytes", file.bytes}, {"can_run", file.can_run}});
     text += fmt::format("{:>10}  {}{}\n", file.bytes, file.path, file.can_run ? "" : "  (its name cannot be used)");
   }
@@ -119,7 +119,9 @@ int run_file(const BoardFilesArguments& arguments, GrblConnection& opened, const
   }
   const double time = (active - begun).value();
   const ordered_json json = {{"path", arguments.run}, {"time_s", time}};
-  return print_text(arguments.json ? json.dump(2) + "\n" : fmt::format("{}: {:.1f} s\n", arguments.run, time));
+  return print_text(arguments.json ? json.dump(2) + "\n"
+                                   : fmt::format("{}: {:.1f} s; stopped at {} (machine)\n", arguments.run, time,
+                                                 place_words(opened.sender())));
 }
 
 }  // namespace

@@ -29,31 +29,27 @@ bool GrblConnection::greet(int& code) {
   return false;
 }
 
-int GrblConnection::give_up() const {
-  const auto& fault = sender_.fault();
-  if (!fault || interrupted_by() != 0) return exit_of_signal();
-  return fail(exit_failed, fmt::format("{}: {}", board_, describe(*fault, "")));
-}
-
 // The sender is silent meanwhile, and asks the board again afterwards.
 bool GrblConnection::upload(FileUpload upload, int& code) {
-  for (bool ended = false; !ended;) {
+  GrblPort& port = *link_.port;
+  bool ended = false;
+  while (!ended) {
     if (interrupted_by() != 0) upload.cancel();
-    link_.port->send(upload.take_bytes(now()));
+    port.send(upload.take_bytes(port.now()));
     ended = upload.ended();
-    const std::string came = link_.port->receive(between_looks);
-    if (link_.port->is_broken()) {
+    const std::string came = port.receive(between_looks);
+    if (port.is_broken()) {
       code = fail(exit_failed, board_ + ": the connection is lost [grbl.line-lost]");
       return false;
     }
-    upload.receive(came, now());
+    if (!came.empty()) upload.receive(came, port.now());
   }
   if (!upload.trouble().empty()) {
     code = interrupted_by() != 0 ? exit_of_signal()
                                  : fail(exit_failed, fmt::format("{}: {} [board.upload]", board_, upload.trouble()));
     return false;
   }
-  sender_ = GrblSender::on_open_line(now());
+  sender_ = GrblSender::on_open_line(port.now());
   return greet(code);
 }
 
@@ -68,12 +64,19 @@ std::optional<GrblAnswer> GrblConnection::ask(const std::string& line, Seconds m
   return answer;
 }
 
+int GrblConnection::give_up() const {
+  const auto& fault = sender_.fault();
+  const int failed = fault ? fail(exit_failed, fmt::format("{}: {}", board_, describe(*fault, ""))) : exit_failed;
+  return fault && interrupted_by() == 0 ? failed : exit_of_signal();
+}
+
 void GrblConnection::poll(Seconds most) {
   link_.port->send(sender_.take_bytes(link_.port->now()));
   const std::string came = link_.port->receive(most);
   // A line that is opened anew may reset the machine, so a line that broke stays so.
   if (link_.port->is_broken()) return sender_.lose();
   sender_.receive(came, link_.port->now());
+  note_trouble(board_, sender_.take_messages());
 }
 
 }  // namespace passo

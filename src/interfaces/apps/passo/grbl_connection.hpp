@@ -1,11 +1,10 @@
-// GrblConnection: a connected Grbl board that is asked for its properties, settings and files. Where Passo
-// moves it, GrblMachineConnection has a session.
+// GrblConnection: a connected Grbl board that is asked for its properties and settings, and moves nothing. Where it is
+// to move, GrblMachineConnection has a session.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "grbl_machine_connection.hpp"
 
@@ -28,18 +27,19 @@ class GrblConnection {
   GrblSender& sender() { return sender_; }
   const GrblSender& sender() const { return sender_; }
   Seconds now() const { return link_.port->now(); }
+  // Sends pending data and processes received data, for at most `most`.
+  void poll(Seconds most);
   // Sends a file. Returns false, with a message and `code`, if the board has not received it.
   [[nodiscard]] bool upload(FileUpload upload, int& code);
   // Asks a question, and waits for the answer. Empty, with a message and `code`, if there is none.
   std::optional<GrblAnswer> ask(const std::string& line, Seconds most, int& code);
   // Shows why the board does not answer. Returns the exit code.
   [[nodiscard]] int give_up() const;
-  // Sends pending data and processes received data, for at most `most`.
-  void poll(Seconds most);
 
  private:
   GrblConnection(std::string board, GrblLink link)
       : board_(std::move(board)), link_(std::move(link)), sender_(link_.port->now()) {}
+
   [[nodiscard]] bool greet(int& code);
 
   std::string board_;

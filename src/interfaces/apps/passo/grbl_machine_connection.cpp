@@ -58,21 +58,22 @@ bool GrblStreamPort::has_returned() {
 
 bool GrblStreamPort::open_again() {
   if (!opening_.valid()) {
-    const auto present = present_address();
-    if (!present) return false;
-    renamed_ = present->place != address_.place ? present : std::nullopt;
+    const auto address = present_address();
+    if (!address) return false;
     renamed_claim_.reset();
-    if (renamed_) {
-      auto claim = BoardClaim::acquire(*renamed_);
-      if (!claim) return false;
-      renamed_claim_ = std::move(*claim);
+    if (address->place != address_.place) {
+      auto taken = BoardClaim::acquire(*address);
+      if (!taken) return false;
+      renamed_claim_ = std::move(*taken);
     }
-    opening_ = std::async(std::launch::async, [address = *present] { return open_board(address); });
+    opened_at_ = *address;
+    opening_ = std::async(std::launch::async, [address = opened_at_] { return open_board(address); });
   }
   if (opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
   auto port = opening_.get();
   if (!port) return false;
-  if (renamed_) note("the board is at " + renamed_->place + " now, instead of " + address_.place);
+  if (opened_at_.place != address_.place)
+    note("the board is at " + opened_at_.place + " now, instead of " + address_.place);
   port_ = std::move(*port);
   broken_ = false;
   return true;
@@ -123,16 +124,11 @@ void GrblMachineConnection::poll(Seconds most) {
     try_request(session_, request::Stop{});
   }
   session_.poll(most);
-  const auto tell = [](const std::string& words) {
-    ProgressDisplay::clear_shown();
-    note(words);
-  };
-  for (const std::string& message : session_.take_messages()) {
-    const bool is_trouble = message.starts_with("ERR") || message.starts_with("WARN");  // of FluidNC
-    if (is_trouble) tell(fmt::format("{}: the board says: {}", board_, message));
-  }
+  note_trouble(board_, session_.take_messages());
   const std::string_view wait = session_.sender().waits_for();
-  if (std::exchange(last_wait_, wait) != wait && !wait.empty()) tell(std::string(wait));
+  if (std::exchange(last_wait_, wait) == wait || wait.empty()) return;
+  ProgressDisplay::clear_shown();
+  note(std::string(wait));
 }
 
 void GrblMachineConnection::poll_until_done() {
@@ -146,12 +142,12 @@ std::string GrblMachineConnection::words() const {
   return fmt::format("{} {} on {}", board.firmware, board.version, board_);
 }
 
-std::string GrblMachineConnection::place_words() const {
-  const auto place = session_.sender().place();
+std::string place_words(const GrblSender& sender) {
+  const auto place = sender.place();
   if (!place) return "an unknown position";
   std::string words;
   AxisSet told;
-  for (const char letter : session_.board().axes) {
+  for (const char letter : sender.machine().axes) {
     const auto axis = axis_of(letter);
     if (!axis || told.has(*axis)) continue;
     told.add(*axis);
@@ -168,6 +164,14 @@ std::string describe(const GrblFault& fault, const std::string& program) {
                 : fmt::format("{}:{}: ", program, fault.last_line);
   }
   return fmt::format("{}{} [{}]", where, fault.message, fault.code);
+}
+
+void note_trouble(const std::string& board, const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) {
+    if (!message.starts_with("ERR") && !message.starts_with("WARN")) continue;  // as FluidNC begins them
+    ProgressDisplay::clear_shown();
+    note(fmt::format("{}: the board says: {}", board, message));
+  }
 }
 
 void note_unknown_firmware(const std::string& board, const GrblMachine& machine) {

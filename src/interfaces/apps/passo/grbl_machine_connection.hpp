@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "board_claim.hpp"
 
@@ -39,9 +40,9 @@ class GrblStreamPort final : public GrblPort {
 
   BoardAddress address_;
   std::string system_;
-  std::optional<SerialPort> device_;     // null: no USB port
-  std::optional<BoardAddress> renamed_;  // the name under which it is being opened
-  std::optional<BoardClaim> renamed_claim_;
+  std::optional<SerialPort> device_;         // null: no USB port
+  std::optional<BoardClaim> renamed_claim_;  // under another name
+  BoardAddress opened_at_;
   std::unique_ptr<StreamPort> port_;
   bool broken_ = false;
   std::future<Result<std::unique_ptr<StreamPort>, std::string>> opening_;  // valid while it is being opened
@@ -50,7 +51,8 @@ class GrblStreamPort final : public GrblPort {
 
 // The open line to a board, which no other program of ours may use.
 struct GrblLink {
-  // Empty, with a message and `code`, if there is no such board, or if another program drives it.
+  // Empty, with a message and `code`, if there is no such board, or if another program drives it. `system`: for
+  // list_serial_ports().
   static std::optional<GrblLink> open(const std::string& board, int& code, const std::string& system = "");
 
   BoardClaim claim;
@@ -73,8 +75,6 @@ class GrblMachineConnection {
   void poll_until_done();
   // Returns "Grbl 1.1h.20190830 on /dev/ttyUSB0".
   std::string words() const;
-  // Returns "X1.000 Y2.000 Z0.000", all axes of the board, machine coordinates; or that the position is unknown.
-  std::string place_words() const;
 
  private:
   GrblMachineConnection(std::string board, GrblLink link, const MachineDescription& machine, Seconds ahead)
@@ -87,8 +87,12 @@ class GrblMachineConnection {
   bool stops_ = false;
 };
 
+// Returns "X1.000 Y2.000 Z0.000", all axes of the board, machine coordinates; or that the position is unknown.
+std::string place_words(const GrblSender& sender);
 // Describes a fault: position in the program, cause and code.
 std::string describe(const GrblFault& fault, const std::string& program);
+// Shows the errors and warnings among the messages of a board.
+void note_trouble(const std::string& board, const std::vector<std::string>& messages);
 void note_unknown_firmware(const std::string& board, const GrblMachine& machine);
 
 }  // namespace passo

@@ -33,10 +33,10 @@ std::vector<double> place_of(const MachineSession& session, const MachineDescrip
   return place;
 }
 
-// Homes the machine, or one axis. Returns false, with a message and `code`, on failure.
+// Homes the machine. Returns false, with a message and `code`, on failure.
 bool home_first(GrblMachineConnection& opened, const std::string& board, std::optional<Axis> axis, int& code) {
   GrblMachineSession& session = opened.session();
-  const auto ticket = session.request(request::Home{.axis = axis});
+  const auto ticket = session.request(request::Home{axis});
   Answered answered{.outcome = Outcome::failed};
   if (ticket) {
     opened.poll_until_done();
@@ -54,7 +54,7 @@ bool home_first(GrblMachineConnection& opened, const std::string& board, std::op
 
 // The machine is idle and not locked. False, with a message and `code`.
 bool make_ready(GrblMachineConnection& opened, const RunArguments& arguments, int& code) {
-  if (arguments.home && !home_first(opened, arguments.board, {}, code)) return false;
+  if (arguments.home && !home_first(opened, arguments.board, std::nullopt, code)) return false;
   if (!opened.session().is_locked()) return true;
   const std::string alarm = opened.session().sender().alarm_words();
   code = fail(exit_failed, fmt::format("{}: the machine is locked by an alarm{}{}{}. Home it with --home, or unlock "
@@ -91,7 +91,7 @@ void print(Seconds time, const RunArguments& arguments, GrblMachineConnection& o
     fmt::print(
         "{}: {} in {}, {:.1f} s; stopped at {} (machine). Steps were not counted, because {} {} does not report them\n",
         arguments.program.program, counted(check.moves, "move"), counted(session.lines_of_program(), "line"),
-        time.value(), opened.place_words(), board.firmware, board.version);
+        time.value(), place_words(opened.session().sender()), board.firmware, board.version);
   }
 }
 
@@ -102,6 +102,11 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
     words = describe(*session.fault(), arguments.program.program);
   } else if (answered.refused) {
     words = describe(*answered.refused);
+  } else if (answered.fault && answered.fault->fault == MachineFault::program_waits && interrupted_by() == 0) {
+    words = filled(
+        "{program} waits at {wait}, but there is no terminal to ask the operator: run it in a terminal, or with --yes "
+        "when everything is prepared [run.waits]",
+        answered.fault->arguments);
   } else if (answered.fault && interrupted_by() == 0) {
     words = fmt::format("{} [{}]", answered.fault->message(), answered.fault->code());
   }
@@ -110,7 +115,7 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
   const int failed =
       fail(exit_failed, fmt::format("{}; the machine was last in state {} at {} (machine coordinates). A Grbl machine "
                                     "cannot resume exactly where it stopped: start at a line with --from-line",
-                                    words, report ? report->state : "unknown", opened.place_words()));
+                                    words, report ? report->state : "unknown", place_words(opened.session().sender())));
   return interrupted_by() != 0 ? exit_of_signal() : failed;
 }
 
@@ -192,7 +197,8 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   show(findings);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
-    note("the program starts at " + opened->place_words() + " (machine coordinates), with the offsets of the machine");
+    note("the program starts at " + place_words(opened->session().sender()) +
+         " (machine coordinates), with the offsets of the machine");
   const auto address = parse_board_address(arguments.board);
   const double rate = address ? grbl_bytes_per_second(*address, session.board()) : 0;
   GrblTimeLeft time_left(program.again(), machine, options, grbl_timing_of(session.board(), rate), check.nominal_time);
@@ -218,9 +224,9 @@ int home_grbl(const HomeArguments& arguments, const MachineDescription& machine)
   brake_on_signals();
   const auto opened = GrblMachineConnection::open(arguments.board, machine, GrblSender::default_ahead, code);
   if (!opened) return code;
-  const Seconds begun = opened->session().now();
   const std::optional<Axis> axis =
       arguments.axis.empty() ? std::nullopt : axis_of(static_cast<char>(std::toupper(arguments.axis.front())));
+  const Seconds begun = opened->session().now();
   if (!home_first(*opened, arguments.board, axis, code)) return code;
   const double time = (opened->session().now() - begun).value();
   if (arguments.json) {
@@ -228,7 +234,7 @@ int home_grbl(const HomeArguments& arguments, const MachineDescription& machine)
         {"homed", true}, {"time_s", time}, {"position_mm", place_json(opened->session())}};
     fmt::print("{}\n", all.dump(2));
   } else if (!arguments.quiet) {
-    fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, opened->place_words());
+    fmt::print("homed in {:.1f} s; stopped at {} (machine)\n", time, place_words(opened->session().sender()));
   }
   return exit_done;
 }

@@ -32,9 +32,9 @@ TEST(BoardFiles, of_grblhal_are_listed_with_their_paths) {
   const std::vector<std::string> said = {"[FILE:/part.nc|SIZE:1234]", "[FILE:/jobs/a b.gcode|SIZE:5]",
                                          "[FILE:/what?.nc|SIZE:7|UNUSABLE]", "[MSG:Caution]"};
   files->hear("$F+", said);
-  const std::vector<FileOnBoard> expected = {{.path = "/part.nc", .bytes = 1234},
-                                             {.path = "/jobs/a b.gcode", .bytes = 5},
-                                             {.path = "/what?.nc", .bytes = 7, .can_run = false}};
+  const std::vector<StoredFile> expected = {{.path = "/part.nc", .bytes = 1234},
+                                           {.path = "/jobs/a b.gcode", .bytes = 5},
+                                           {.path = "/what?.nc", .bytes = 7, .can_run = false}};
   EXPECT_EQ(files->all(), expected);
   EXPECT_EQ(*files->run_line("/part.nc"), "$F=/part.nc");
   EXPECT_EQ(*files->run_line("part.nc"), "$F=/part.nc");
@@ -56,7 +56,7 @@ TEST(BoardFiles, of_fluidnc_are_in_two_places_with_folders) {
   const std::vector<std::string> flash = {"[FILE: config.yaml|SIZE:900]"};
   files->hear("$LocalFS/List", flash);
   std::vector<std::string> paths;
-  for (const FileOnBoard& one : files->all()) paths.push_back(one.path);
+  for (const StoredFile& one : files->all()) paths.push_back(one.path);
   EXPECT_EQ(paths, (std::vector<std::string>{"/sd/part.nc", "/sd/jobs/deep.nc", "/sd/jobs/more/deeper.nc",
                                              "/sd/last.nc", "/localfs/config.yaml"}));
   EXPECT_EQ(files->all().back().bytes, 900U);

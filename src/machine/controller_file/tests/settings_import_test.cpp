@@ -39,6 +39,10 @@ TEST(SettingsImport, homes_as_grbl_does) {
   const Imported off = imported(replaced(example_text("grbl.txt"), "$22=1", "$22=0"));
   EXPECT_FALSE(off.axis(Axis::x).home.has_value());
   EXPECT_EQ(off.reason_of("$25"), "homing is off ($22)");
+  // Its zero is where it was switched on.
+  EXPECT_EQ(off.axis(Axis::x).travel_low, -410);
+  EXPECT_EQ(off.axis(Axis::x).travel_high, 410);
+  EXPECT_TRUE(off.warns_of("where the machine is switched on"));
 }
 
 TEST(SettingsImport, levels_of_grbl_and_grblhal_have_opposite_meanings) {

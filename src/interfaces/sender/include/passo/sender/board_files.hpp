@@ -21,12 +21,12 @@ namespace passo {
 inline constexpr std::size_t most_board_files = 5000;
 inline constexpr std::size_t longest_board_path = 200;  // bytes
 
-struct FileOnBoard {
+struct StoredFile {
   std::string path;         // "/sd/part.nc"
   std::uint64_t bytes = 0;  // its size
   bool can_run = true;      // grblHAL cannot open some names
 
-  bool operator==(const FileOnBoard&) const = default;
+  bool operator==(const StoredFile&) const = default;
 };
 
 // What one firmware knows about files.
@@ -39,7 +39,7 @@ class BoardFiles {
   std::vector<std::string> questions() const;
   // Adds the files in the answer to one of these lines.
   void hear(std::string_view question, std::span<const std::string> said);
-  const std::vector<FileOnBoard>& all() const { return files_; }
+  const std::vector<StoredFile>& all() const { return files_; }
 
   // Returns the line that runs a file. The error is a clause.
   Result<std::string, std::string> run_line(std::string_view path) const;
@@ -52,7 +52,7 @@ class BoardFiles {
   void add(std::string path, std::string_view fields);
 
   bool is_fluidnc_ = false;
-  std::vector<FileOnBoard> files_;
+  std::vector<StoredFile> files_;
 };
 
 }  // namespace passo

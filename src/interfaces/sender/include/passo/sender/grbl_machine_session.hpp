@@ -147,7 +147,6 @@ class GrblMachineSession final : public MachineSession {
   Answer handle(request::Sleep& sleep);
   Answer handle(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
-  Refusal why_not() const;
   Answer refuse_ability(Ability ability) const;
   Answer at_once();
   void end_at_other_zero(std::uint32_t line);

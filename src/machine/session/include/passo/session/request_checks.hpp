@@ -1,0 +1,23 @@
+// What every kind of session checks in a request, whatever its board is. An empty result: nothing is wrong.
+#pragma once
+
+#include <optional>
+
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/session/machine_state.hpp"
+#include "passo/session/machine_status.hpp"
+#include "passo/session/refusal.hpp"
+#include "passo/session/request.hpp"
+
+namespace passo {
+
+bool all_finite(const Point& point);
+// Why nothing can begin in this state. `is_busy`: an activity is running or held.
+Refusal refusal_in(MachineState state, bool is_busy);
+std::optional<Refusal> refusal_of(const request::Jog& jog);
+// `slack`: how exactly the board reports its position.
+std::optional<Refusal> refusal_of(const request::Probe& probe, const MachineDescription& machine,
+                                  const KnownPosition& position, Mm slack);
+std::optional<Refusal> refusal_of(const request::Override& change);
+
+}  // namespace passo
