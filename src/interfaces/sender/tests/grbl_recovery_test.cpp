@@ -1,7 +1,10 @@
-// How a GrblMachineSession comes to a known place: homing of single axes, and devices that return.
+// How a GrblMachineSession comes to a known place, and to its sender: homing of single axes, devices that return, a
+// sender that was lent.
 #include "kit/example_machine.hpp"
 #include "kit/grbl_session_run.hpp"
 #include <gmock/gmock.h>
+
+#include "passo/sender/firmware_settings.hpp"
 
 namespace passo::test {
 namespace {
@@ -69,6 +72,43 @@ TEST_F(GrblRecoveries, open_a_device_that_was_unplugged_and_returns) {
   EXPECT_FALSE(run.ask(grbl_start(line_of_ten)));
   ASSERT_TRUE(run.play_for(Seconds(5)));
   EXPECT_EQ(run.grbl.speed(), 0);
+}
+
+TEST_F(GrblRecoveries, lend_their_sender_to_a_reader_of_the_settings) {
+  EXPECT_EQ(run.session.lend_sender(), nullptr) << "not before the board has answered";
+  ASSERT_TRUE(run.go_online());
+  EXPECT_FALSE(run.session.abilities().can(Ability::home));
+  GrblSender* const sender = run.session.lend_sender();
+  ASSERT_NE(sender, nullptr);
+  EXPECT_EQ(run.session.lend_sender(), nullptr) << "to one at a time";
+  FirmwareSettings settings(*sender);
+  settings.write("$22", "1");
+  ASSERT_TRUE(run.play([&] {
+    settings.poll();
+    return !settings.busy();
+  }));
+  EXPECT_FALSE(run.ask(grbl_start(line_of_ten))) << "nothing begins meanwhile";
+  EXPECT_EQ(run.refusal->code(), RefusalCode::busy);
+  const auto changes = settings.take_changes();
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes.front().trouble, "");
+  EXPECT_TRUE(run.session.is_sender_lent());
+  run.session.take_sender_back();
+  EXPECT_TRUE(run.session.abilities().can(Ability::home)) << "the session knows the new setting";
+  const auto ticket = run.ask(grbl_start(line_of_ten));
+  ASSERT_TRUE(ticket);
+  EXPECT_EQ(run.session.lend_sender(), nullptr) << "not while a program runs";
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::done);
+}
+
+TEST_F(GrblRecoveries, have_their_sender_back_after_a_restart_of_the_board) {
+  ASSERT_TRUE(run.go_online());
+  GrblSender* const sender = run.session.lend_sender();
+  ASSERT_NE(sender, nullptr);
+  run.grbl.restart();
+  ASSERT_TRUE(run.play([&] { return !run.session.is_sender_lent(); }, Seconds(5)));
+  run.session.take_sender_back();
 }
 
 }  // namespace
