@@ -167,7 +167,7 @@ function SetUpPanel() {
         >
           {say('jog.home')}
         </Button>
-        {canHome &&
+        {hasSwitches &&
           whyUnable('home-axis') === '' &&
           axes.value.map((axis) => (
             <Button key={`home-${axis}`} icon="home" why={why} onClick={() => homeAxis(axis)}>

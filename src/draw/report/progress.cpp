@@ -43,14 +43,16 @@ std::string shortened(std::string_view text, std::size_t room) {
 
 }  // namespace
 
-std::string ProgressLine::update(double fraction, Seconds elapsed, const Columns& columns) {
+std::string ProgressLine::update(double fraction, Seconds elapsed, const Columns& columns,
+                                 std::optional<Seconds> left) {
   if (!terminal_ || elapsed < next_) return {};
   next_ = elapsed + pause;
   shown_ = true;
   fraction = std::clamp(std::isnan(fraction) ? 0.0 : fraction, 0.0, 1.0);
   // Rounded down, so that 100 % appears only when all is done.
   std::string figures = fmt::format(" {:3.0f} %", std::floor(100 * fraction));
-  if (fraction >= smallest_share) figures += fmt::format(", {} left", clock_text(elapsed * (1 / fraction - 1)));
+  if (!left && fraction >= smallest_share) left = elapsed * (1 / fraction - 1);
+  if (left) figures += fmt::format(", {} left", clock_text(*left));
   const std::size_t width = columns ? columns() : 0;
   if (width == 0) return fmt::format("{}{}{}", to_line_start_and_erase, label_, figures);
   figures = first_of(figures, width - 1);

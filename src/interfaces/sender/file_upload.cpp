@@ -24,7 +24,7 @@ constexpr std::size_t ymodem_size = 128;
 // FluidNC writes packets correctly only if all have the same size.
 constexpr std::size_t xmodem_size = 1024;
 constexpr std::size_t longest_ymodem_name = 31;
-constexpr std::size_t longest_line = 200;
+constexpr std::size_t longest_said = 200;
 constexpr int most_tries = 10;
 constexpr Seconds longest_start{30};
 constexpr Seconds longest_acknowledgement{5};
@@ -77,7 +77,7 @@ void FileUpload::fail(std::string words) {
 }
 
 void FileUpload::cancel() {
-  if (!ended()) fail("the upload was broken off");
+  if (!ended()) fail("the upload was interrupted");
 }
 
 // A packet has its number and its complement, so that a repeated one is recognised.
@@ -160,7 +160,7 @@ void FileUpload::hear(char byte, Seconds now) {
     if (byte == 'C' && stage_ != Stage::closes) return;
   }
   if (byte != '\n' && byte != '\r') {
-    if (byte >= ' ' && line_.size() < longest_line) line_ += byte;
+    if (byte >= ' ' && line_.size() < longest_said) line_ += byte;
     return;
   }
   const std::string line = std::exchange(line_, {});

@@ -27,27 +27,28 @@ double distance_to_line(const Point& from, const Point& to, const Point& place) 
   return distance(from + (to - from) * share_of_line(from, to, place), place);
 }
 
-// The share of a curve at the point that is nearest to a place.
-double share_along(const Curve& curve, const Point& place) {
-  if (curve.shape() == Curve::Shape::line) return share_of_line(curve.start(), curve.end(), place);
-  double nearest = std::numeric_limits<double>::infinity();
-  double share = 0;
-  Point from = curve.start();
-  for (int i = 0; i < samples; ++i) {
-    const Point to = curve.at(curve.length() * (static_cast<double>(i + 1) / samples));
-    const double away = distance_to_line(from, to, place);
-    if (away < nearest) share = (i + share_of_line(from, to, place)) / samples;
-    nearest = std::min(nearest, away);
-    from = to;
-  }
-  return share;
-}
-
 // Chords of a curved piece leave it by this much.
 double reach_of(const Curve& curve) {
   if (curve.shape() == Curve::Shape::line) return reported_within;
   const double chord = curve.length().value() / samples;
   return reported_within + curve.curvature() * chord * chord / 8;
+}
+
+// The first share of a curve from `from` on at which a place lies on it. Empty: there is none, also if the place lies
+// before it, because a machine does not go back on a piece.
+std::optional<double> share_reached(const Curve& curve, const Point& place, double from) {
+  const double reach = reach_of(curve);
+  const double length = curve.length().value();
+  const double least = from - (length > 0 ? reach / length : 1);
+  const int chords = curve.shape() == Curve::Shape::line ? 1 : samples;
+  Point start = curve.start();
+  for (int i = 0; i < chords; ++i) {
+    const Point end = i + 1 == chords ? curve.end() : curve.at(curve.length() * (static_cast<double>(i + 1) / chords));
+    const double share = (i + share_of_line(start, end, place)) / chords;
+    if (share >= least && distance_to_line(start, end, place) <= reach) return std::max(share, from);
+    start = end;
+  }
+  return {};
 }
 
 }  // namespace
@@ -76,11 +77,6 @@ void GrblExecuted::pass() {
   share_ = 0;
 }
 
-// The machine does not go back on a piece.
-void GrblExecuted::take_share(const Point& place) {
-  share_ = std::max(share_, share_along(pieces_.front().curve, place));
-}
-
 Seconds GrblExecuted::time(std::optional<Seconds> dwell_left) const {
   if (pieces_.empty()) return time_;
   const Piece& first = pieces_.front();
@@ -103,10 +99,11 @@ void GrblExecuted::hear(std::uint64_t answered, std::size_t blocks, const Point&
   // The piece whose line is being answered may run too, if it has several lines.
   held = std::min(held + 1, pieces_.size());
   for (std::size_t i = 0; i < held; ++i) {
-    if (grbl_distance(pieces_[i].curve, place) > reach_of(pieces_[i].curve)) continue;
+    const auto share = share_reached(pieces_[i].curve, place, i == 0 ? share_ : 0);
+    if (!share) continue;
     for (std::size_t passed = 0; passed < i; ++passed) pass();
     now_ = pieces_.front().source;
-    take_share(place);
+    share_ = *share;
     held -= i;
     break;
   }

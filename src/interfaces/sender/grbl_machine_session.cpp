@@ -354,7 +354,7 @@ MachineStatus GrblMachineSession::status() const {
     status.executes = work.progress.executed.source();
     status.executes.to = work.progress.executed.last_line();
     if (work.start && work.start->nominal_time > Seconds(0)) {
-      status.progress = std::min(1.0, work.progress.time() / work.start->nominal_time);
+      status.progress = std::min(1.0, work.progress.reached / work.start->nominal_time);
     }
     if (waits && work.feed->asks() == GrblFeed::Asks::operator_stop) {
       const Action& stop = work.feed->stop();

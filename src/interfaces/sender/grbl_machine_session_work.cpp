@@ -86,7 +86,7 @@ void GrblMachineSession::poll_feed() {
     if (!line) break;
     sender_.add(line->text, line->line, line->silence);
   }
-  work_->progress.dwell_left = sender_.dwell_left();
+  work_->progress.update(sender_.dwell_left());
   if (rests() && feed.asks() != GrblFeed::Asks::nothing) answer_question();
   if (busy() && work_->stage == Work::Stage::moves) update_holds();
 }

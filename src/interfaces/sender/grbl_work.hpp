@@ -1,6 +1,7 @@
 // The activity of a GrblMachineSession. Private to sender/.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -26,13 +27,13 @@ struct GrblMachineSession::Work {
 
   struct Progress {
     GrblExecuted executed;
-    Seconds skipped{0};  // nominal time of what comes before the point where the program begins
-    std::optional<Seconds> dwell_left;
+    Seconds skipped{0};              // nominal time of what comes before the point where the program begins
+    Seconds reached{0};              // nominal time from the beginning of the program
     std::uint64_t lines_before = 0;  // lines sent before this work
     std::uint64_t stops = 0;         // program stops that it has come to
 
-    // Nominal time from the beginning of the program.
-    Seconds time() const { return skipped + executed.time(dwell_left); }
+    // `dwell_left`: of the present dwell. Between its end and the next report nothing of it is left either.
+    void update(std::optional<Seconds> dwell_left) { reached = std::max(reached, skipped + executed.time(dwell_left)); }
   };
   // Where the machine stood, and its work zero, when it came to the stop at which the program waits.
   struct Stop {

@@ -14,6 +14,11 @@ TEST(ProgressLine, tells_the_share_done_and_the_time_left) {
   EXPECT_EQ(line.update(0.25, Seconds(4)), "\r\x1b[Kpart.ngc  25 %, 12 s left");
 }
 
+TEST(ProgressLine, tells_a_time_left_that_is_known) {
+  ProgressLine line("part.ngc", true);
+  EXPECT_EQ(line.update(0.25, Seconds(4), {}, Seconds(70)), "\r\x1b[Kpart.ngc  25 %, 1:10 min left");
+}
+
 TEST(ProgressLine, is_narrower_than_the_terminal_also_after_the_window_was_resized) {
   ProgressLine line("a-long-name-of-a-part.ngc", true);
   std::size_t width = 80;

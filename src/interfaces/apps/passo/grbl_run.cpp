@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "from_line.hpp"
+#include "grbl_check.hpp"
 #include "grbl_machine_connection.hpp"
+#include "grbl_time_left.hpp"
 #include "machine_connection.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
@@ -119,7 +121,7 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
 
 // Runs a program that was checked. Returns the exit code.
 int stream(const RunArguments& arguments, GrblMachineConnection& opened, const MachineDescription& machine,
-           request::Start start, const ProgramCheck& check, ScheduledChanges& changes) {
+           request::Start start, const ProgramCheck& check, GrblTimeLeft& time_left, ScheduledChanges& changes) {
   GrblMachineSession& session = opened.session();
   Diagnostics late;
   start.findings = &late;
@@ -139,7 +141,8 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
   while (session.busy()) {
     const Seconds most = begun ? changes.act(session, [&] { return place_of(session, machine); }) : endless;
     opened.poll(std::min({most, GrblMachineSession::between_looks, prompt.poll(session)}));
-    if (const auto done = session.status().progress) progress.update(*done);
+    const MachineStatus status = session.status();
+    if (status.progress) progress.update(*status.progress, time_left.left(status));
   }
   if (ticket) answered = answer_of(session.take_changes(), *ticket);
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
@@ -194,7 +197,11 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   show(findings);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
-    note("the program starts at " + place_words(opened->session().sender()) + " (machine coordinates), with the offsets of the machine");
+    note("the program starts at " + place_words(opened->session().sender()) +
+         " (machine coordinates), with the offsets of the machine");
+  const auto address = parse_board_address(arguments.board);
+  const double rate = address ? grbl_bytes_per_second(*address, session.board()) : 0;
+  GrblTimeLeft time_left(program.again(), machine, options, grbl_timing_of(session.board(), rate), check.nominal_time);
   request::Start start{.program = program.again(),
                        .options = options,
                        .nominal_time = check.nominal_time,
@@ -205,7 +212,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
     start.from = way->at;
     start.lead_in = way->lead_in;
   }
-  return stream(arguments, *opened, machine, std::move(start), check, changes);
+  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes);
 }
 
 int home_grbl(const HomeArguments& arguments, const MachineDescription& machine) {

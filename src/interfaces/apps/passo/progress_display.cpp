@@ -33,10 +33,11 @@ ProgressDisplay* ProgressDisplay::shown_ = nullptr;
 ProgressDisplay::ProgressDisplay(const std::string& label, bool wanted)
     : line_(label, wanted && rewrites_lines(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
 
-void ProgressDisplay::update(double share) {
+void ProgressDisplay::update(double share, std::optional<Seconds> left) {
   tell_starter(share);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  write_line(line_.update(share, Seconds(elapsed.count()), [] { return columns_of(STDERR_FILENO); }));
+  write_line(line_.update(
+      share, Seconds(elapsed.count()), [] { return columns_of(STDERR_FILENO); }, left));
   shown_ = this;
 }
 

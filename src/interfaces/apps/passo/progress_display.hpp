@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "passo/base/work_progress.hpp"
@@ -18,7 +19,8 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   // `share`: the fraction of the work that is done, 0 to 1.
-  void update(double share);
+  // `left`: the remaining time, if it is known.
+  void update(double share, std::optional<Seconds> left = {});
   // Removes the line, so that other text can be shown. The next update() shows the line again.
   void clear();
   // Returns a sink for the progress of a computation, which this display must outlive. The line is removed when the

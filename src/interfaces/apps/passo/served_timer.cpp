@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "grbl_time_left.hpp"
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -43,9 +44,7 @@ void ServedTimer::follow(const GrblMachineSession& board, double bytes_per_secon
 std::uint64_t ServedTimer::basis() {
   if (board_ == nullptr) return 1;
   const GrblMachine& board = board_->board();
-  GrblTiming told{.limits = limits_of(board),
-                  .line = {.bytes_per_second = bytes_per_second_, .buffer = board.bytes},
-                  .target = GrblTarget::of(board)};
+  GrblTiming told = grbl_timing_of(board, bytes_per_second_);
   if (!told.is_known()) return basis_;
   const bool is_same =
       based_on_ && based_on_->limits == told.limits && based_on_->target.measures_motors == told.target.measures_motors;
@@ -58,17 +57,8 @@ std::optional<MotionTimes> ServedTimer::plan(const MotionTiming& wanted, const s
                                              std::uint64_t order) const {
   const auto goes_on = [&] { return !ends_ && orders_ == order; };
   if (!board) return time_motion(wanted, machine_, goes_on);
-  constexpr std::uint64_t items_between_looks = 64;
-  GrblTiming timing = *board;
-  timing.limits.feed_factor = wanted.factors.feed;
-  timing.limits.rapid_factor = wanted.factors.rapids;
-  MotionTimes times;
-  GrblTimes predicted(ProgramReader::from_text(wanted.name, wanted.text), machine_, wanted.options, timing,
-                      [&times](Seconds nominal, Seconds planned) { times.add(nominal, planned); });
-  while (!predicted.go_on(items_between_looks)) {
-    if (!goes_on()) return {};
-  }
-  return times;
+  return predict_on_grbl(ProgramReader::from_text(wanted.name, wanted.text), machine_, wanted.options, *board,
+                         wanted.factors, goes_on);
 }
 
 void ServedTimer::run() {

@@ -7,7 +7,6 @@
 #include "passo/activity/framing.hpp"
 #include "passo/activity/go_to.hpp"
 #include "passo/journal/reentry.hpp"
-#include "passo/sender/firmware_settings.hpp"
 
 namespace passo::test {
 namespace {
@@ -282,40 +281,6 @@ TEST_F(GrblSessions, overrides_go_to_the_board) {
   EXPECT_EQ(run.session.status().overrides.feed, 1) << "a reset of the board ends them";
 }
 
-TEST_F(GrblSessions, home_no_single_axis_on_a_board_that_cannot) {
-  run.grbl.put(22, 1);
-  run.grbl.restart();
-  ASSERT_TRUE(run.go_online());
-  EXPECT_FALSE(run.ask(request::Home{.axis = Axis::x}));
-  EXPECT_EQ(run.refusal->reason, RefusalReason::board_cannot);
-  EXPECT_THAT(run.refusal->message(), HasSubstr("homes all its axes together"));
-}
-
-TEST_F(GrblSessions, open_a_device_that_was_unplugged_and_returns) {
-  run.port.is_usb = true;
-  ASSERT_TRUE(run.go_online());
-  const auto ticket = run.ask(grbl_start(square));
-  ASSERT_TRUE(ticket);
-  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 3; }));
-  run.port.unplugged = true;
-  const Seconds pulled = run.session.now();
-  ASSERT_TRUE(run.play_until(MachineState::fault));
-  EXPECT_LT(run.session.now() - pulled, Seconds(2));
-  EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::failed);
-  ASSERT_TRUE(run.play_for(Seconds(20))) << "it is looked for without end";
-  EXPECT_EQ(run.session.state(), MachineState::fault);
-  // It is opened without a request. Nothing of the program is sent again, and its place is lost.
-  const std::size_t sent = run.port.sent.size();
-  run.grbl.restart();
-  run.port.unplugged = false;
-  ASSERT_TRUE(run.play_until(MachineState::idle, Seconds(15)));
-  EXPECT_THAT(run.port.sent.substr(sent), testing::Not(HasSubstr("X10")));
-  EXPECT_TRUE(run.session.lost_place());
-  EXPECT_FALSE(run.ask(grbl_start(square)));
-  ASSERT_TRUE(run.play_for(Seconds(5)));
-  EXPECT_EQ(run.grbl.speed(), 0);
-}
-
 TEST_F(GrblSessions, a_refused_line_ends_the_program_at_that_line) {
   ASSERT_TRUE(run.go_online());
   run.grbl.refused = "X0";
@@ -438,43 +403,6 @@ TEST_F(GrblSessions, begin_a_program_at_a_line) {
   EXPECT_EQ(done->outcome, Outcome::done);
   EXPECT_THAT(run.port.sent, HasSubstr("X10Y10"));
   EXPECT_NEAR(run.grbl.place()[Axis::y], 0, 1e-9);
-}
-
-TEST_F(GrblSessions, lend_their_sender_to_a_reader_of_the_settings) {
-  EXPECT_EQ(run.session.lend_sender(), nullptr) << "not before the board has answered";
-  ASSERT_TRUE(run.go_online());
-  EXPECT_FALSE(run.session.abilities().can(Ability::home));
-  GrblSender* const sender = run.session.lend_sender();
-  ASSERT_NE(sender, nullptr);
-  EXPECT_EQ(run.session.lend_sender(), nullptr) << "to one at a time";
-  FirmwareSettings settings(*sender);
-  settings.write("$22", "1");
-  ASSERT_TRUE(run.play([&] {
-    settings.poll();
-    return !settings.busy();
-  }));
-  EXPECT_FALSE(run.ask(grbl_start(square))) << "nothing begins meanwhile";
-  EXPECT_EQ(run.refusal->code(), RefusalCode::busy);
-  const auto changes = settings.take_changes();
-  ASSERT_EQ(changes.size(), 1U);
-  EXPECT_EQ(changes.front().trouble, "");
-  EXPECT_TRUE(run.session.is_sender_lent());
-  run.session.take_sender_back();
-  EXPECT_TRUE(run.session.abilities().can(Ability::home)) << "the session knows the new setting";
-  const auto ticket = run.ask(grbl_start(square));
-  ASSERT_TRUE(ticket);
-  EXPECT_EQ(run.session.lend_sender(), nullptr) << "not while a program runs";
-  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
-  EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::done);
-}
-
-TEST_F(GrblSessions, have_their_sender_back_after_a_restart_of_the_board) {
-  ASSERT_TRUE(run.go_online());
-  GrblSender* const sender = run.session.lend_sender();
-  ASSERT_NE(sender, nullptr);
-  run.grbl.restart();
-  ASSERT_TRUE(run.play([&] { return !run.session.is_sender_lent(); }, Seconds(5)));
-  run.session.take_sender_back();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "passo/units/units.hpp"
@@ -25,7 +26,8 @@ class ProgressLine {
   // Returns the text to write now; empty if there is nothing to write. `fraction` is the completed fraction, 0…1. The
   // line is shorter than the terminal is wide, because a wrapped line cannot be rewritten: the label is shortened in
   // the middle.
-  std::string update(double fraction, Seconds elapsed, const Columns& columns = {});
+  // `left`: the remaining time, if it is known; otherwise it is estimated by the elapsed time.
+  std::string update(double fraction, Seconds elapsed, const Columns& columns = {}, std::optional<Seconds> left = {});
   // Returns the text that removes the line; empty if no line is shown. The next update may show it again.
   std::string clear();
 

@@ -2,8 +2,8 @@
 //
 // Such a machine does not report the line that it executes. A line that it has answered lies in its planner, or is
 // executed. The planner has few blocks, so lines before the last ones are executed for sure. Among the others, the
-// first one that leads through the reported position is taken to be executing. So the result is never ahead of the
-// machine, as long as its reports are true.
+// first one that leads through the reported position is taken to be executing; a piece on which the machine would go
+// back is done. So the result is never ahead of the machine, as long as its reports are true.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,6 @@ class GrblExecuted {
     std::uint64_t lines = 0;
   };
   void pass();
-  void take_share(const Point& place);
   bool has_begun() const;  // the first piece
 
   std::deque<Piece> pieces_;
