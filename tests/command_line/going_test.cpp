@@ -100,7 +100,8 @@ TEST_F(Going, leaves_the_tool_parked_at_the_end_if_the_machine_file_says_so) {
     const Outcome ran = passo("run " + write("end.ngc", text) + " -m " + parking_router(more) + " --json");
     EXPECT_EQ(ran.code, 0) << ran.err;
     std::string words;
-    for (const auto& axis : nlohmann::json::parse(ran.out)["position_mm"]) {
+    const auto summary = nlohmann::json::parse(ran.out);
+    for (const auto& axis : summary["position_mm"]) {
       words += std::to_string(std::lround(axis.get<double>())) + " ";
     }
     return words;
