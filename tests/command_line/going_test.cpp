@@ -38,9 +38,9 @@ TEST_F(Going, frames_a_job_and_runs_the_frame_without_a_warning) {
   const Outcome on_grbl = passo("check " + path("frame.ngc") + on_router + "--board grbl");
   EXPECT_EQ(on_grbl.code, 0) << on_grbl.err;
   EXPECT_EQ(on_grbl.err, "");
-  const auto axes = nlohmann::json::parse(ran.out)["axes"];
-  EXPECT_NEAR(axes[0]["position_mm"].get<double>(), 30, 0.01) << axes;
-  EXPECT_NEAR(axes[2]["position_mm"].get<double>(), -25, 0.01) << axes;
+  const auto place = nlohmann::json::parse(ran.out)["position_mm"];
+  EXPECT_NEAR(place["X"].get<double>(), 30, 0.01) << place;
+  EXPECT_NEAR(place["Z"].get<double>(), -25, 0.01) << place;
 }
 
 TEST_F(Going, refuses_a_frame_with_the_reason) {
@@ -87,7 +87,7 @@ TEST_F(Going, makes_a_program_of_a_macro) {
   const Outcome ran = passo("run " + path("out.ngc") + on_router + " --json");
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
-  EXPECT_NEAR(nlohmann::json::parse(ran.out)["axes"][0]["position_mm"].get<double>(), 120, 0.01);
+  EXPECT_NEAR(nlohmann::json::parse(ran.out)["position_mm"]["X"].get<double>(), 120, 0.01);
   EXPECT_THAT(passo("macro " + macro).out, HasSubstr("#<width> = 100.000000\n"));
   for (const char* wrong : {"width=401", "width=", "width=1x", "depth=1", "=1"}) {
     EXPECT_EQ(passo("macro " + macro + " " + wrong).code, 2) << wrong;
@@ -100,8 +100,9 @@ TEST_F(Going, leaves_the_tool_parked_at_the_end_if_the_machine_file_says_so) {
     const Outcome ran = passo("run " + write("end.ngc", text) + " -m " + parking_router(more) + " --json");
     EXPECT_EQ(ran.code, 0) << ran.err;
     std::string words;
-    for (const auto& axis : nlohmann::json::parse(ran.out)["axes"]) {
-      words += std::to_string(std::lround(axis["position_mm"].get<double>())) + " ";
+    const auto summary = nlohmann::json::parse(ran.out);
+    for (const auto& axis : summary["position_mm"]) {
+      words += std::to_string(std::lround(axis.get<double>())) + " ";
     }
     return words;
   };

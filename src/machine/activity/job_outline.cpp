@@ -60,10 +60,11 @@ void JobOutline::add(const PathItem& item) {
   const Curve& curve = segment->curve;
   const Box box = curve.extents();
   if (segment->rapid) {
-    top_ = std::max(top_, curve.end()[Axis::z]);
+    rapid_top_ = std::max(rapid_top_, curve.end()[Axis::z]);
     return;
   }
-  top_ = std::max(top_, box.high[Axis::z]);
+  top_ = std::max({top_, rapid_top_, box.high[Axis::z]});
+  rapid_top_ = top_;
   work_zero_ = segment->work_zero;
   const Axis plane[] = {Axis::x, Axis::y};
   for (std::size_t i = 0; i < low_.size(); ++i) {

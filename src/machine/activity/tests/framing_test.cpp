@@ -76,6 +76,8 @@ TEST(JobOutline, has_the_extents_of_the_feed_moves_and_the_top_of_all) {
   EXPECT_EQ(outline.top(), -55);
   EXPECT_EQ(outline.work_zero()[Axis::z], -60);
   EXPECT_EQ(outline.hull(), (std::vector<JobOutline::Spot>{{60, 140}, {100, 60}, {140, 140}}));
+  EXPECT_EQ(outline_of(triangle).top(), outline_of("G21 G90\nM3 S1000\nG0 Z5\nG1 Z-2 F600\nG53 G0 Z0\nM2\n").top())
+      << "not the way to a park position";
   EXPECT_TRUE(outline_of("G21 G90\nG0 X10\nM2\n").empty());
 }
 

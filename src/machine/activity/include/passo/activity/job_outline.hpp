@@ -26,7 +26,8 @@ class JobOutline {
   const Spot& high() const { return high_; }
   // Returns the corners of the hull, counterclockwise, from the lowest X on. At least one.
   std::vector<Spot> hull() const;
-  // Returns the highest Z of all moves that end above a feed move or at one; rapids count, the start position does not.
+  // Returns the highest Z of the feed moves, and of the ends of the rapids before them. The rapids after the last feed
+  // move do not count: they may park the tool.
   double top() const { return top_; }
   // Returns the work zero at the last feed move.
   const Point& work_zero() const { return work_zero_; }
@@ -38,6 +39,7 @@ class JobOutline {
   Spot low_{1e300, 1e300};
   Spot high_{-1e300, -1e300};
   double top_ = -1e300;
+  double rapid_top_ = -1e300;  // of the rapids since the last feed move
   Point work_zero_;
   std::vector<Spot> spots_;  // among them the corners of the hull
 };
