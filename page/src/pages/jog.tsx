@@ -145,7 +145,6 @@ function JogPanel() {
 function SetUpPanel() {
   const why = whyNoSetUp();
   const hasSwitches = machine.value?.axes.some((one) => one.homes) ?? false;
-  const hasXy = ['x', 'y'].every((axis) => axes.value.includes(axis));
   const xyz = axes.value.filter((axis) => 'xyz'.includes(axis));
   return (
     <section class="panel set-up" aria-label={say('jog.zero')}>
