@@ -46,6 +46,10 @@ TEST_F(Inputs, of_every_example_machine_let_a_plain_run_begin_on_every_board_tha
                                                {"pico", {"pico"}},
                                                {"router", {}},
                                                {"strong-router", {}},
+                                               {"tool-changer", {}},
+                                               {"tool-rack", {}},
+                                               {"tool-setter", {}},
+                                               {"touch-plate", {}},
                                                {"uno", {"uno"}},
                                                {"windings", {"uno_half_step"}}};
   std::size_t count = 0;
