@@ -97,7 +97,7 @@ class CommandDocuments : public Installed {
     const std::string text = installed(words + " --help").out;
     Help help{.path = words.empty() ? "passo" : "passo " + words, .options = {}};
     static const std::regex option("\n  (-[a-zA-Z])?,?(--[a-z0-9-]+)");
-    static const std::regex command("\n  ([a-z]+) {2,}");
+    static const std::regex command("\n  ([a-z][a-z0-9]*) {2,}");
     for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) {
       for (const std::string& name : {(*it)[1].str(), (*it)[2].str()}) {
         if (!name.empty()) help.options.push_back(name);
