@@ -83,6 +83,7 @@ void FrequentMistakes::change_tool() {
   probes_ = false;
   changes_tools_ = true;
   idle_tool_.reset();
+  keeps_spindle_off_ = false;  // M6 itself stops the spindle
 }
 
 // T alone selects a tool. Programs often select the next tool early, so only a program without any change is wrong.
