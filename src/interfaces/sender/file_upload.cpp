@@ -77,7 +77,7 @@ void FileUpload::fail(std::string words) {
 }
 
 void FileUpload::cancel() {
-  if (!ended()) fail("the upload was broken off");
+  if (!ended()) fail("the upload was interrupted");
 }
 
 // A packet has its number and its complement, so that a repeated one is recognised.

@@ -172,7 +172,8 @@ std::string describe_tool_change(const ToolChangePlan& plan) {
   if (!plan.measures) return line + fmt::format(", not measured; across at Z{:g}\n", plan.safe_z);
   line += plan.measure_at ? fmt::format(" at X{:g} Y{:g}", plan.measure_at->x, plan.measure_at->y)
                           : std::string(" at the work's X0 Y0");
-  line += fmt::format(", touching at Z{:g} to Z{:g}, across at Z{:g}; ", plan.window_low, plan.window_high, plan.safe_z);
+  line +=
+      fmt::format(", touching at Z{:g} to Z{:g}, across at Z{:g}; ", plan.window_low, plan.window_high, plan.safe_z);
   switch (plan.use) {
     case LengthUse::absolute: line += fmt::format("lengths from the nose, Z{:g}", plan.setter_z); break;
     case LengthUse::reference: line += "lengths from the first tool"; break;

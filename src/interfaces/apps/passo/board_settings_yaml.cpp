@@ -20,7 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr Seconds longest_yaml_answer{20};
-constexpr std::string_view usual_name = "config.yaml";
+constexpr const char* usual_name = "config.yaml";
 
 bool has_yaml(const BoardSettingsArguments& arguments, const GrblConnection& opened) {
   if (opened.sender().machine().firmware == "FluidNC") return true;
@@ -56,7 +56,7 @@ std::optional<std::string> name_of_yaml(GrblConnection& opened, int& code) {
   for (const std::string& line : answer->said) {
     if (line.starts_with(question) && line.size() > question.size() + 1) return line.substr(question.size() + 1);
   }
-  return std::string(usual_name);
+  return usual_name;
 }
 
 }  // namespace

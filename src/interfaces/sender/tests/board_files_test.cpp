@@ -33,8 +33,8 @@ TEST(BoardFiles, of_grblhal_are_listed_with_their_paths) {
                                          "[FILE:/what?.nc|SIZE:7|UNUSABLE]", "[MSG:Caution]"};
   files->hear("$F+", said);
   const std::vector<StoredFile> expected = {{.path = "/part.nc", .bytes = 1234},
-                                           {.path = "/jobs/a b.gcode", .bytes = 5},
-                                           {.path = "/what?.nc", .bytes = 7, .can_run = false}};
+                                            {.path = "/jobs/a b.gcode", .bytes = 5},
+                                            {.path = "/what?.nc", .bytes = 7, .can_run = false}};
   EXPECT_EQ(files->all(), expected);
   EXPECT_EQ(*files->run_line("/part.nc"), "$F=/part.nc");
   EXPECT_EQ(*files->run_line("part.nc"), "$F=/part.nc");
