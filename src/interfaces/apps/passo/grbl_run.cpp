@@ -50,7 +50,7 @@ bool home_first(GrblMachineConnection& opened, const std::string& board, std::op
   return false;
 }
 
-// The machine is idle and not locked. False, with a message and `code`.
+// Returns whether the machine is idle and not locked; if not, with a message and `code`.
 bool make_ready(GrblMachineConnection& opened, const RunArguments& arguments, int& code) {
   if (arguments.home && !home_first(opened, arguments.board, std::nullopt, code)) return false;
   if (!opened.session().is_locked()) return true;
@@ -194,7 +194,8 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   show(findings);
   if (!check.good) return exit_bad_program;
   if (!arguments.quiet)
-    note("the program starts at " + place_words(opened->session().sender()) + " (machine coordinates), with the offsets of the machine");
+    note("the program starts at " + place_words(opened->session().sender()) +
+         " (machine coordinates), with the offsets of the machine");
   request::Start start{.program = program.again(),
                        .options = options,
                        .nominal_time = check.nominal_time,
