@@ -38,7 +38,7 @@ Json as_json(const Macro& macro) {
   return {{"name", macro.name}, {"title", macro.title}, {"key", macro.key}, {"values", std::move(values)}};
 }
 
-// Nothing: the body has something else than numbers.
+// Empty: the body has something other than numbers.
 std::optional<MacroValues> macro_values(const Json& body) {
   if (!body.is_object()) return {};
   MacroValues values;
@@ -49,7 +49,7 @@ std::optional<MacroValues> macro_values(const Json& body) {
   return values;
 }
 
-// Nobody has set it, so the frame would show where a job lies only by accident.
+// A frame at an unset work zero does not show where the job will be cut.
 bool is_unset(const Frame& frame) {
   const auto is_zero = [&](Axis axis) { return frame.work_offset()[axis] == 0; };
   return is_zero(Axis::x) && is_zero(Axis::y) && is_zero(Axis::z) && frame.rotation_degrees() == 0;

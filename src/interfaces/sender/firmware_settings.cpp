@@ -112,7 +112,7 @@ void FirmwareSettings::take_read_back() {
   change.after = now == nullptr ? "" : now->value;
   if (stage_ == Stage::reading_old) {
     const bool is_old = is_same_value(change.after, change.before);
-    end_change(fmt::format("the board has made another value of {}={}; {} is {} {}", change.name, shown_of_wanted(),
+    end_change(fmt::format("the board did not take the value {}={}; {} is {} {}", change.name, shown_of_wanted(),
                            change.name, change.after,
                            is_old ? "again" : "now, and the old value could not be restored"));
     return begin_next();

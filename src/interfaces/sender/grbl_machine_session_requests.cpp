@@ -322,7 +322,7 @@ void GrblMachineSession::end_at_other_zero(std::uint32_t line) {
   trouble_.fault = GrblFault{.code = "grbl.zero-changed",
                              .message =
                                  "the work zero was changed at the machine in the meantime. Start the program "
-                                 "again, behind the line at which it has waited: it then uses the new zero",
+                                 "again, after the line at which it waited: it then uses the new zero",
                              .first_line = line,
                              .last_line = line};
   switch_outputs_off();

@@ -369,7 +369,7 @@ void GrblMachineSession::stop_by_reset() {
   break_off(
       MachineEvent::stop_at_once,
       {.code = "grbl.reset",
-       .message = words + (stands ? " while it stood still" : " in motion: it stopped at once, and lost its place"),
+       .message = words + (stands ? " while it stood still" : " in motion: it stopped at once, and lost its position"),
        .first_line = 0,
        .last_line = 0});
   if (!stands) return;

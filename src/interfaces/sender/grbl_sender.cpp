@@ -23,7 +23,7 @@ constexpr std::size_t longest_reply = 4096;
 constexpr Seconds between_override_bytes{0.02};
 constexpr char soft_reset = 0x18;
 constexpr std::string_view more_answers =
-    "the machine has answered more lines than it was sent: a line was doubled or broken on the way";
+    "the machine has answered more lines than it was sent: a line was doubled or corrupted on the way";
 constexpr std::string_view homing_line = "$H\n";
 
 std::optional<int> read_code(std::string_view text) {

@@ -77,7 +77,7 @@ void GrblSender::hear_modes(std::string_view modes) {
   const bool is_asked_by_others = oldest != nullptr && oldest->text == mark;
   if (is_asked_by_others || machine_.tells_modes_unasked()) return;
   fail_and_stop("grbl.lost-lines",
-                "the machine has answered fewer lines than it was sent: a line was lost or broken on the way");
+                "the machine has answered fewer lines than it was sent: a line was lost or corrupted on the way");
 }
 
 void GrblSender::answer_mark() {

@@ -28,7 +28,7 @@
 
 namespace passo {
 
-// The number of the program that M6 calls, with the lines of the machine file. Nobody numbers a program so.
+// The number of the program that M6 calls, with the lines of the machine file. Programs of users have other numbers.
 inline constexpr std::int32_t change_macro_number = 999'999'006;
 
 class ProgramLines {

@@ -120,7 +120,7 @@ bool SubprogramCodes::call_user_code(CodeNumber number) {
   for (const Word& word : reporter_.block().words) {
     if (word.span == words_.span(user) || word.letter == 'P' || word.letter == 'Q') continue;
     return fail("gcode.unused-word", word.span,
-                fmt::format("{} beside {}, which calls a subroutine", word.letter, spelling('M', number)),
+                fmt::format("{} in the block of {}, which calls a subroutine", word.letter, spelling('M', number)),
                 fmt::format("only {}, P and Q in the block", spelling('M', number)));
   }
   SubprogramJump call;

@@ -55,8 +55,8 @@ bool ToolChangeCycle::step() {
   return true;
 }
 
-// The spindle was switched off before. It runs down while Z rises, and then for the whole time of the plan: nobody
-// knows how long Z takes.
+// The spindle was switched off before. The dwell is the whole run-down time of the plan, because the duration of the
+// move up is not known here.
 void ToolChangeCycle::leave() {
   emit(operation::StartToolChange{});
   if (start_.mist) emit(operation::SetMist{false});
@@ -134,19 +134,19 @@ void ToolChangeCycle::latch() {
   if (outcome_) {
     if (outcome_->refused)
       return not_measured(
-          "the tool setter is closed already: clean it, check its wire, and see that nothing lies on it");
+          "the tool setter is closed already: clean it, check its wire, and make sure that nothing lies on it");
     if (!outcome_->touched) {
       if (used_)
         return report_used(
-            fmt::format("tool {} touched nothing down to Z{:.3f}: it is broken or was lost", start_.from, low));
+            fmt::format("tool {} touched nothing down to Z{:.3f}: it is broken or lost", start_.from, low));
       return not_measured(fmt::format(
-          "tool {} touched nothing down to Z{:.3f}: put it in lower, or check the tool setter", start_.to, low));
+          "tool {} touched nothing down to Z{:.3f}: clamp it lower, or check the tool setter", start_.to, low));
     }
     contact = outcome_->contact[Axis::z];
     if (contact > plan_.window_high) {
       return not_measured(
-          fmt::format("something touched at Z{:.3f}, above the highest place of a tool, Z{:.3f}: put the "
-                      "tool in higher, or take away what lies on the tool setter",
+          fmt::format("contact at Z{:.3f}, above the end of the window at Z{:.3f}: clamp the tool higher, or "
+                      "remove what lies on the tool setter",
                       contact, plan_.window_high));
     }
   }
@@ -161,15 +161,15 @@ void ToolChangeCycle::judge() {
     if (outcome_->refused) return not_measured("the tool setter did not open again after the first touch: check it");
     if (!outcome_->touched) {
       return not_measured(
-          fmt::format("the tool touched at Z{:.3f}, but not a second time: tighten it, and check the tool "
-                      "setter",
+          fmt::format("the tool touched at Z{:.3f}, but not a second time: tighten it, and check "
+                      "the tool setter",
                       touched_));
     }
     touched_ = outcome_->contact[Axis::z];
   }
   rise();
   if (plan_.way == ToolChangeWay::plate) {
-    say("take the touch plate away, then continue");
+    say("remove the touch plate, then continue");
     emit(operation::ProgramStop{});
   }
   if (used_) return judge_used();
@@ -183,15 +183,16 @@ void ToolChangeCycle::judge() {
 void ToolChangeCycle::judge_used() {
   const double longer = outcome_ ? touched_ - known_.contact : 0;
   if (std::abs(longer) > *plan_.wear) {
-    return report_used(fmt::format("tool {} is {:.3f} mm {} than before its use: it is {}", start_.from,
-                                   std::abs(longer), longer < 0 ? "shorter" : "longer",
-                                   longer < 0 ? "worn, broken or pushed in" : "pulled out, or chips stick to it"));
+    return report_used(
+        fmt::format("tool {} is {:.3f} mm {} than before its use: it is {}", start_.from, std::abs(longer),
+                    longer < 0 ? "shorter" : "longer",
+                    longer < 0 ? "worn, broken or pushed in" : "pulled out of its collet, or chips stick to it"));
   }
   used_ = false;
   stage_ = start_.only_checks ? Stage::go_back : after_check();
 }
 
-// The work may be spoilt: a person looks at it.
+// The work may be spoilt, so the operator has to look at it.
 void ToolChangeCycle::report_used(std::string text) {
   rise();
   if (plan_.change_at) go_across(*plan_.change_at);

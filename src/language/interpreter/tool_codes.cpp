@@ -84,12 +84,12 @@ void ToolCodes::begin_cycle(std::int32_t to, bool only_checks) {
 bool ToolCodes::check_alone() {
   if (block_.options.tool_change->way != ToolChangeWay::macro) return true;
   if (speaks_grbl()) {
-    return fail("gcode.change-macro", words_.span(tool_change), "the tool change has lines of another dialect",
-                "a program in LinuxCNC's dialect");
+    return fail("gcode.change-macro", words_.span(tool_change),
+                "the macro of the tool change is in the LinuxCNC dialect", "a program in the LinuxCNC dialect");
   }
   const bool others = (words_.groups() & ~bit_of(tool_change)) != 0 || block_.motion != nullptr;
   if (!others) return true;
-  return fail("gcode.change-macro", words_.span(tool_change), "M6 calls a subroutine, and has other codes beside it",
+  return fail("gcode.change-macro", words_.span(tool_change), "M6 calls a subroutine, but its block has other codes",
               "M6 and T in a block of their own");
 }
 

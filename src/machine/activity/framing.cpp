@@ -5,6 +5,8 @@
 
 #include "small_program.hpp"
 
+#include "passo/machine_file/machine_kind.hpp"
+
 namespace passo {
 namespace {
 
@@ -51,7 +53,7 @@ std::span<const FramingField> framing_fields() {
 Result<std::string, Sentence> framing_program(const JobOutline& outline, const Framing& framing,
                                               const MachineDescription& machine, std::string_view job) {
   if (auto wrong = refuse_values(framing)) return Failure{std::move(*wrong)};
-  if (axis_in(machine, Axis::x) == nullptr || axis_in(machine, Axis::y) == nullptr) return Failure{no_plane.with()};
+  if (!has_axis(machine, Axis::x) || !has_axis(machine, Axis::y)) return Failure{no_plane.with()};
   if (outline.empty()) return Failure{no_feeds.with()};
   const double zero = outline.work_zero()[Axis::z];
   const double asked = framing.clearance ? zero + *framing.clearance : outline.top();
@@ -62,7 +64,7 @@ Result<std::string, Sentence> framing_program(const JobOutline& outline, const F
   }
 
   const std::vector<Spot> corners = corners_of(outline, framing.hull);
-  const bool has_z = axis_in(machine, Axis::z) != nullptr;
+  const bool has_z = has_axis(machine, Axis::z);
   SmallProgram program(fmt::format("frame of {}: {}", job, framing.hull ? "the convex hull" : "the extents"));
   if (has_z) {
     program.line("o100 if [#<_abs_z> lt {:.4f}]", clearance);

@@ -19,8 +19,8 @@ struct DestinationRow {
 };
 constexpr DestinationRow destination_rows[] = {
     {park, "park", "move to the park position of the machine file, Z first"},
-    {first_home, "g28", "move to the home of G28, Z to the top first"},
-    {second_home, "g30", "move to the home of G30, Z to the top first"},
+    {first_home, "g28", "move to the stored position of G28, Z to the top first"},
+    {second_home, "g30", "move to the stored position of G30, Z to the top first"},
     {work_zero, "zero", "move above the work zero: Z to the top, then X0 Y0"},
 };
 constexpr std::array destinations{park, first_home, second_home, work_zero};

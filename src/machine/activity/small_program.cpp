@@ -16,17 +16,13 @@ std::string SmallProgram::finish() {
   return std::move(text_);
 }
 
-const AxisDescription* axis_in(const MachineDescription& machine, Axis axis) {
-  const auto found = std::ranges::find(machine.axes, axis, &AxisDescription::axis);
-  return found == machine.axes.end() ? nullptr : &*found;
-}
-
 std::optional<Sentence> outside_travel(const MachineDescription& machine, Axis axis, double place) {
   constexpr double rounding = 1e-6;  // mm
   constexpr SentenceRow outside{
       "goto.outside", "{axis} would go to {place} in machine coordinates, outside its travel of {low} to {high}"};
-  const AxisDescription* const found = axis_in(machine, axis);
-  if (found == nullptr || (place >= found->travel_low - rounding && place <= found->travel_high + rounding)) return {};
+  const auto found = std::ranges::find(machine.axes, axis, &AxisDescription::axis);
+  if (found == machine.axes.end() || (place >= found->travel_low - rounding && place <= found->travel_high + rounding))
+    return {};
   return outside.with({{"axis", std::string(1, letter_of(axis))},
                        {"place", fmt::format("{:.3f}", place)},
                        {"low", fmt::format("{:g}", found->travel_low)},

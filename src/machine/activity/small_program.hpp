@@ -32,7 +32,6 @@ class SmallProgram {
   std::string text_;
 };
 
-const AxisDescription* axis_in(const MachineDescription& machine, Axis axis);
 // Returns why the axis cannot go there: outside its travel. Nothing: it can, or there is no such axis.
 std::optional<Sentence> outside_travel(const MachineDescription& machine, Axis axis, double place);
 // Returns the text as a comment of G-code can hold it: printable ASCII without parentheses, cut off if it is long.

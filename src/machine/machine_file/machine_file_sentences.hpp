@@ -38,8 +38,7 @@ inline constexpr SentenceRow shared_switch{"machine.homing.shared-switch",
 inline constexpr SentenceRow park_outside{"machine.park.outside",
                                           "the park position {axis} {place} is outside the travel"};
 inline constexpr SentenceRow park_without_plane{"machine.park.no-plane", "a park position needs the axes X and Y"};
-inline constexpr SentenceRow park_without_place{"machine.park.no-place",
-                                                "programs shall end at the park position, but there is none"};
+inline constexpr SentenceRow park_without_place{"machine.park.no-place", "at_end = \"park\" needs a park position"};
 inline constexpr SentenceRow end_without_z{"machine.park.no-z",
                                            "Z moves first at the end of a program, but the machine has no axis Z"};
 

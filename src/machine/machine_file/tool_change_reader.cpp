@@ -157,7 +157,7 @@ void ToolChangeReader::read_measuring(bool needs_place) {
     error(reader_, wear_key.name, "a used tool is not measured with a touch plate", "no wear_mm, or another way");
   }
   if (plan_.first == FirstTool::trusted && plan_.use != LengthUse::absolute) {
-    error(reader_, "first_tool", "the first tool has to be measured, because all lengths count from it",
+    error(reader_, "first_tool", "the first tool has to be measured, because all lengths are relative to it",
           "\"change\" or \"loaded\", or lengths = \"absolute\"");
   }
 }
@@ -184,7 +184,7 @@ void ToolChangeReader::read_window() {
 void ToolChangeReader::read_macro() {
   constexpr std::size_t most_lines = 200;
   constexpr std::size_t longest = 255;
-  const std::string expected = "a list of lines of G-code, as in macro = [\"G53 G0 X0 Y0\", \"G53 G1 Z-50 F500\"]";
+  const std::string expected = "a list of lines of G-code, e.g. macro = [\"G53 G0 X0 Y0\", \"G53 G1 Z-50 F500\"]";
   if (macro_ == nullptr) return reader_.missing("macro", expected);
   const auto* const lines = std::get_if<TomlArray>(&macro_->content);
   if (lines == nullptr || lines->empty() || lines->size() > most_lines) {

@@ -177,7 +177,7 @@ export const findings = {
   'machine.homing.shared-switch': 'the two motors of axis {axis} share limit switch {input}',
   'machine.park.outside': 'the park position {axis} {place} is outside the travel',
   'machine.park.no-plane': 'a park position needs the axes X and Y',
-  'machine.park.no-place': 'programs shall end at the park position, but there is none',
+  'machine.park.no-place': 'at_end = "park" needs a park position',
   'machine.park.no-z': 'Z moves first at the end of a program, but the machine has no axis Z',
   'macro.missing-value': '{title}: a value from {low} to {high} is needed',
   'macro.wrong-value': '{title}: expected {low} to {high}, not {value}',

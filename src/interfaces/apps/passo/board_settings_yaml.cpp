@@ -56,7 +56,7 @@ std::optional<std::string> name_of_yaml(GrblConnection& opened, int& code) {
   for (const std::string& line : answer->said) {
     if (line.starts_with(question) && line.size() > question.size() + 1) return line.substr(question.size() + 1);
   }
-  return std::string(usual_name);
+  return usual_name;
 }
 
 }  // namespace

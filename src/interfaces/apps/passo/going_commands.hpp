@@ -1,4 +1,5 @@
-// passo frame, passo go and passo macro: small programs that frame a job, go to a known place, or do what a macro does.
+// passo frame, passo go and passo macro: small programs that frame a job, go to a known position, or are made from a
+// macro.
 #pragma once
 
 #include <string>

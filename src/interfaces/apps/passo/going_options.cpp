@@ -6,10 +6,11 @@ namespace {
 
 constexpr const char* frame_examples =
     R"(The command generates a program that moves around a job with the spindle off, to show where it lies. Z rises to the
-clearance height first; it is never lowered before X and Y move. Run the program, or look at it.
+clearance height first; it is never lowered before X and Y move. Run the program to see the outline on
+the machine.
 
 Examples:
-  passo frame part.ngc -m router.toml --parameters work.var -o frame.ngc     the extents, at the job's clearance height
+  passo frame part.ngc -m router.toml --parameters work.var -o frame.ngc     the extents, at the highest Z of the job
   passo run frame.ngc -m router.toml -b serial:/dev/ttyACM0                   run it
   passo frame part.ngc -m router.toml -v work.var --hull --height 2 | passo run - -m router.toml -b grbl:/dev/ttyUSB0
   passo frame part.ngc -m router.toml --machine-zero                          no work zero: the job lies at machine zero
@@ -17,21 +18,22 @@ Examples:
 See docs/manual/running.md.)";
 
 constexpr const char* go_examples =
-    R"(Each command generates a program that goes to a place. Z always moves first: to the top of its travel.
+    R"(Each command generates a program that moves the machine to a known position. Z always moves first, to the top of its
+travel; only g28 and g30 lower it again at the end.
 
 Examples:
   passo go park -m router.toml | passo run - -m router.toml                   the park position of the machine file
   passo go zero -m router.toml -v work.var | passo run - -m router.toml       above X0 Y0 of the work
-  passo go g28 -m router.toml -v work.var -o home.ngc                         the home that G28.1 has stored
+  passo go g28 -m router.toml -v work.var -o home.ngc                         the position that G28.1 has stored
 
 See docs/manual/running.md.)";
 
 constexpr const char* macro_examples =
-    R"(A macro is a program whose first lines are comments with its title and the values that it asks for.
+    R"(A macro is a program whose first lines are comments with its title and its values.
 
 Examples:
-  passo macro face.ngc width=120 feed=900 | passo run - -m router.toml        make a program of a macro, and run it
-  passo macro face.ngc width=120 -o face-120.ngc                              values that are left out have their defaults
+  passo macro face.ngc width=120 feed=900 | passo run - -m router.toml        generate the program, and run it
+  passo macro face.ngc width=120 -o face-120.ngc                              values that are not given have their defaults
   passo serve --macros FOLDER                                                 macros as buttons of the web interface
 
 See docs/manual/page.md.)";

@@ -29,7 +29,7 @@ bool GrblConnection::greet(int& code) {
   return false;
 }
 
-// The sender is silent meanwhile, and asks the board again afterwards.
+// The sender is silent during the upload, and asks the board again afterwards.
 bool GrblConnection::upload(FileUpload upload, int& code) {
   GrblPort& port = *link_.port;
   bool ended = false;
@@ -73,7 +73,7 @@ int GrblConnection::give_up() const {
 void GrblConnection::poll(Seconds most) {
   link_.port->send(sender_.take_bytes(link_.port->now()));
   const std::string came = link_.port->receive(most);
-  // A line that is opened anew may reset the machine, so a line that broke stays so.
+  // Opening the connection again may reset the machine, so a broken one stays broken.
   if (link_.port->is_broken()) return sender_.lose();
   sender_.receive(came, link_.port->now());
   note_trouble(board_, sender_.take_messages());

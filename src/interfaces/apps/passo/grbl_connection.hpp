@@ -1,5 +1,5 @@
-// GrblConnection: a connected Grbl board that is asked for its properties and settings, and moves nothing. Where it is
-// to move, GrblMachineConnection has a session.
+// GrblConnection: a connected Grbl board without a session: it is asked for its properties, settings and files. Only a
+// file that the board runs by itself moves the machine. Motion that Passo sends needs a GrblMachineConnection.
 #pragma once
 
 #include <memory>

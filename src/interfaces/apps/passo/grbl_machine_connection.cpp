@@ -132,7 +132,7 @@ void GrblMachineConnection::poll(Seconds most) {
 }
 
 void GrblMachineConnection::poll_until_done() {
-  // What was asked of a board that is lost or in an alarm is never answered.
+  // A board that is lost or in an alarm does not answer earlier requests.
   const auto waits = [&] { return session_.busy() || (session_.state() == MachineState::idle && session_.works()); };
   while (waits()) poll(GrblMachineSession::between_looks);
 }

@@ -52,7 +52,7 @@ bool home_first(GrblMachineConnection& opened, const std::string& board, std::op
   return false;
 }
 
-// The machine is idle and not locked. False, with a message and `code`.
+// Returns whether the machine is idle and not locked; if not, with a message and `code`.
 bool make_ready(GrblMachineConnection& opened, const RunArguments& arguments, int& code) {
   if (arguments.home && !home_first(opened, arguments.board, std::nullopt, code)) return false;
   if (!opened.session().is_locked()) return true;

@@ -11,8 +11,7 @@
 namespace passo {
 
 // Returns the exit code. `is_real`: the time of the session is that of the world. `speed` is the initial speed; the
-// keys
-// + and - change it.
+// keys + and - change it.
 int jog_by_keys(MachineSession& session, bool is_real, const MachineDescription& description, MmPerSecond speed);
 
 }  // namespace passo

@@ -15,10 +15,11 @@ void add_ahead(CLI::App& command, std::optional<double>& ahead) {
 }
 
 void add_board(CLI::App& command, std::string& board) {
-  command.add_option("-b,--board", board,
-                     "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico (see passo board), for "
-                     "run and home also grbl:DEVICE, a machine with Grbl, and for run sim:first_board, a parallel port "
-                     "and a PIC (default: the simulated machine)");
+  command.add_option(
+      "-b,--board", board,
+      "board: serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno, sim:mega or sim:pico (see passo board), for "
+      "run, home and jog also grbl:DEVICE, a machine with Grbl, and for run sim:first_board, a parallel port "
+      "and a PIC (default: the simulated machine)");
 }
 
 void add_system(CLI::App& command, std::string& system) {

@@ -115,7 +115,7 @@ const std::vector<Command>& all_commands() {
       {"probe", "generate a probing program", options_of<ProbeArguments, add_probe_options, probe>},
       {"frame", "generate a program that moves around a job, to show where it lies",
        options_of<FrameArguments, add_frame_options, frame>},
-      {"go", "generate a program that goes to the park position, a home or the work zero, Z first",
+      {"go", "generate a program that goes to the park position, a G28 or G30 position, or the work zero, Z first",
        options_of<GoArguments, add_go_options, go>},
       {"macro", "generate a program from a macro and its values", options_of<MacroArguments, add_macro_options, macro>},
       {"level", "apply a height map to a program, or show a height map",

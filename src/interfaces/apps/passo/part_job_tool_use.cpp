@@ -44,7 +44,7 @@ std::string no_feed_words(const PartJob& job) {
   const std::string material = job.stock ? job.stock->material : "";
   const auto names = work_material_names();
   return fmt::format(
-      "the feed rate is the default, because the tool has none and {}; known are {}",
+      "the feed rate is the default, because the tool has none and {}; known materials: {}",
       material.empty() ? "the stock has no material" : fmt::format("there are no chip loads for '{}'", material),
       fmt::join(names, ", "));
 }

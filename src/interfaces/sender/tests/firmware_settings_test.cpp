@@ -126,7 +126,7 @@ TEST(FirmwareSettings, a_bad_value_leaves_the_old_one_and_says_so) {
     return 0;
   };
   const SettingChange changed = pair.write("$26", "100");
-  EXPECT_EQ(changed.trouble, "the board has made another value of $26=100; $26 is 250 again");
+  EXPECT_EQ(changed.trouble, "the board did not take the value $26=100; $26 is 250 again");
   EXPECT_EQ(pair.board.setting("26"), "250");
   EXPECT_FALSE(pair.sender.fault());
   EXPECT_EQ(pair.write("$26", "101").trouble, "") << "it goes on";

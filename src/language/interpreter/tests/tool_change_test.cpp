@@ -177,7 +177,7 @@ TEST(ToolChange, asks_again_with_the_reason) {
   const double never = -1e9;
   for (const auto& [odd, reason] :
        std::map<std::vector<double>, std::string>{{{never}, "touched nothing down to Z-40"},
-                                                  {{5}, "above the highest place of a tool, Z0"},
+                                                  {{5}, "above the end of the window at Z0"},
                                                   {{-20, never}, "not a second time"}}) {
     Shop shop(setter_plan());
     shop.odd = odd;

@@ -34,7 +34,7 @@ class FileUpload {
   // Returns what to send now.
   std::string take_bytes(Seconds now);
   void receive(std::string_view bytes, Seconds now);
-  // Interrupts the upload; the next take_bytes() tells it to the board.
+  // Interrupts the upload; the next take_bytes() informs the board.
   void cancel();
   bool ended() const { return stage_ == Stage::ended; }
   // Why the file did not arrive, a clause; empty: it did, or is on its way.
