@@ -177,6 +177,7 @@ void GrblMachineSession::take_board() {
   connection_.asks_offsets = false;
   const bool are_other_offsets = board_.offsets != sender_.machine().offsets;
   board_ = sender_.machine();
+  match_ = match_with_board(machine_, board_);
   if (!are_other_offsets) return;
   ++news_.version;
   if (connection_.offsets_listener && !to_store_) connection_.offsets_listener();
@@ -299,6 +300,7 @@ GrblSender* GrblMachineSession::lend_sender() {
 void GrblMachineSession::take_sender_back() {
   if (!std::exchange(lent_, false)) return;
   board_ = sender_.machine();
+  match_ = match_with_board(machine_, board_);
   ++news_.version;
 }
 
@@ -340,6 +342,7 @@ MachineStatus GrblMachineSession::status() const {
   status.overrides = overrides_;
   status.stops = stops_;
   status.trouble_sentence = trouble_.words;
+  if (trouble_.words.text.empty() && match_.warning) status.trouble_sentence = *match_.warning;
   if (!busy() || work_->checker) return status;
   const Work& work = *work_;
   const auto& report = sender_.report();

@@ -21,6 +21,11 @@ Failure<Refusal> refused(RefusalReason reason) {
   return Failure{Refusal{reason}};
 }
 
+// What this board cannot do now, in words of its own.
+Refusal refused_because(std::string code, std::string why) {
+  return {RefusalReason::board_cannot, {{"why", std::move(why)}, {"why.code", std::move(code)}}};
+}
+
 int percent_of(double factor) {
   return static_cast<int>(std::lround(factor * 100));
 }
@@ -69,6 +74,12 @@ std::optional<Refusal> GrblMachineSession::refuse(MachineEvent event) const {
   return refusal_in(state_, busy());
 }
 
+// A place of the file may not be on the board.
+std::optional<Refusal> GrblMachineSession::refuse_path() const {
+  if (!match_.objection) return {};
+  return refused_because(match_.objection->code, match_.objection->text);
+}
+
 GrblMachineSession::Answer GrblMachineSession::at_once() {
   const Ticket ticket = ++tickets_.last;
   answer(ticket, Outcome::done);
@@ -87,6 +98,7 @@ GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::un
 GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
   if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
   if (auto refusal = lost_place()) return Failure{*refusal};
+  if (auto refusal = refuse_path()) return Failure{*refusal};
   auto work = std::make_unique<Work>();
   if (start.findings != nullptr) work->findings = start.findings;
   work->watchers = start.watchers;
@@ -107,6 +119,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
 GrblMachineSession::Answer GrblMachineSession::handle(request::Stream& stream) {
   if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
   if (auto refusal = lost_place(); refusal && !stream.program->jogs()) return Failure{*refusal};
+  if (auto refusal = refuse_path(); refusal && !stream.program->jogs()) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
   work->kind = stream.program->jogs() ? ActivityKind::jog : ActivityKind::program;
@@ -218,9 +231,8 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
   if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);
   if (heard_.pins.find('D') != std::string::npos) return refused(RefusalReason::door_open);
   if (heard_.pins.find('H') != std::string::npos) {
-    return Failure{Refusal{RefusalReason::board_cannot,
-                           {{"why", "the hold input of the board is still active: release it, then resume"},
-                            {"why.code", "ability.grbl.hold-input"}}}};
+    return Failure{refused_because("ability.grbl.hold-input",
+                                   "the hold input of the board is still active: release it, then resume")};
   }
   if (busy()) work_->hold.asked = work_->hold.door = work_->hold.heard = false;
   sender_.resume();
