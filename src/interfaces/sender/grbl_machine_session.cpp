@@ -83,6 +83,11 @@ bool GrblMachineSession::rests() const {
   return sender_.at_rest();
 }
 
+// By its hold input, or by another sender.
+bool GrblMachineSession::is_held_at_board() const {
+  return sender_.report() && sender_.report()->state == "Hold";
+}
+
 void GrblMachineSession::exchange(Seconds most) {
   const std::string bytes = sender_.take_bytes(now());
   if (!bytes.empty()) port_.send(bytes);
@@ -343,11 +348,13 @@ MachineStatus GrblMachineSession::status() const {
   status.stops = stops_;
   status.trouble_sentence = trouble_.words;
   if (trouble_.words.text.empty() && match_.warning) status.trouble_sentence = *match_.warning;
+  if (!busy() && is_held_at_board()) status.holds.add(HoldReason::operator_hold);
   if (!busy() || work_->checker) return status;
   const Work& work = *work_;
   const auto& report = sender_.report();
   const bool waits = work.feed && work.feed->asks() != GrblFeed::Asks::nothing && rests();
-  status.rests = waits || (report && report->rests() && work.stage == Work::Stage::moves);
+  const bool is_held = work.stage == Work::Stage::prepares && is_held_at_board();
+  status.rests = waits || (report && report->rests() && (work.stage == Work::Stage::moves || is_held));
   status.ahead = live_.at();
   status.activity = work.kind;
   status.holds.set(HoldReason::operator_hold, work.hold.asked || (state_ == MachineState::hold && work.hold.heard));

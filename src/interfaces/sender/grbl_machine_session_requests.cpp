@@ -74,6 +74,17 @@ std::optional<Refusal> GrblMachineSession::refuse(MachineEvent event) const {
   return refusal_in(state_, busy());
 }
 
+// A board that is held makes no motion, and answers lines that it does not execute.
+std::optional<Refusal> GrblMachineSession::refuse_motion(MachineEvent event) const {
+  if (auto refusal = refuse(event)) return refusal;
+  if (!is_held_at_board()) return {};
+  if (heard_.pins.find('H') != std::string::npos) {
+    return refused_because("ability.grbl.hold-input-first",
+                           "the hold input of the board is active: release it, then press Resume");
+  }
+  return refused_because("ability.grbl.held", "the board is held: press Resume, here or at the board");
+}
+
 // A place of the file may not be on the board.
 std::optional<Refusal> GrblMachineSession::refuse_path() const {
   if (!match_.objection) return {};
@@ -96,7 +107,7 @@ GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::un
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
-  if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_run)) return Failure{*refusal};
   if (auto refusal = lost_place()) return Failure{*refusal};
   if (auto refusal = refuse_path()) return Failure{*refusal};
   auto work = std::make_unique<Work>();
@@ -117,7 +128,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Stream& stream) {
-  if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_run)) return Failure{*refusal};
   if (auto refusal = lost_place(); refusal && !stream.program->jogs()) return Failure{*refusal};
   if (auto refusal = refuse_path(); refusal && !stream.program->jogs()) return Failure{*refusal};
   unlock();
@@ -142,7 +153,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::DropLines&) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Jog& jog) {
-  if (auto refusal = refuse(MachineEvent::begin_jog)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_jog)) return Failure{*refusal};
   if (auto refusal = refusal_of(jog)) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
@@ -174,7 +185,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive&) 
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Home& home) {
-  if (auto refusal = refuse(MachineEvent::begin_home)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_home)) return Failure{*refusal};
   const Ability needed = home.axis ? Ability::home_axis : Ability::home;
   if (!abilities().can(needed)) return refuse_ability(needed);
   auto work = std::make_unique<Work>();
@@ -186,7 +197,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Home& home) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Probe& probe) {
-  if (auto refusal = refuse(MachineEvent::begin_probe)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_probe)) return Failure{*refusal};
   if (auto refusal = refusal_of(probe, machine_, position_, Mm(same_position))) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
@@ -227,8 +238,9 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
   // While the board brakes or is reset, it would move on.
   if (busy() && work_->stage >= Work::Stage::brakes) return refused(RefusalReason::no_program_held);
   const bool is_held = busy() && work_->is_program() && (work_->hold.asked || work_->hold.heard);
+  const bool is_held_idle = state_ == MachineState::idle && is_held_at_board();
   const bool is_door_closed = state_ == MachineState::door && heard_.pins.find('D') == std::string::npos;
-  if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);
+  if (!is_held && !is_held_idle && !is_door_closed) return refused(RefusalReason::no_program_held);
   if (heard_.pins.find('D') != std::string::npos) return refused(RefusalReason::door_open);
   if (heard_.pins.find('H') != std::string::npos) {
     return Failure{refused_because("ability.grbl.hold-input",

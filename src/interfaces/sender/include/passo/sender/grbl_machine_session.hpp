@@ -150,6 +150,7 @@ class GrblMachineSession final : public MachineSession {
   Answer handle(request::Sleep& sleep);
   Answer handle(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
+  std::optional<Refusal> refuse_motion(MachineEvent event) const;
   std::optional<Refusal> refuse_path() const;
   Answer refuse_ability(Ability ability) const;
   Answer at_once();
@@ -168,6 +169,7 @@ class GrblMachineSession final : public MachineSession {
   void look_for_device();
   void prepare();
   bool rests() const;
+  bool is_held_at_board() const;
   MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
