@@ -11,7 +11,7 @@ import { Notices, QuestionDialog } from './parts/dialogs';
 import { Icon } from './parts/icon';
 import { InterruptedBanner } from './parts/interrupted_card';
 import { StartDialog } from './parts/start_dialog';
-import { DiskBanner, OwnerBanner, StateBanner } from './parts/state_banner';
+import { DiskBanner, FileBanner, OwnerBanner, StateBanner } from './parts/state_banner';
 import { WaitBanner } from './parts/wait_banner';
 import { openDialog, ViewDialogs } from './parts/view_dialog';
 
@@ -74,6 +74,7 @@ export function App() {
       <div class="banners">
         <ConnectionBanner />
         <OwnerBanner />
+        <FileBanner />
         <DiskBanner />
         <WaitBanner />
         <InterruptedBanner />

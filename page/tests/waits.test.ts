@@ -54,3 +54,13 @@ describe('a program that waits', () => {
     expect([waits.value.now, isFree.value]).toEqual([null, false]);
   });
 });
+
+describe('a board that is held while nothing goes on', () => {
+  const idle = (hold: boolean) =>
+    stateWords({ status: told('Idle', null, { holds: ['operator'], inputs: { hold } as Status['inputs'] }), program: 'open', canHome: true, broken: '' });
+
+  it('is not called ready, and the page says how to go on', () => {
+    expect(idle(true)).toEqual({ title: 'On hold', next: 'The hold input of the board is active: release it, then press Resume.', tone: 'wait' });
+    expect(idle(false).next).toBe('The board is on hold: press Resume, here or at the board.');
+  });
+});

@@ -63,6 +63,22 @@ TEST_F(BoardSettings, are_shown_written_saved_compared_and_restored) {
   EXPECT_EQ(outcome.out, "no setting differs\n");
 }
 
+// The list of processes shows the words of a command to everybody on the computer.
+TEST_F(BoardSettings, are_written_from_standard_input_so_that_no_password_is_in_the_command) {
+  const Board board{FirmwareFake(test::grbl_mega_5x("XYZA"))};
+  auto outcome = passo("board settings " + board.address() + " --set 112=800 --set - --json",
+                       R"(printf '110=600\n\n$111=700\r\n' |)");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json changes = json::parse(outcome.out)["changes"];
+  ASSERT_EQ(changes.size(), 3U);
+  EXPECT_EQ(changes[1]["name"], "$110");
+  EXPECT_EQ(changes[1]["value"], "600.000");
+  EXPECT_EQ(changes[2]["value"], "700.000");
+  outcome = passo("board settings " + board.address() + " --set -", "echo hello |");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("hello: expected NAME=VALUE"));
+}
+
 TEST_F(BoardSettings, bad_calls_say_what_is_expected) {
   auto outcome = passo("board settings tcp:127.0.0.1:1");
   EXPECT_EQ(outcome.code, 2);

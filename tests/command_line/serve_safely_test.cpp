@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "kit/board_on_port.hpp"
+#include "kit/firmware_fakes.hpp"
 #include "kit/served_http.hpp"
 #include "kit/shared_case.hpp"
 #include <gmock/gmock.h>
@@ -198,6 +200,32 @@ TEST_F(ServeSafely, holds_by_each_door_beside_700_idle_connections) {
   for (const int line : idle) close(line);
   close(sender);
   close(page);
+}
+
+// A board of the first contact is written to by another process, whose words everybody on the computer can read.
+TEST_F(ServeSafely, no_password_of_a_board_is_in_the_list_of_processes) {
+  passo::test::FirmwareTraits traits = passo::test::fluidnc();
+  traits.settings.emplace_back("Sta/Password", "old-secret");
+  const passo::test::BoardOnPort<passo::test::FirmwareFake> board{passo::test::FirmwareFake(traits)};
+  serve();
+  const std::string key = new_key();
+  const std::string port = board.address().substr(std::string("grbl:").size());
+  json("POST", "/ports/open", R"({"device":")" + port + R"("})", key);
+  ASSERT_TRUE(until([&] { return json("GET", "/ports/open")["state"] == "done"; })) << json("GET", "/ports/open");
+  const auto begun =
+      json("POST", "/board/settings", R"({"order":"write","values":{"$Sta/Password":"new-secret"}})", key);
+  ASSERT_EQ(begun["state"], "running") << begun;
+  bool is_seen = false;
+  EXPECT_TRUE(until([&] {
+    for (const auto& one : std::filesystem::directory_iterator("/proc")) {
+      is_seen = is_seen || passo::test::read(one.path() / "cmdline").find("new-secret") != std::string::npos;
+    }
+    return json("GET", "/board/settings")["state"] != "running";
+  }));
+  EXPECT_FALSE(is_seen);
+  const auto report = json("GET", "/board/settings")["report"];
+  ASSERT_EQ(report["changes"].size(), 1U) << json("GET", "/board/settings");
+  EXPECT_EQ(report["changes"][0]["written"], true);
 }
 
 // The cases of users, where they are at hand.

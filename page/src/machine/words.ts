@@ -41,9 +41,13 @@ export interface Facts {
 
 const toolOf = (status: Status): number | null => waitsOf(status)?.tool ?? status.waits_for_tool;
 
+// The board is held, by its input or by another sender, while nothing goes on here.
+export const isHeldIdle = (status: Status): boolean => status.state === 'Idle' && status.holds.includes('operator');
+
 function nextOf({ status, program, canHome, broken }: Facts): string {
   const { state } = status;
   if (isAtWait(status)) return toolOf(status) === null ? say('state.Tool.next') : say('state.Tool.tool', { tool: toolOf(status) ?? 0 });
+  if (isHeldIdle(status)) return say(status.inputs.hold ? 'state.Idle.hold-input' : 'state.Idle.held');
   if (state === 'Idle') {
     if (broken !== '') return broken;
     // The console itself has told why a line was refused.
@@ -67,6 +71,7 @@ function nextOf({ status, program, canHome, broken }: Facts): string {
 export function stateWords(facts: Facts): StateWords {
   const { state, rests } = facts.status;
   if (isAtWait(facts.status)) return { title: say('state.Tool'), next: nextOf(facts), tone: tones.Tool };
+  if (isHeldIdle(facts.status)) return { title: say('state.Hold'), next: nextOf(facts), tone: tones.Hold };
   const title = state === 'Hold' && !rests ? say('state.Hold.braking') : say(`state.${state}`);
   return { title, next: nextOf(facts), tone: tones[state] };
 }

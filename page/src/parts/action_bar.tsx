@@ -4,6 +4,7 @@ import { done, hold, reset, resume, start, stop, wake, whyNoDone, whyNoHold, why
 import { isLive, status } from '../machine/connection';
 import { axes, workPlace } from '../machine/place';
 import { isAtWait, waits } from '../machine/waits';
+import { isHeldIdle } from '../machine/words';
 import { path } from '../core/route';
 import { placeText } from '../core/units';
 import { Button } from './button';
@@ -14,6 +15,9 @@ function GoButton() {
   const goesOn = waits.value.now !== null && now !== null && !['Hold', 'Door', 'Alarm', 'Fault', 'Sleep'].includes(now.state);
   if (now !== null && (goesOn || isAtWait(now))) {
     return <Button class="act" kind="go" icon="done" why={whyNoDone.value} onClick={done} children={say('do.done')} />;
+  }
+  if (now !== null && isHeldIdle(now)) {
+    return <Button class="act" kind="go" icon="resume" why={whyNot('Idle')} onClick={resume} children={say('do.resume')} />;
   }
   switch (now?.state) {
     case 'Hold':

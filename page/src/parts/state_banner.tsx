@@ -73,6 +73,17 @@ export function OwnerBanner() {
   );
 }
 
+// A machine file that does not suit the board. An alarm and a fault are told by the state.
+export function FileBanner() {
+  const now = status.value;
+  if (now === null || now.trouble === '' || now.trouble_sentence?.code !== 'grbl.other-machine') return null;
+  return (
+    <div class="owner" role="alert">
+      <Reported words={now.trouble} sentence={now.trouble_sentence} />
+    </div>
+  );
+}
+
 // What has happened and is not on the disk yet.
 export function DiskBanner() {
   const unkept = status.value?.unkept ?? '';

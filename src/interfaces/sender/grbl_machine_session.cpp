@@ -67,6 +67,7 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   lent_ = false;
   connection_.asks_offsets = false;
   heard_.reports = 0;
+  heard_.outputs.reset();
 }
 
 bool GrblMachineSession::busy() const {
@@ -81,6 +82,27 @@ bool GrblMachineSession::works() const {
 // All lines are answered, and the board has reported since that it is idle.
 bool GrblMachineSession::rests() const {
   return sender_.at_rest();
+}
+
+// By its hold input, or by another sender.
+bool GrblMachineSession::is_held_at_board() const {
+  return sender_.report() && sender_.report()->state == "Hold";
+}
+
+// As the board reports them: the operator, or somebody at the board, may have switched them. A report that came before
+// the program's last change does not know it.
+OutputState GrblMachineSession::outputs_now() const {
+  const bool runs = busy() && work_->feed;
+  OutputState outputs = runs ? work_->feed->outputs() : OutputState();
+  if (!heard_.outputs || (runs && heard_.outputs_after < work_->outputs_line)) return outputs;
+  const auto is_on = [&](char letter) { return heard_.outputs->find(letter) != std::string::npos; };
+  outputs.spindle = is_on('S')   ? SpindleDirection::clockwise
+                    : is_on('C') ? SpindleDirection::counterclockwise
+                                 : SpindleDirection::off;
+  if (outputs.spindle == SpindleDirection::off) outputs.revolutions_per_minute = 0;
+  outputs.mist = is_on('M');
+  outputs.flood = is_on('F');
+  return outputs;
 }
 
 void GrblMachineSession::exchange(Seconds most) {
@@ -145,7 +167,11 @@ void GrblMachineSession::hear_report() {
   const GrblReport& report = *sender_.report();
   if (heard_.pins != report.pins) ++news_.version;
   heard_.pins = report.pins;
-  if (report.outputs) heard_.outputs = *report.outputs;
+  if (report.outputs) {
+    if (heard_.outputs != report.outputs) ++news_.version;
+    heard_.outputs = report.outputs;
+    heard_.outputs_after = sender_.lines_answered();
+  }
   const auto place = sender_.place();
   if (!place) return;
   live_.hear(*place, now());
@@ -177,6 +203,7 @@ void GrblMachineSession::take_board() {
   connection_.asks_offsets = false;
   const bool are_other_offsets = board_.offsets != sender_.machine().offsets;
   board_ = sender_.machine();
+  match_ = match_with_board(machine_, board_);
   if (!are_other_offsets) return;
   ++news_.version;
   if (connection_.offsets_listener && !to_store_) connection_.offsets_listener();
@@ -299,6 +326,7 @@ GrblSender* GrblMachineSession::lend_sender() {
 void GrblMachineSession::take_sender_back() {
   if (!std::exchange(lent_, false)) return;
   board_ = sender_.machine();
+  match_ = match_with_board(machine_, board_);
   ++news_.version;
 }
 
@@ -340,17 +368,20 @@ MachineStatus GrblMachineSession::status() const {
   status.overrides = overrides_;
   status.stops = stops_;
   status.trouble_sentence = trouble_.words;
+  if (trouble_.words.text.empty() && match_.warning) status.trouble_sentence = *match_.warning;
+  status.outputs = outputs_now();
+  if (!busy() && is_held_at_board()) status.holds.add(HoldReason::operator_hold);
   if (!busy() || work_->checker) return status;
   const Work& work = *work_;
   const auto& report = sender_.report();
   const bool waits = work.feed && work.feed->asks() != GrblFeed::Asks::nothing && rests();
-  status.rests = waits || (report && report->rests() && work.stage == Work::Stage::moves);
+  const bool is_held = work.stage == Work::Stage::prepares && is_held_at_board();
+  status.rests = waits || (report && report->rests() && (work.stage == Work::Stage::moves || is_held));
   status.ahead = live_.at();
   status.activity = work.kind;
   status.holds.set(HoldReason::operator_hold, work.hold.asked || (state_ == MachineState::hold && work.hold.heard));
   status.holds.set(HoldReason::door, state_ == MachineState::door);
   if (work.feed) {
-    status.outputs = work.feed->outputs();
     status.executes = work.progress.executed.source();
     status.executes.to = work.progress.executed.last_line();
     if (work.start && work.start->nominal_time > Seconds(0)) {

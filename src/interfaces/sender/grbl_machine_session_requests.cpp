@@ -21,6 +21,11 @@ Failure<Refusal> refused(RefusalReason reason) {
   return Failure{Refusal{reason}};
 }
 
+// What this board cannot do now, in words of its own.
+Refusal refused_because(std::string code, std::string why) {
+  return {RefusalReason::board_cannot, {{"why", std::move(why)}, {"why.code", std::move(code)}}};
+}
+
 int percent_of(double factor) {
   return static_cast<int>(std::lround(factor * 100));
 }
@@ -69,6 +74,23 @@ std::optional<Refusal> GrblMachineSession::refuse(MachineEvent event) const {
   return refusal_in(state_, busy());
 }
 
+// A board that is held makes no motion, and answers lines that it does not execute.
+std::optional<Refusal> GrblMachineSession::refuse_motion(MachineEvent event) const {
+  if (auto refusal = refuse(event)) return refusal;
+  if (!is_held_at_board()) return {};
+  if (heard_.pins.find('H') != std::string::npos) {
+    return refused_because("ability.grbl.hold-input-first",
+                           "the hold input of the board is active: release it, then press Resume");
+  }
+  return refused_because("ability.grbl.held", "the board is held: press Resume, here or at the board");
+}
+
+// A place of the file may not be on the board.
+std::optional<Refusal> GrblMachineSession::refuse_path() const {
+  if (!match_.objection) return {};
+  return refused_because(match_.objection->code, match_.objection->text);
+}
+
 GrblMachineSession::Answer GrblMachineSession::at_once() {
   const Ticket ticket = ++tickets_.last;
   answer(ticket, Outcome::done);
@@ -85,8 +107,9 @@ GrblMachineSession::Answer GrblMachineSession::begin(MachineEvent event, std::un
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
-  if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_run)) return Failure{*refusal};
   if (auto refusal = lost_place()) return Failure{*refusal};
+  if (auto refusal = refuse_path()) return Failure{*refusal};
   auto work = std::make_unique<Work>();
   if (start.findings != nullptr) work->findings = start.findings;
   work->watchers = start.watchers;
@@ -105,8 +128,9 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Start& start) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Stream& stream) {
-  if (auto refusal = refuse(MachineEvent::begin_run)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_run)) return Failure{*refusal};
   if (auto refusal = lost_place(); refusal && !stream.program->jogs()) return Failure{*refusal};
+  if (auto refusal = refuse_path(); refusal && !stream.program->jogs()) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
   work->kind = stream.program->jogs() ? ActivityKind::jog : ActivityKind::program;
@@ -129,7 +153,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::DropLines&) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Jog& jog) {
-  if (auto refusal = refuse(MachineEvent::begin_jog)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_jog)) return Failure{*refusal};
   if (auto refusal = refusal_of(jog)) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
@@ -161,7 +185,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive&) 
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Home& home) {
-  if (auto refusal = refuse(MachineEvent::begin_home)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_home)) return Failure{*refusal};
   const Ability needed = home.axis ? Ability::home_axis : Ability::home;
   if (!abilities().can(needed)) return refuse_ability(needed);
   auto work = std::make_unique<Work>();
@@ -173,7 +197,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Home& home) {
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Probe& probe) {
-  if (auto refusal = refuse(MachineEvent::begin_probe)) return Failure{*refusal};
+  if (auto refusal = refuse_motion(MachineEvent::begin_probe)) return Failure{*refusal};
   if (auto refusal = refusal_of(probe, machine_, position_, Mm(same_position))) return Failure{*refusal};
   unlock();
   auto work = std::make_unique<Work>();
@@ -214,13 +238,13 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Resume&) {
   // While the board brakes or is reset, it would move on.
   if (busy() && work_->stage >= Work::Stage::brakes) return refused(RefusalReason::no_program_held);
   const bool is_held = busy() && work_->is_program() && (work_->hold.asked || work_->hold.heard);
+  const bool is_held_idle = state_ == MachineState::idle && is_held_at_board();
   const bool is_door_closed = state_ == MachineState::door && heard_.pins.find('D') == std::string::npos;
-  if (!is_held && !is_door_closed) return refused(RefusalReason::no_program_held);
+  if (!is_held && !is_held_idle && !is_door_closed) return refused(RefusalReason::no_program_held);
   if (heard_.pins.find('D') != std::string::npos) return refused(RefusalReason::door_open);
   if (heard_.pins.find('H') != std::string::npos) {
-    return Failure{Refusal{RefusalReason::board_cannot,
-                           {{"why", "the hold input of the board is still active: release it, then resume"},
-                            {"why.code", "ability.grbl.hold-input"}}}};
+    return Failure{refused_because("ability.grbl.hold-input",
+                                   "the hold input of the board is still active: release it, then resume")};
   }
   if (busy()) work_->hold.asked = work_->hold.door = work_->hold.heard = false;
   sender_.resume();
@@ -281,7 +305,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SwitchOutputs& wa
     return refused(RefusalReason::no_program_runs);
   }
   if (wanted.spindle_stands && state_ != MachineState::hold) return refused(RefusalReason::spindle_turns);
-  const auto is_on = [&](char letter) { return heard_.outputs.find(letter) != std::string::npos; };
+  const auto is_on = [&](char letter) { return heard_.outputs.value_or("").find(letter) != std::string::npos; };
   if (wanted.mist && *wanted.mist != is_on('M')) sender_.toggle_mist();
   if (wanted.flood && *wanted.flood != is_on('F')) sender_.toggle_flood();
   if (wanted.spindle_stands && *wanted.spindle_stands == (is_on('S') || is_on('C'))) sender_.toggle_spindle_stop();
@@ -331,7 +355,7 @@ void GrblMachineSession::end_at_other_zero(std::uint32_t line) {
 }
 
 void GrblMachineSession::switch_outputs_off() {
-  if (!work_->feed || work_->feed->outputs() == OutputState()) return;
+  if (!work_->feed || (work_->feed->outputs() == OutputState() && outputs_now() == OutputState())) return;
   sender_.add("M5");
   sender_.add("M9");
 }

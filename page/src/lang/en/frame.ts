@@ -56,6 +56,8 @@ export const frame = {
   'state.Idle.open': 'Open a program, or jog.',
   'state.Idle.bad': 'The program has errors: see the Files tab.',
   'state.Idle.home': 'Home the machine, or continue if its position is correct.',
+  'state.Idle.hold-input': 'The hold input of the board is active: release it, then press Resume.',
+  'state.Idle.held': 'The board is on hold: press Resume, here or at the board.',
   'state.Idle.unknown': 'The machine position is unknown. Home the machine, or jog it to a known position and confirm it in the Setup tab.',
   'state.Idle.unknown.switchless': 'The machine position is unknown. Jog it to a known position and confirm it in the Setup tab.',
   'state.Idle.job.done': 'The program has ended.',

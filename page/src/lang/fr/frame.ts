@@ -59,6 +59,8 @@ export const frame: Same<typeof en> = {
   'state.Idle.open': 'Ouvrir un programme ou déplacer les axes.',
   'state.Idle.bad': 'Le programme a des erreurs : voir l’onglet Fichiers.',
   'state.Idle.home': 'Faire la prise d’origine, ou continuer si la position est correcte.',
+  'state.Idle.hold-input': 'L’entrée de pause de la carte est active\u00a0: relâchez-la, puis reprenez.',
+  'state.Idle.held': 'La carte est en pause\u00a0: reprenez, ici ou sur la carte.',
   'state.Idle.unknown': 'La position de la machine est inconnue. Faire la prise d’origine, ou amener la machine à une position connue et la confirmer dans l’onglet Réglage.',
   'state.Idle.unknown.switchless': 'La position de la machine est inconnue. Amener la machine à une position connue et la confirmer dans l’onglet Réglage.',
   'state.Idle.job.done': 'Le programme est terminé.',

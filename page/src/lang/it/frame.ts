@@ -59,6 +59,8 @@ export const frame: Same<typeof en> = {
   'state.Idle.open': 'Apri un programma o muovi gli assi in manuale.',
   'state.Idle.bad': 'Il programma ha errori: vedi la pagina File.',
   'state.Idle.home': 'Esegui l’homing, o prosegui se la posizione è corretta.',
+  'state.Idle.hold-input': 'L’ingresso di pausa della scheda è attivo: rilascialo, poi riprendi.',
+  'state.Idle.held': 'La scheda è in pausa: riprendi, qui o sulla scheda.',
   'state.Idle.unknown': 'La posizione della macchina è ignota. Esegui l’homing, o porta la macchina in una posizione nota e confermala nella pagina Preparazione.',
   'state.Idle.unknown.switchless': 'La posizione della macchina è ignota. Porta la macchina in una posizione nota e confermala nella pagina Preparazione.',
   'state.Idle.job.done': 'Il programma è terminato.',

@@ -59,6 +59,8 @@ export const frame: Same<typeof en> = {
   'state.Idle.open': '打开程序，或点动。',
   'state.Idle.bad': '程序有错误：见“文件”页。',
   'state.Idle.home': '请回零；如果机床位置正确，也可继续。',
+  'state.Idle.hold-input': '控制板的进给保持输入有效：请先松开，再按“继续”。',
+  'state.Idle.held': '控制板处于暂停状态：请在此处或控制板上按“继续”。',
   'state.Idle.unknown': '机床位置未知。请回零，或点动到已知位置并在“对刀”页确认。',
   'state.Idle.unknown.switchless': '机床位置未知。请点动到已知位置并在“对刀”页确认。',
   'state.Idle.job.done': '程序已结束。',

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +17,7 @@ namespace passo {
 namespace {
 
 // In the new process.
-[[noreturn]] void become(const std::string& folder, const std::vector<std::string>& words, int progress) {
+[[noreturn]] void become(const std::string& folder, const std::vector<std::string>& words, int input, int progress) {
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);
@@ -25,7 +26,7 @@ namespace {
   if (chdir(folder.c_str()) != 0) _exit(127);
   const int said = open(BackgroundProcess::said_file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int printed = open(BackgroundProcess::printed_file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  dup2(open("/dev/null", O_RDWR), 0);
+  dup2(input, 0);
   dup2(printed, 1);
   dup2(said, 2);
   if (progress != BackgroundProcess::progress_pipe) {
@@ -45,14 +46,31 @@ namespace {
   _exit(127);
 }
 
+// A file without a name that holds the bytes; nothing if there is no memory for it.
+std::optional<int> input_of(std::string_view bytes) {
+  const int file = memfd_create("input", MFD_CLOEXEC);
+  if (file < 0) return {};
+  const bool is_whole = write(file, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
+  if (is_whole && lseek(file, 0, SEEK_SET) == 0) return file;
+  close(file);
+  return {};
+}
+
 }  // namespace
 
-bool BackgroundProcess::begin(const std::string& folder, const std::vector<std::string>& words) {
+bool BackgroundProcess::begin(const std::string& folder, const std::vector<std::string>& words,
+                              std::string_view input) {
   if (process_ != 0) return false;
+  const std::optional<int> given = input_of(input);
+  if (!given) return false;
   int ends[2];
-  if (pipe2(ends, O_NONBLOCK | O_CLOEXEC) != 0) return false;
+  if (pipe2(ends, O_NONBLOCK | O_CLOEXEC) != 0) {
+    close(*given);
+    return false;
+  }
   const pid_t process = fork();
-  if (process == 0) become(folder, words, ends[1]);
+  if (process == 0) become(folder, words, *given, ends[1]);
+  close(*given);
   close(ends[1]);
   close_pipe();
   pipe_ = ends[0];

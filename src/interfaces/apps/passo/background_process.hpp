@@ -41,8 +41,8 @@ class BackgroundProcess {
   }
 
   // Starts the process. `words`: the command line, beginning with the program's name. Returns false if one is already
-  // running, or if it cannot be started.
-  bool begin(const std::string& folder, const std::vector<std::string>& words);
+  // running, or if it cannot be started. `input`: its standard input, for what the list of processes must not show.
+  bool begin(const std::string& folder, const std::vector<std::string>& words, std::string_view input = {});
   bool runs() const { return process_ != 0; }
   // Returns the exit status, as reported by waitpid(), once. Empty: it is running, or there is none.
   std::optional<int> poll();

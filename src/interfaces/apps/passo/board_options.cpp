@@ -76,7 +76,8 @@ void add_board_settings_options(CLI::App& command, BoardSettingsArguments& argum
       command
           .add_option("--set", arguments.set,
                       "write a setting, and read it back; may be given several times. A value out of its range, or one "
-                      "that the board rejects, leaves the old one")
+                      "that the board rejects, leaves the old one. - reads them from standard input, one a line: the "
+                      "list of processes does not show a password there")
           ->type_name("NAME=VALUE")
           ->allow_extra_args(false);
   command.add_option("--save", arguments.save, "write all settings to this file, after changes; - is standard output")

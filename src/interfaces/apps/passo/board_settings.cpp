@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -219,6 +220,25 @@ std::optional<std::string> read_yaml_file(const std::string& path) {
   return text;
 }
 
+// Replaces "-" among the values by the lines of standard input. False, with a message: there are too many.
+bool read_given_values(std::vector<std::string>& values) {
+  const auto given = std::ranges::find(values, "-");
+  if (given == values.end()) return true;
+  values.erase(given);
+  std::string line;
+  std::size_t bytes = 0;
+  while (std::getline(std::cin, line)) {
+    bytes += line.size();
+    if (bytes > most_bytes) {
+      fail(exit_bad_program, fmt::format("--set -: expected at most {} bytes [settings.bad-file]", most_bytes));
+      return false;
+    }
+    if (line.ends_with('\r')) line.pop_back();
+    if (!line.empty()) values.push_back(line);
+  }
+  return true;
+}
+
 bool are_good(const BoardSettingsArguments& arguments) {
   if (!names_grbl_machine(arguments.board)) {
     fail(exit_bad_program, arguments.board +
@@ -241,8 +261,9 @@ bool are_good(const BoardSettingsArguments& arguments) {
 
 }  // namespace
 
-int board_settings(const BoardSettingsArguments& arguments) {
-  if (!are_good(arguments)) return exit_bad_program;
+int board_settings(const BoardSettingsArguments& given) {
+  BoardSettingsArguments arguments = given;
+  if (!read_given_values(arguments.set) || !are_good(arguments)) return exit_bad_program;
   std::string yaml;
   if (!arguments.write_config.empty()) {
     auto read = read_yaml_file(arguments.write_config);

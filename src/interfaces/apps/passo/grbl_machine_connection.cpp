@@ -111,6 +111,9 @@ std::unique_ptr<GrblMachineConnection> GrblMachineConnection::open(const std::st
   }
   if (session.state() == MachineState::idle || session.state() == MachineState::door) {
     note_unknown_firmware(board, session.board());
+    if (const auto& warning = session.match().warning) {
+      note(fmt::format("{}: {} [{}]", board, warning->text, warning->code));
+    }
     return opened;
   }
   code = interrupted_by() != 0 || !session.fault()

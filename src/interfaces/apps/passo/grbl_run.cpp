@@ -190,6 +190,9 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   const auto opened = GrblMachineConnection::open(arguments.board, machine, ahead, code);
   if (!opened || !make_ready(*opened, arguments, code)) return code;
   const GrblMachineSession& session = opened->session();
+  if (const auto& objection = session.match().objection) {
+    return fail(exit_failed, fmt::format("{}: {} [{}]", arguments.board, objection->text, objection->code));
+  }
   options.start = session.status().position.place;
   set_offsets(options, session.board());
   Diagnostics findings;

@@ -50,12 +50,15 @@ bool ServedSettings::begin_process(const SettingsOrder& order) {
   folder_.remove();
   if (board.empty() || !folder_.make()) return false;
   std::vector<std::string> words{"passo", "board", "settings", board, "--json", "--save", saved_file};
-  for (const auto& [name, value] : order.values) words.push_back("--set=" + name + "=" + value);
+  // Values may be passwords, and everybody on the computer can read the words.
+  std::string values;
+  for (const auto& [name, value] : order.values) values += name + "=" + value + "\n";
+  if (!values.empty()) words.insert(words.end(), {"--set", "-"});
   if (order.kind == Kind::compare || order.kind == Kind::restore) {
     if (!write_content(folder_.path(given_file), order.file)) return false;
     words.insert(words.end(), {order.kind == Kind::compare ? "--compare" : "--restore", given_file});
   }
-  if (!process_.begin(folder_.name(), words)) return false;
+  if (!process_.begin(folder_.name(), words, values)) return false;
   begun_ = Clock::now();
   result_ = {.state = SettingsResult::State::running, .board = board};
   return true;

@@ -86,6 +86,64 @@ TEST_F(GrblAtTheBoard, no_program_is_resumed_while_its_hold_input_is_active) {
   run.ask_and_wait(request::Stop{});
 }
 
+// Grbl reports Hold then, and executes no line until a cycle start.
+TEST_F(GrblAtTheBoard, nothing_begins_while_it_is_held_at_rest) {
+  ASSERT_TRUE(run.go_online());
+  run.grbl.held_input = true;
+  run.grbl.receive("!");
+  ASSERT_TRUE(run.play([&] { return run.session.status().holds.has(HoldReason::operator_hold); }, Seconds(2)));
+  const request::Jog jog{.way = {.direction = Point{{{1, 0, 0}}}, .speed = MmPerSecond(20), .distance = Mm(1)},
+                         .lease = Seconds(5)};
+  const std::string program = "G21 G90\nG1 X5 F1200\nM2\n";
+  EXPECT_FALSE(run.ask(grbl_start(program)));
+  EXPECT_THAT(run.refusal->message(), HasSubstr("hold input of the board is active"));
+  EXPECT_EQ(run.refusal->arguments.back().second, "ability.grbl.hold-input-first");
+  EXPECT_FALSE(run.ask(jog));
+  EXPECT_FALSE(run.ask(request::Resume{})) << "the input is active";
+  // Its button is released, and the board is still held.
+  run.grbl.held_input = false;
+  ASSERT_TRUE(run.play([&] { return (run.session.status().inputs & input_hold) == 0; }, Seconds(2)));
+  EXPECT_FALSE(run.ask(jog));
+  EXPECT_EQ(run.refusal->arguments.back().second, "ability.grbl.held");
+  ASSERT_TRUE(run.ask(request::Resume{}));
+  ASSERT_TRUE(run.play([&] { return !run.session.status().holds.has(HoldReason::operator_hold); }, Seconds(2)));
+  const auto done = run.ask_and_wait(grbl_start(program));
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->outcome, Outcome::done);
+}
+
+// The request was accepted before the report of the hold.
+TEST_F(GrblAtTheBoard, a_program_that_is_held_before_its_first_line_rests_in_a_hold) {
+  ASSERT_TRUE(run.go_online());
+  run.grbl.receive("!");
+  const auto ticket = run.ask(grbl_start("G21 G90\nG1 X5 F1200\nM2\n"));
+  ASSERT_TRUE(ticket);
+  ASSERT_TRUE(run.play_until(MachineState::hold, Seconds(2)));
+  EXPECT_TRUE(run.session.status().rests) << "it does not decelerate";
+  ASSERT_TRUE(run.ask(request::Resume{}));
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::done);
+}
+
+TEST_F(GrblAtTheBoard, outputs_are_those_that_it_reports) {
+  run.grbl.options = "VM,15,128";
+  ASSERT_TRUE(run.go_online());
+  const auto outputs = [&] { return run.session.status().outputs; };
+  run.grbl.receive("M8\n");
+  EXPECT_TRUE(run.play([&] { return outputs().flood && !outputs().mist; }, Seconds(5))) << "at rest";
+  const auto ticket = run.ask(grbl_start("G21 G90\nM3 S900\nG1 X60 F1200\nM2\n"));
+  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 5; }));
+  EXPECT_EQ(outputs().spindle, SpindleDirection::clockwise);
+  EXPECT_EQ(outputs().revolutions_per_minute, 900);
+  EXPECT_FALSE(outputs().flood);
+  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = true}));
+  EXPECT_TRUE(run.play([&] { return outputs().flood; }, Seconds(1)));
+  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = false}));
+  EXPECT_TRUE(run.play([&] { return !outputs().flood; }, Seconds(1)));
+  run.play([&] { return run.answer_to(*ticket).has_value(); });
+  EXPECT_TRUE(run.play([&] { return outputs() == OutputState(); }, Seconds(5)));
+}
+
 TEST_F(GrblAtTheBoard, a_stall_is_noticed_within_seconds_though_all_was_answered) {
   ASSERT_TRUE(run.go_online());
   const auto ticket = run.ask(grbl_start("G21 G90\nG1 X20 F1200\nG1 X0 F60\nM2\n"));

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/sender/grbl_match.hpp"
 #include "passo/sender/grbl_port.hpp"
 #include "passo/sender/grbl_program_check.hpp"
 #include "passo/sender/grbl_sender.hpp"
@@ -62,6 +63,8 @@ class GrblMachineSession final : public MachineSession {
   const GrblSender& sender() const { return sender_; }
   // The board is in an alarm that $X or $H ends.
   bool is_locked() const { return locked_; }
+  // How the machine file suits the settings of the board. An objection refuses programs.
+  const GrblMatch& match() const { return match_; }
   // Why the last activity ended before its end, or why the board cannot be used. Empty: nothing has gone wrong.
   const std::optional<GrblFault>& fault() const { return trouble_.fault; }
   // The number of lines that the current or the last program has sent.
@@ -101,7 +104,8 @@ class GrblMachineSession final : public MachineSession {
   struct Heard {
     std::uint64_t reports = 0;  // so far
     std::string pins;
-    std::string outputs;  // letters, as the board reports them
+    std::optional<std::string> outputs;  // letters, as the board reports them; empty: not reported yet
+    std::uint64_t outputs_after = 0;     // how many lines were answered before that report
     std::optional<Point> work_zero;
     Contact contact;
   };
@@ -147,6 +151,8 @@ class GrblMachineSession final : public MachineSession {
   Answer handle(request::Sleep& sleep);
   Answer handle(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
+  std::optional<Refusal> refuse_motion(MachineEvent event) const;
+  std::optional<Refusal> refuse_path() const;
   Answer refuse_ability(Ability ability) const;
   Answer at_once();
   void end_at_other_zero(std::uint32_t line);
@@ -164,6 +170,8 @@ class GrblMachineSession final : public MachineSession {
   void look_for_device();
   void prepare();
   bool rests() const;
+  bool is_held_at_board() const;
+  OutputState outputs_now() const;
   MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
@@ -200,6 +208,7 @@ class GrblMachineSession final : public MachineSession {
   GrblPort& port_;
   GrblSender sender_;
   GrblMachine board_;  // as it has described itself last
+  GrblMatch match_;
   MachineState state_ = MachineState::offline;
   Connection connection_;
   bool locked_ = false;  // the board is in an alarm that $X or $H ends
