@@ -38,8 +38,9 @@ class ApiRun {
   explicit ApiRun(const KnownPosition& start = GrblRun::at_zero(), JobHistory* history = nullptr,
                   const std::vector<Touchable>& things = {}, Studies* studies = nullptr,
                   const ToolTable& known_tools = {}, CamService* maker = nullptr, FirstContact* contact = nullptr,
-                  BoardSettings* settings = nullptr, const std::string& macro_folder = {})
-      : run(example_machine("router"), start, things),
+                  BoardSettings* settings = nullptr, const std::string& macro_folder = {},
+                  const MachineDescription& machine = example_machine("router"))
+      : run(machine, start, things),
         api(run.description(), run.session(), owner,
             {.version = "1",
              .openapi = "{}",

@@ -6,6 +6,8 @@
 
 #include "pipeline/api_kit.hpp"
 
+#include "passo/interpreter/tool_change_plan.hpp"
+
 namespace passo {
 namespace {
 
@@ -194,6 +196,44 @@ TEST(MdiPlace, takes_lines_where_the_place_is_known_or_a_person_vouches_for_it) 
   take("G0 X1");
   EXPECT_EQ(run.status, 200U);
   EXPECT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] == 1.0; }));
+}
+
+// M6 with [tool_change] goes to machine coordinates, with a movable plate too: its safe height is one.
+TEST(ToolChangePlace, is_homed_or_a_person_vouches_for_it) {
+  ToolChangePlan plan;
+  plan.way = ToolChangeWay::plate;
+  plan.safe_z = 5;
+  plan.window_low = -20;
+  plan.window_high = -1;
+  plan.seek = MmPerSecond(5);
+  plan.latch = MmPerSecond(1);
+  plan.retract = 1;
+  MachineDescription machine = test::example_machine("router");
+  machine.homing.clear();  // so the other lines and programs need no known position
+  machine.tool_change = std::make_shared<const ToolChangePlan>(plan);
+  ApiRun run(KnownPosition{}, nullptr, {}, nullptr, {}, nullptr, nullptr, nullptr, {}, machine);
+  run.own();
+  const auto take = [&](const char* line) { return run.post("/mdi", Json({{"line", line}}).dump()); };
+  EXPECT_EQ(take("T1 M6")["error"]["code"], "run.tool-change-unplaced");
+  EXPECT_EQ(run.status, 409U);
+  take("G0 X1");
+  ASSERT_EQ(run.status, 200U) << "only the tool change is refused";
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["place"]["x"] == 1.0; }));
+  ASSERT_TRUE(run.turn_until_state("Idle"));
+
+  const std::string start = fmt::format("/programs/{}/run", run.upload("G21 G90\nG0 X3\nT1 M6\nM2\n"));
+  run.post(start);
+  ASSERT_EQ(run.status, 202U) << "it is still unchecked";
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "failed"; }));
+  EXPECT_EQ(run.get("/status")["place"]["x"], 1.0) << "nothing moves";
+  EXPECT_EQ(run.post(start)["error"]["code"], "run.tool-change-unplaced");
+  EXPECT_EQ(run.status, 409U);
+
+  take("$X");
+  EXPECT_EQ(run.get("/status")["trust"], "commanded");
+  run.post(start);
+  ASSERT_EQ(run.status, 202U);
+  EXPECT_TRUE(run.turn_until_state("Tool"));
 }
 
 TEST_F(Mdi, tells_what_is_wrong_apart_from_what_was_expected) {

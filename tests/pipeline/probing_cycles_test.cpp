@@ -107,6 +107,17 @@ TEST_F(ProbingCycles, a_surface) {
   EXPECT_NEAR(run.end[Axis::z], -11.2 + 5, 0.01);
 }
 
+// With M2, the tool would leave for the park position of such a machine.
+TEST_F(ProbingCycles, stay_where_they_end_on_a_machine_that_parks) {
+  MachineDescription machine = machine_;
+  machine.park = {.place = at(10, 190, 0), .at_end = ParkDescription::AtEnd::park};
+  const CycleRun run = run_cycle({.kind = ProbingKind::surface, .height = 2.5}, machine, at(50, 40, 0), {block_});
+  EXPECT_EQ(run.words, "");
+  EXPECT_NEAR(run.end[Axis::x], 50, 0.01);
+  EXPECT_NEAR(run.end[Axis::y], 40, 0.01);
+  EXPECT_NEAR(run.end[Axis::z], -11.2 + 5, 0.01);
+}
+
 TEST_F(ProbingCycles, an_edge_from_each_side_with_a_ball) {
   struct Case {
     const char* side;
@@ -281,7 +292,8 @@ TEST_F(ProbingCycles, a_map_is_exact_and_a_levelled_program_follows_it) {
                      .rows = 3};
   // The work's zero is at Z-12 of the machine.
   const std::string zero = "G10 L2 P1 X0 Y0 Z-12\n";
-  const CycleRun run = run_text(zero + *probing_program(cycle), machine_, at(0, 0, 0), {work});
+  const std::string program = probing_program(cycle)->insert(2, zero);  // behind the '%'
+  const CycleRun run = run_text(program, machine_, at(0, 0, 0), {work});
   EXPECT_EQ(run.words, "");
   Diagnostics diagnostics;
   const auto map = read_height_map("log", run.logged, diagnostics);

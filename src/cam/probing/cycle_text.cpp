@@ -281,7 +281,9 @@ void CycleText::map() {
   }
 }
 
+// The cycle begins and ends with '%': the tool stays where it is, while M2 may move it to the park position.
 std::string CycleText::write() {
+  line("%");
   switch (cycle_.kind) {
     case ProbingKind::surface: surface(); break;
     case ProbingKind::edge: edge(); break;
@@ -293,7 +295,7 @@ std::string CycleText::write() {
     case ProbingKind::bores: bores(); break;
     case ProbingKind::map: map(); break;
   }
-  line("M2");
+  line("%");
   return std::move(text_);
 }
 

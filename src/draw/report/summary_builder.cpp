@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "axis_peaks.hpp"
 
@@ -44,6 +45,22 @@ void widen(std::optional<Range>& range, double value) {
   range->high = std::max(range->high, value);
 }
 
+// The lines whose M6 moves by itself. The operations of a line come before its path and its motion.
+class ToolChangeLines {
+ public:
+  void watch(const Operation& operation) {
+    using namespace passo::operation;
+    const std::uint32_t line = operation.source.line;
+    if (is_any_of<StartToolChange>(operation)) begun_ = line;
+    if (begun_ == line && is_any_of<StraightTraverse, StraightProbe>(operation)) lines_.insert(line);
+  }
+  bool has(std::uint32_t line) const { return !lines_.empty() && lines_.contains(line); }
+
+ private:
+  std::optional<std::uint32_t> begun_;
+  std::set<std::uint32_t> lines_;
+};
+
 }  // namespace
 
 class SummaryBuilder::Implementation {
@@ -53,6 +70,7 @@ class SummaryBuilder::Implementation {
   void watch(const Operation& operation) {
     using namespace passo::operation;
     const OperationKind& what = operation.what;
+    changes_.watch(operation);
     if (is_any_of<StraightTraverse, StraightFeed, ArcFeed, NurbsFeed, RigidTap, StraightProbe>(operation)) {
       if (sum_.moves++ == 0) sum_.units = units_;
       if (is_any_of<StraightTraverse>(operation)) ++sum_.rapids;
@@ -83,7 +101,7 @@ class SummaryBuilder::Implementation {
     const auto system = static_cast<std::size_t>(frame_.work_system());
     WorkExtents& work = work_[system < work_.size() ? system : 0];
     work.all.add(box.low, box.high);
-    if (segment.rapid) return;
+    if (!cuts(segment)) return;
     work.cutting.add(box.low, box.high);
     ToolSummary& tool = tool_of(path_tool_);
     widen(only_turns(segment.curve, segment.surface) ? tool.turn_feed : tool.feed, segment.speed.value());
@@ -92,16 +110,17 @@ class SummaryBuilder::Implementation {
 
   void add_up(const PlannedMove& move) {
     const Segment& segment = move.segment;
-    (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
+    const bool is_cut = cuts(segment);
+    (is_cut ? sum_.cutting_time : sum_.rapid_time) += move.duration();
     const Mm way = move.to - move.from();
     ToolSummary& tool = tool_of(motion_tool_);
-    (segment.rapid ? tool.rapid_time : tool.cutting_time) += move.duration();
+    (is_cut ? tool.cutting_time : tool.rapid_time) += move.duration();
     if (only_turns(segment.curve, segment.surface)) {
-      (segment.rapid ? sum_.rapid_turn : sum_.cutting_turn) += way.value();
-      if (!segment.rapid) tool.cutting_turn += way.value();
+      (is_cut ? sum_.cutting_turn : sum_.rapid_turn) += way.value();
+      if (is_cut) tool.cutting_turn += way.value();
     } else {
-      (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += way;
-      if (!segment.rapid) tool.cutting_distance += way;
+      (is_cut ? sum_.cutting_distance : sum_.rapid_distance) += way;
+      if (is_cut) tool.cutting_distance += way;
     }
   }
 
@@ -139,6 +158,9 @@ class SummaryBuilder::Implementation {
   }
 
  private:
+  // The moves of a tool change touch the tool setter or the rack, not the work.
+  bool cuts(const Segment& segment) const { return !segment.rapid && !changes_.has(segment.source.line); }
+
   struct WorkExtents {
     Extents all;
     Extents cutting;
@@ -176,7 +198,7 @@ class SummaryBuilder::Implementation {
   void add_box(const PlannedMove& move, const Box& box, const Point& machine_minus_work) {
     machine_.add(box.low, box.high);
     in_work_.add(box, machine_minus_work);
-    if (!move.segment.rapid) cutting_.add(box.low, box.high);
+    if (cuts(move.segment)) cutting_.add(box.low, box.high);
   }
 
   std::vector<Axis> axes_;
@@ -188,6 +210,7 @@ class SummaryBuilder::Implementation {
 
   // As the program is read:
   LengthUnits units_ = LengthUnits::mm;
+  ToolChangeLines changes_;
   Frame frame_;
   std::int32_t first_tool_ = 0;  // M61 before the first move
   // On the path, and in the motion, which comes later:

@@ -7,9 +7,11 @@
 #include "api_json.hpp"
 #include <fmt/format.h>
 
+#include "passo/activity/placed_tool_change.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/backlash_options.hpp"
 #include "passo/session/board_machine_session.hpp"
+#include "passo/session/confirmed_place.hpp"
 
 namespace passo {
 namespace {
@@ -117,6 +119,11 @@ WebAnswer JobRunner::begin(const StoredProgram& program, const Wanted& wanted) {
   if (interrupted() != nullptr) {
     return error_answer(409, "jobs.interrupted", "a job was interrupted: resume it or discard it first");
   }
+  const bool is_checked = program.state == UploadState::good;
+  if (is_checked && program.changes_tools_by_moves && !is_place_confirmed(shared_.session)) {
+    Sentence why = sentence_of_unplaced_tool_change();
+    return error_answer(409, why.code, why);
+  }
   // A job that cannot be noted does not begin.
   JobHistory* const history = shared_.options.history;
   std::int64_t number = wanted.history;
@@ -195,6 +202,9 @@ void JobRunner::name_job() {
     return end_job(JobState::failed,
                    first_error(program.findings, Sentence{.code = "job.program-errors",
                                                           .text = "the program has errors: see its findings"}));
+  }
+  if (program.changes_tools_by_moves && !is_place_confirmed(shared_.session)) {
+    return end_job(JobState::failed, sentence_of_unplaced_tool_change());
   }
   begins_.way.reset();
   if (goes_on_ || begins_.from) {

@@ -8,6 +8,7 @@
 
 #include "passo/grbl/grbl_reports.hpp"
 #include "passo/grbl/grbl_settings.hpp"
+#include "passo/session/confirmed_place.hpp"
 
 namespace passo {
 namespace {
@@ -108,6 +109,7 @@ MdiLines::Answer MdiLines::execute_code(std::string_view line) {
   if (const auto closed = session_.closed_limit()) return refused(*closed);
   if (const auto lost = session_.lost_place()) return refused(*lost);
   if (!streams()) program_->drop(session_.status().position.place);
+  if (machine_.tool_change != nullptr) program_->allow_tool_changes(is_place_confirmed(session_));
   if (auto wrong = program_->add_line(line, session_.now())) {
     return {.code = std::move(wrong->code),
             .message = std::move(wrong->message),
@@ -153,7 +155,9 @@ MdiLines::Answer MdiLines::execute_command(const std::string& text) {
   if (text == "$SLP") return ask(request::Sleep{});
   if (text == "$X") {
     const MachineState state = session_.state();
-    if (session_.lost_place()) {
+    const bool lacks_place =
+        machine_.tool_change != nullptr && state == MachineState::idle && !is_place_confirmed(session_);
+    if (lacks_place || session_.lost_place()) {
       return ask(request::SetPosition{{.place = session_.status().position.place, .trust = Trust::commanded}});
     }
     if (state != MachineState::alarm && state != MachineState::fault) return told("[MSG:Nothing is locked]");

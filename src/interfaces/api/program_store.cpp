@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "passo/activity/placed_tool_change.hpp"
 #include "passo/api/deleted_lines.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
 
@@ -144,6 +145,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   program.planned_time.reset();
   program.path_points = ProgramPath();
   program.outline = JobOutline();
+  program.changes_tools_by_moves = false;
   make_room_for_path(id);
   program.state = UploadState::checking;
   InterpreterOptions options = options_of(program);
@@ -154,6 +156,9 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
   path_ = PathFingerprint();
   judge_ = new_judge_ ? new_judge_() : nullptr;
   told_.clear();
+  checker_->watch_operations([stored = &program, &machine](const Operation& operation) {
+    stored->changes_tools_by_moves = stored->changes_tools_by_moves || is_placed_tool_change(operation, machine);
+  });
   checker_->watch([this, stored = &program](const PathItem& item) {
     stored->path_points.add(item, checker_->frame());
     stored->outline.add(item);

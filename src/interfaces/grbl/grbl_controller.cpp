@@ -10,6 +10,7 @@
 #include "passo/activity/machine_plant.hpp"
 #include "passo/interpreter/grbl_errors.hpp"
 #include "passo/session/board_machine_session.hpp"
+#include "passo/session/confirmed_place.hpp"
 
 namespace passo {
 namespace {
@@ -262,6 +263,7 @@ void GrblController::handle(const GrblInput::Line& line) {
 
 void GrblController::handle_code(const std::string& text) {
   probe_ = program_.asks() ? std::nullopt : probe_;
+  if (machine_.tool_change != nullptr) program_.allow_tool_changes(checks_ || is_place_confirmed(session_));
   const auto wrong = checks_ ? program_.check(text) : program_.add_line(text, session_.now());
   if (wrong) {
     if (checks_ || wrong->code != travel_exceeded) return answer(number_of(*wrong));

@@ -367,7 +367,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SetPosition& set)
   if (distance(set.position.place, position_.place) > same_position) return refuse_ability(Ability::set_position);
   unlock();
   recovery_ = {};
-  position_.trust = Trust::commanded;
+  position_.trust = Trust::counted;  // by the board, from a place that a person has confirmed
   position_.is_lost = false;
   ++news_.version;
   return at_once();

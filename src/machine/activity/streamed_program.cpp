@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "passo/activity/placed_tool_change.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
 
@@ -33,7 +34,8 @@ std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
 }  // namespace
 
 StreamedProgram::StreamedProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start)
-    : options_(on_machine(machine, std::move(options))),
+    : machine_(machine),
+      options_(on_machine(machine, std::move(options))),
       path_options_(path_options(machine, "line")),
       answers_(StoredResults::Answers{}),
       queue_(motion_limits(machine)) {
@@ -48,8 +50,11 @@ void StreamedProgram::begin(const Point& start) {
   diagnostics_.clear();
   interpreter_ = std::make_unique<Interpreter>(ProgramReader::from_lines("line"), options_, diagnostics_, answers_);
   operations_ = std::make_unique<Tap<Operation>>(*interpreter_);
-  operations_->watch(
-      [this](const Operation& operation) { operator_messages_.watch(operation, interpreter_->tools()); });
+  operations_->watch([this](const Operation& operation) {
+    operator_messages_.watch(operation, interpreter_->tools());
+    if (allows_changes_ || !is_placed_tool_change(operation, machine_)) return;
+    diagnostics_.add(unplaced_tool_change(path_options_.file, operation.source.line));
+  });
   builder_ = std::make_unique<PathBuilder>(*operations_, path_options_, diagnostics_, answers_);
   asks_ = false;
 }

@@ -73,6 +73,33 @@ TEST(RunSummary, reads_as_a_person_wants_it) {
   test::expect_golden("src/draw/report/tests/golden/small_summary.txt", to_text(small_job(), false));
 }
 
+// M6 with [tool_change] touches the tool setter, which is beside and below the work.
+TEST(RunSummary, counts_no_move_of_a_tool_change_as_cutting) {
+  SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
+  const auto show = [&](PlannedMove move, const OperationKind& what, std::uint32_t line) {
+    move.segment.source.line = line;
+    builder.watch_operation(of(what, line));
+    builder.watch_path(move.segment);
+    builder.watch(move, at(0, 0));
+  };
+  show(feed(at(0, 0, 0), at(10, 0, -1)), operation::StraightFeed{}, 1);
+  builder.watch_operation(of(operation::StartToolChange{}, 2));
+  show(rapid(at(10, 0, -1), at(300, 0, -1)), operation::StraightTraverse{}, 2);
+  show(feed(at(300, 0, -1), at(300, 0, -80)), operation::StraightProbe{}, 2);
+  show(feed(at(300, 0, -80), at(300, 0, -78)), operation::StraightFeed{}, 2);
+  show(rapid(at(300, 0, -78), at(10, 0, 0)), operation::StraightTraverse{}, 2);
+  show(feed(at(10, 0, 0), at(20, 0, -2)), operation::StraightFeed{}, 3);
+  const RunSummary summary = builder.summary();
+  EXPECT_EQ(summary.axes[0].cutting_extents->high, 20);
+  EXPECT_EQ(summary.axes[2].cutting_extents->low, -2);
+  EXPECT_EQ(summary.axes[2].machine_extents->low, -80) << "it goes there, but cuts nothing";
+  ASSERT_EQ(summary.work.size(), 1U);
+  EXPECT_EQ(summary.work[0].cutting[2]->low, -2);
+  ASSERT_EQ(summary.tools.size(), 1U);
+  EXPECT_EQ(summary.tools[0].depth, -2);
+  EXPECT_LT(summary.cutting_distance, Mm(30));
+}
+
 TEST(RunSummary, is_in_inches_if_the_program_is) {
   test::expect_golden("src/draw/report/tests/golden/small_summary_inches.txt",
                       to_text(small_job(LengthUnits::inch), false));

@@ -19,9 +19,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/activity/placed_tool_change.hpp"
 #include "passo/base/counted.hpp"
 #include "passo/job/job_end.hpp"
 #include "passo/link/await.hpp"
+#include "passo/session/confirmed_place.hpp"
 
 namespace passo {
 namespace {
@@ -196,9 +198,19 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   options.start = session.status().position.place;
   set_offsets(options, session.board());
   Diagnostics findings;
-  const ProgramCheck check = check_for_grbl(program, machine, options, GrblTarget::of(session.board()), findings);
+  bool has_unplaced_change = false;
+  const bool is_confirmed = is_place_confirmed(session);
+  const ProgramCheck check = check_for_grbl(program, machine, options, GrblTarget::of(session.board()), findings, {},
+                                            [&](const Operation& operation) {
+                                              if (!is_confirmed && is_placed_tool_change(operation, machine))
+                                                has_unplaced_change = true;
+                                            });
   show(findings);
   if (!check.good) return exit_bad_program;
+  if (has_unplaced_change) {
+    const Sentence why = sentence_of_unplaced_tool_change();
+    return fail(exit_failed, fmt::format("{}: {}. Use --home [{}]", arguments.board, why.text, why.code));
+  }
   if (!arguments.quiet)
     note("the program starts at " + place_words(opened->session().sender()) +
          " (machine coordinates), with the offsets of the machine");

@@ -50,6 +50,10 @@ class StreamedProgram final : public Source<PathItem> {
   // Returns the result that add_line() would have, without any change.
   [[nodiscard]] std::optional<Diagnostic> judge(std::string_view line);
 
+  // Whether the machine may change tools by moves of its own (M6 with [tool_change]): its position is known. Otherwise
+  // add_line() refuses them. True at first.
+  void allow_tool_changes(bool allows) { allows_changes_ = allows; }
+
   bool room() const { return !asks_ && queue_.has_room(); }
   // Returns true if a line needs a result from the machine, which is not available yet.
   bool asks() const { return asks_; }
@@ -99,6 +103,7 @@ class StreamedProgram final : public Source<PathItem> {
   bool pull_answer(PathItem& item);
   void roll_back(std::size_t kept);
 
+  const MachineDescription& machine_;
   InterpreterOptions options_;
   PathOptions path_options_;
   Diagnostics diagnostics_;
@@ -108,6 +113,7 @@ class StreamedProgram final : public Source<PathItem> {
   std::unique_ptr<PathBuilder> builder_;
   LineQueue queue_;
   bool asks_ = false;
+  bool allows_changes_ = true;
   bool ended_ = false;
   bool jogs_ = false;
   std::optional<Diagnostic> answer_fault_;
