@@ -34,7 +34,8 @@ void BlockExecutor::go_on() {
     if (tools_.take_macro_call()) return subprograms_.call_change_macro(words_.span(ModalGroup::tool_change));
     if (has_changed && (!execute_after_change() || cycle_ != nullptr)) return;
   }
-  if (words_.code(ModalGroup::stopping) != nullptr) stops_.run(words_.code(ModalGroup::stopping)->number);
+  const CodeEntry* const stop = words_.code(ModalGroup::stopping);
+  if (stop != nullptr && tools_.check_stop(stop->number)) stops_.run(stop->number);
 }
 
 // A line of a lathe cycle's contour.

@@ -5,6 +5,8 @@
 #include "interpreter_sentences.hpp"
 #include <fmt/format.h>
 
+#include "passo/interpreter/tool_change_plan.hpp"
+
 namespace passo {
 namespace {
 
@@ -99,8 +101,21 @@ void ModeCodes::restore_path_mode(CodeNumber number, const PathTolerance& tolera
   emit_path_mode();
 }
 
+// A tool that turns would fly out. Only the tool change opens the collet.
+bool ModeCodes::opens_collet(CodeNumber number) const {
+  const ToolChangePlan* const plan = block_.options.tool_change.get();
+  if (plan == nullptr || plan->way != ToolChangeWay::rack) return false;
+  return number == (plan->rack.opens == ColletOutput::mist ? code(7) : code(8));
+}
+
 bool ModeCodes::switch_coolant(CodeNumber number) {
   const bool off = number == code(9);
+  if (opens_collet(number)) {
+    return fail(
+        "gcode.collet-output", words_.span(coolant),
+        fmt::format("M{} would open the collet: it is the output of [tool_change.rack]", number == code(7) ? 7 : 8),
+        number == code(7) ? "no M7; M8 for coolant" : "no M8; M7 for coolant");
+  }
   if (number == code(7) || off) emit(operation::SetMist{state_.mist = !off});
   if (number == code(8) || off) emit(operation::SetFlood{state_.flood = !off});
   return true;

@@ -20,6 +20,7 @@ class ModeCodes : private CodeFamily {
 
  private:
   void emit_path_mode();
+  bool opens_collet(CodeNumber code) const;
 };
 
 }  // namespace passo

@@ -32,6 +32,7 @@ constexpr Rule table[] = {
     {"gcode.blank-in-number", "RS274/NGC 3.3, format of a line"},
     {"gcode.calls-too-deep", "Passo, docs/gcode.md: Limits"},
     {"gcode.change-macro", "Passo, docs/gcode.md: Machine"},
+    {"gcode.collet-output", "Passo, docs/gcode.md: Machine"},
     {"gcode.cutter-compensation", "LinuxCNC manual, G-codes: G41, G42 Cutter Compensation"},
     {"gcode.cutter-entry", "LinuxCNC manual, Tool Compensation: Cutter Radius Compensation"},
     {"gcode.cutter-gouge", "LinuxCNC manual, Tool Compensation: Cutter Radius Compensation"},

@@ -93,6 +93,12 @@ bool ToolCodes::check_alone() {
               "M6 and T in a block of their own");
 }
 
+bool ToolCodes::check_stop(CodeNumber number) {
+  if (!before_macro_ || (number != code(2) && number != code(30))) return true;
+  return fail("gcode.change-macro", words_.span(stopping), "the program would end in the middle of a tool change",
+              "tool_change.macro without M2 and M30");
+}
+
 bool ToolCodes::begin_last_check() {
   const ToolChangePlan* const plan = block_.options.tool_change.get();
   const MeasuredTools& known = state_.measured;

@@ -28,6 +28,8 @@ class ToolCodes final : public CycleCodes {
   bool changes_by_macro(int depth) const { return before_macro_ && depth == macro_depth_; }
   // Begins the cycle that goes on behind it.
   void go_on_after_macro() { begin_cycle(next_tool_, false); }
+  // Whether the code may stand where it is: the lines of a change cannot end the program.
+  bool check_stop(CodeNumber code);
   // Begins a cycle that measures the used tool at the end of the program. Returns false if there is nothing to measure.
   bool begin_last_check();
   Cycle& cycle() override { return *cycle_; }

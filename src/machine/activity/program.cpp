@@ -32,12 +32,35 @@ void report_end(Diagnostics& diagnostics, const std::string& file, const PathIte
 
 }  // namespace
 
+// The program with the moves of M6.
+struct ProgramChecker::Changes {
+  Changes(ProgramReader program, const PathOptions& path, const InterpreterOptions& options)
+      : interpreter(std::move(program), options, findings),
+        operations(interpreter),
+        builder(operations, path, findings) {
+    operations.watch([this](const Operation& operation) {
+      probes |= std::holds_alternative<operation::StraightProbe>(operation.what) && !operation.in_machine;
+    });
+  }
+
+  Diagnostics findings;
+  Interpreter interpreter;
+  Tap<Operation> operations;
+  PathBuilder builder;
+  bool probes = false;  // the program itself, and not only M6
+  std::uint64_t after_a_probe = 0;
+};
+
+ProgramChecker::~ProgramChecker() = default;
+
 ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& machine,
                                const InterpreterOptions& options, Diagnostics& diagnostics)
     : diagnostics_(diagnostics),
       path_options_(path_options(machine, program.name(), options.start)),
       limits_(motion_limits(machine)),
       tools_(options.tools),
+      again_(machine.tool_change != nullptr ? std::optional(program.again()) : std::nullopt),
+      changing_(again_ ? on_machine(machine, options) : InterpreterOptions{}),
       interpreter_(std::move(program), options, diagnostics),
       track_(options.start),
       mistakes_(machine, options.units, path_options_.file, diagnostics),
@@ -47,6 +70,7 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       builder_(operations_, path_options_, diagnostics) {
   operations_.watch([this](const Operation& operation) {
     track_.follow(operation);
+    changes_tools_ |= std::holds_alternative<operation::StartToolChange>(operation.what);
     mistakes_.watch(operation, track_);
     low_rapids_.watch(operation, track_);
     spindle_mistakes_.watch(operation, track_);
@@ -55,7 +79,7 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
 
 bool ProgramChecker::go_on(std::uint64_t items) {
   for (; items > 0 && !done_; --items) {
-    if (pull_item()) continue;
+    if (changes_ != nullptr ? pull_change() : pull_item() || begins_changes()) continue;
     finish();
   }
   return done_;
@@ -74,8 +98,28 @@ bool ProgramChecker::pull_item() {
   return true;
 }
 
+bool ProgramChecker::begins_changes() {
+  if (!again_ || !changes_tools_ || diagnostics_.any_error()) return false;
+  changes_ = std::make_unique<Changes>(std::move(*again_), path_options_, changing_);
+  return true;
+}
+
+bool ProgramChecker::pull_change() {
+  Changes& with = *changes_;
+  PathItem item;
+  if (with.findings.full() || with.after_a_probe >= most_moves_after_a_probe || !with.builder.next(item)) return false;
+  if (with.probes) ++with.after_a_probe;
+  if (with.probes && is_probe(item)) with.findings.doubt_errors("if the probe is triggered at the end of its move");
+  return true;
+}
+
 void ProgramChecker::finish() {
   done_ = true;
+  if (changes_ != nullptr) {
+    for (const Diagnostic& found : changes_->findings.all()) {
+      if (found.severity == Severity::error) diagnostics_.add_certain(found);
+    }
+  }
   mistakes_.finish();
   low_rapids_.finish();
   spindle_mistakes_.finish();

@@ -315,6 +315,32 @@ TEST(ToolChange, puts_tools_into_the_rack_and_takes_them_from_it) {
   EXPECT_EQ(std::ranges::count(shop.events, "ask 3"), 1);
 }
 
+TEST(ToolChange, refuses_the_coolant_that_opens_the_collet) {
+  ToolChangePlan plan = setter_plan();
+  plan.way = ToolChangeWay::rack;
+  plan.rack = {.pockets = 2, .first = {100, 50}, .step = {20, 0}, .z = -30, .opens = ColletOutput::mist};
+  Shop shop(plan);
+  shop.run("T1 M6\nM3 S1000\nM8\nM7\nM2\n");
+  ASSERT_EQ(shop.diagnostics.all().size(), 1U);
+  EXPECT_EQ(shop.diagnostics.all().front().code, "gcode.collet-output");
+  EXPECT_EQ(shop.diagnostics.all().front().place.line, 4U);
+  plan.rack.opens = ColletOutput::flood;
+  Shop flood(plan);
+  flood.run("M7\nM9\nM8\nM2\n");
+  ASSERT_EQ(flood.diagnostics.all().size(), 1U);
+  EXPECT_EQ(flood.diagnostics.all().front().place.line, 3U);
+}
+
+TEST(ToolChange, lets_no_line_of_a_changer_end_the_program) {
+  ToolChangePlan plan = setter_plan();
+  plan.way = ToolChangeWay::macro;
+  plan.macro = "G53 G0 X70\nM2\n";
+  Shop shop(plan);
+  shop.run("T1 M6\nG0 Z1\nM2\n");
+  ASSERT_TRUE(shop.diagnostics.any_error());
+  EXPECT_EQ(shop.diagnostics.all().front().code, "gcode.change-macro");
+}
+
 TEST(ToolChange, calls_the_lines_of_a_changer_and_measures_behind_them) {
   ToolChangePlan plan = setter_plan();
   plan.way = ToolChangeWay::macro;

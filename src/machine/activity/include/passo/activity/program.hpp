@@ -42,11 +42,15 @@ struct ProgramCheck {
 // The check cannot know the results of probe moves, and assumes contact at their ends. So the path of the run may
 // differ, and path errors after the first probe move are reported as warnings. Syntax errors remain errors. A loop that
 // only a probe result can end is cut off.
+//
+// The observers, and the time, know M6 as a stop. On a machine whose M6 moves ([tool_change]), a program without errors
+// is then checked once more with these moves, for errors alone.
 class ProgramChecker {
  public:
   // `diagnostics` must outlive the checker.
   ProgramChecker(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  Diagnostics& diagnostics);
+  ~ProgramChecker();
   // Adds an observer of each path item.
   void watch(std::function<void(const PathItem&)> watcher) { watcher_ = std::move(watcher); }
   // Adds an observer of each operation of the program.
@@ -58,13 +62,19 @@ class ProgramChecker {
   const Frame& frame() const { return builder_.frame(); }
 
  private:
+  struct Changes;
+
   bool pull_item();
+  bool begins_changes();
+  bool pull_change();
   void finish();
 
   Diagnostics& diagnostics_;
   PathOptions path_options_;
   MotionLimits limits_;
-  ToolTable tools_;  // the tool table before the check
+  ToolTable tools_;                     // the tool table before the check
+  std::optional<ProgramReader> again_;  // on a machine whose M6 moves
+  InterpreterOptions changing_;         // then: with that M6
   Interpreter interpreter_;
   ToolTrack track_;
   FrequentMistakes mistakes_;
@@ -75,6 +85,8 @@ class ProgramChecker {
   std::function<void(const PathItem&)> watcher_;
   ProgramCheck check_;
   PathItem item_;
+  std::unique_ptr<Changes> changes_;
+  bool changes_tools_ = false;
   std::uint64_t after_a_probe_ = 0;
   bool done_ = false;
 };
