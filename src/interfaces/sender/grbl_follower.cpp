@@ -414,8 +414,8 @@ std::optional<GrblFollower::Trouble> GrblFollower::check_modes(std::string_view 
     compare(is_spindle && expected.spindle >= 0 && *value != expected.spindle, mode,
             fmt::format("M{}", expected.spindle));
     const bool knows_feed = mode[0] == 'F' && expected.feed >= 0 && !expected.by_time;
-    const double unit = in_inches ? 25.4 : 1;
-    // FluidNC tells F in millimetres also if all else is in inches.
+    const double unit = in_inches ? mm_per_inch : 1;
+    // FluidNC reports F in millimetres even if everything else is in inches.
     const double beside = std::min(std::abs(*value * unit - expected.feed) / unit, std::abs(*value - expected.feed));
     compare(knows_feed && beside > 0.51, mode, fmt::format("F{:.0f}", expected.feed / unit));
     const bool knows_speed = mode[0] == 'S' && expected.speed >= 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "passo/sender/grbl_reply.hpp"
+#include "passo/units/units.hpp"
 
 namespace passo {
 namespace {
@@ -182,10 +183,9 @@ bool GrblMachine::in_inches() const {
 }
 
 Point GrblMachine::millimetres(Point reported) const {
-  constexpr double inch = 25.4;
   if (!in_inches()) return reported;
   for (const Axis axis : all_axes) {
-    if (!is_rotary(axis) || row().converts_angles) reported[axis] *= inch;
+    if (!is_rotary(axis) || row().converts_angles) reported[axis] *= mm_per_inch;
   }
   return reported;
 }

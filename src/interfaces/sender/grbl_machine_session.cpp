@@ -350,7 +350,6 @@ MmPerSecond GrblMachineSession::speed_now() const {
   if (state_ == MachineState::alarm || state_ == MachineState::fault) return MmPerSecond(0);
   const auto& report = sender_.report();
   if (!report || !report->feed) return live_.speed();
-  constexpr double mm_per_inch = 25.4;
   return MmPerSecond(*report->feed * (sender_.machine().in_inches() ? mm_per_inch : 1) / seconds_per_minute);
 }
 

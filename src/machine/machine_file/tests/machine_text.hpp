@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <gtest/gtest.h>
+
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
