@@ -304,6 +304,7 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SwitchOutputs& wa
   if (!busy() || !work_->is_program() || work_->stage != Work::Stage::moves) {
     return refused(RefusalReason::no_program_runs);
   }
+  if (auto refusal = refusal_of(wanted, machine_)) return Failure{*refusal};
   if (wanted.spindle_stands && state_ != MachineState::hold) return refused(RefusalReason::spindle_turns);
   const auto is_on = [&](char letter) { return heard_.outputs.value_or("").find(letter) != std::string::npos; };
   if (wanted.mist && *wanted.mist != is_on('M')) sender_.toggle_mist();

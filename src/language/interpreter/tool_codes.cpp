@@ -209,7 +209,14 @@ bool ToolCodes::tool_offset(Point& offset) {
     return false;
   }
   if (tool != nullptr) offset = tool->offset;
-  const bool may_lack_table = block_.options.tool_change != nullptr;  // M6 measures
+  const ToolChangePlan* const plan = block_.options.tool_change.get();
+  const bool may_lack_table = plan != nullptr;  // M6 measures
+  const bool is_known = tool != nullptr || number == state_.tool;
+  if (may_lack_table && plan->measures && plan->use != LengthUse::work && !is_known) {
+    return fail("gcode.tool-not-measured", words_.span('H'),
+                fmt::format("the length of tool {} is unknown: it has not been measured", number),
+                fmt::format("T{} M6 first, or a tool table (--tools FILE)", number));
+  }
   if (number != 0 && !may_lack_table && state_.tools.name.empty() && !std::exchange(missing_table_told_, true)) {
     reporter_.warning(
         "gcode.no-tool-table", words_.span(tool_length),

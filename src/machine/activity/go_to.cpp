@@ -38,6 +38,11 @@ struct Way {
   bool lowers = false;
 };
 
+// A home that was never stored is machine zero, which may be at the table: Z stays up there.
+Way home_way(const Point& place, AxisSet axes) {
+  return {.place = place, .axes = axes, .lowers = place != Point()};
+}
+
 Way way_of(Destination destination, const MachineDescription& machine, const SavedParameters& saved,
            const Frame& frame) {
   AxisSet plane;
@@ -48,8 +53,8 @@ Way way_of(Destination destination, const MachineDescription& machine, const Sav
   }
   switch (destination) {
     case park: return {.place = *machine.park.place, .axes = plane};
-    case first_home: return {.place = saved_point(saved, home_parameter(1)), .axes = all, .lowers = true};
-    case second_home: return {.place = saved_point(saved, home_parameter(2)), .axes = all, .lowers = true};
+    case first_home: return home_way(saved_point(saved, home_parameter(1)), all);
+    case second_home: return home_way(saved_point(saved, home_parameter(2)), all);
     case work_zero: break;
   }
   return {.place = frame.machine_from_work({}), .axes = plane};

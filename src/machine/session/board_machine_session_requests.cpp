@@ -336,6 +336,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::SwitchOutputs& 
   if (!busy() || !work_->is_program() || work_->stage != Work::Stage::moves || work_->drive->stopped()) {
     return refusal(RefusalReason::no_program_runs);
   }
+  if (auto refused = refusal_of(wanted, machine_)) return Failure{*refused};
   MotionDrive& drive = *work_->drive;
   const bool held = drive.state() == MotionDrive::State::held && state_ == MachineState::hold;
   if (wanted.spindle_stands && !held) {

@@ -65,4 +65,14 @@ std::optional<Refusal> refusal_of(const request::Override& change) {
   return Refusal{RefusalReason::bad_rapid_override};
 }
 
+std::optional<Refusal> refusal_of(const request::SwitchOutputs& wanted, const MachineDescription& machine) {
+  const auto& plan = machine.tool_change;
+  if (!plan || plan->way != ToolChangeWay::rack) return {};
+  const bool opens = plan->rack.opens == ColletOutput::mist ? wanted.mist.has_value() : wanted.flood.has_value();
+  if (!opens) return {};
+  return Refusal{
+      RefusalReason::board_cannot,
+      {{"why", "this output opens the collet: only a tool change switches it"}, {"why.code", "machine.collet-output"}}};
+}
+
 }  // namespace passo

@@ -315,6 +315,16 @@ TEST(ToolChange, puts_tools_into_the_rack_and_takes_them_from_it) {
   EXPECT_EQ(std::ranges::count(shop.events, "ask 3"), 1);
 }
 
+TEST(ToolChange, uses_no_length_that_nobody_has_measured) {
+  ToolChangePlan plan = setter_plan();
+  plan.use = LengthUse::absolute;
+  Shop shop(plan);
+  shop.run("T1 M6\nG43 H1\nG43 H2\nM2\n");
+  ASSERT_EQ(shop.diagnostics.all().size(), 1U);
+  EXPECT_EQ(shop.diagnostics.all().front().code, "gcode.tool-not-measured");
+  EXPECT_EQ(shop.diagnostics.all().front().place.line, 3U);
+}
+
 TEST(ToolChange, refuses_the_coolant_that_opens_the_collet) {
   ToolChangePlan plan = setter_plan();
   plan.way = ToolChangeWay::rack;

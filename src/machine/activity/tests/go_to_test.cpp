@@ -83,7 +83,9 @@ TEST(GoTo, is_refused_with_the_reason) {
   };
   EXPECT_EQ(code(Destination::first_home, {{5161, 201}}), "goto.outside");
   EXPECT_EQ(code(Destination::first_home, {{5163, -81}}), "goto.outside");
-  EXPECT_EQ(code(Destination::second_home, {}), "") << "a home that was never stored is machine zero";
+  const auto unset = go_to_program(Destination::second_home, machine, {}, {});
+  ASSERT_TRUE(unset) << "a home that was never stored is machine zero";
+  EXPECT_EQ(ends_of(*unset, machine), (Ends{"50 60 -2 0 ", "0 0 -2 0 "})) << "Z stays up";
   machine.park.place.reset();
   EXPECT_EQ(code(Destination::park, {}), "goto.no-park");
 }

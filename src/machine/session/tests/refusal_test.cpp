@@ -1,8 +1,11 @@
 #include "passo/session/refusal.hpp"
 
+#include <memory>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "passo/session/request_checks.hpp"
 
 namespace passo {
 namespace {
@@ -25,6 +28,21 @@ TEST(Refusals, are_sentences_with_their_arguments) {
   EXPECT_EQ(sentence.code, "machine.alarm.limit-switch-of-axis");
   EXPECT_EQ(sentence.arguments.front().second, "Y");
   EXPECT_EQ(sentence.text, refusal.message());
+}
+
+TEST(Refusals, keep_the_collet_of_a_rack_closed) {
+  MachineDescription machine;
+  EXPECT_FALSE(refusal_of(request::SwitchOutputs{.mist = true}, machine));
+  ToolChangePlan plan;
+  plan.way = ToolChangeWay::rack;
+  plan.rack.opens = ColletOutput::flood;
+  machine.tool_change = std::make_shared<const ToolChangePlan>(plan);
+  EXPECT_FALSE(refusal_of(request::SwitchOutputs{.mist = true, .spindle_stands = true}, machine));
+  for (const bool on : {false, true}) {
+    const auto refusal = refusal_of(request::SwitchOutputs{.flood = on}, machine);
+    ASSERT_TRUE(refusal) << on;
+    EXPECT_EQ(refusal->message(), "this output opens the collet: only a tool change switches it");
+  }
 }
 
 }  // namespace

@@ -19,5 +19,7 @@ std::optional<Refusal> refusal_of(const request::Jog& jog);
 std::optional<Refusal> refusal_of(const request::Probe& probe, const MachineDescription& machine,
                                   const KnownPosition& position, Mm slack);
 std::optional<Refusal> refusal_of(const request::Override& change);
+// The output that opens the collet of a tool rack is switched by the tool change alone.
+std::optional<Refusal> refusal_of(const request::SwitchOutputs& wanted, const MachineDescription& machine);
 
 }  // namespace passo
