@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passo/geometry/euclid.hpp"
+#include "passo/interpreter/tool_change_plan.hpp"
 
 namespace passo {
 namespace {

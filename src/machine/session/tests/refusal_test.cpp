@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/session/request_checks.hpp"
 
 namespace passo {
