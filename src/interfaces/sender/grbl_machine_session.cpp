@@ -67,7 +67,6 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   lent_ = false;
   connection_.asks_offsets = false;
   heard_.reports = 0;
-  heard_.outputs.reset();
 }
 
 bool GrblMachineSession::busy() const {
@@ -87,22 +86,6 @@ bool GrblMachineSession::rests() const {
 // By its hold input, or by another sender.
 bool GrblMachineSession::is_held_at_board() const {
   return sender_.report() && sender_.report()->state == "Hold";
-}
-
-// As the board reports them: the operator, or somebody at the board, may have switched them. A report that came before
-// the program's last change does not know it.
-OutputState GrblMachineSession::outputs_now() const {
-  const bool runs = busy() && work_->feed;
-  OutputState outputs = runs ? work_->feed->outputs() : OutputState();
-  if (!heard_.outputs || (runs && heard_.outputs_after < work_->outputs_line)) return outputs;
-  const auto is_on = [&](char letter) { return heard_.outputs->find(letter) != std::string::npos; };
-  outputs.spindle = is_on('S')   ? SpindleDirection::clockwise
-                    : is_on('C') ? SpindleDirection::counterclockwise
-                                 : SpindleDirection::off;
-  if (outputs.spindle == SpindleDirection::off) outputs.revolutions_per_minute = 0;
-  outputs.mist = is_on('M');
-  outputs.flood = is_on('F');
-  return outputs;
 }
 
 void GrblMachineSession::exchange(Seconds most) {
@@ -167,11 +150,7 @@ void GrblMachineSession::hear_report() {
   const GrblReport& report = *sender_.report();
   if (heard_.pins != report.pins) ++news_.version;
   heard_.pins = report.pins;
-  if (report.outputs) {
-    if (heard_.outputs != report.outputs) ++news_.version;
-    heard_.outputs = report.outputs;
-    heard_.outputs_after = sender_.lines_answered();
-  }
+  if (report.outputs) heard_.outputs = *report.outputs;
   const auto place = sender_.place();
   if (!place) return;
   live_.hear(*place, now());
@@ -368,7 +347,6 @@ MachineStatus GrblMachineSession::status() const {
   status.stops = stops_;
   status.trouble_sentence = trouble_.words;
   if (trouble_.words.text.empty() && match_.warning) status.trouble_sentence = *match_.warning;
-  status.outputs = outputs_now();
   if (!busy() && is_held_at_board()) status.holds.add(HoldReason::operator_hold);
   if (!busy() || work_->checker) return status;
   const Work& work = *work_;
@@ -381,6 +359,7 @@ MachineStatus GrblMachineSession::status() const {
   status.holds.set(HoldReason::operator_hold, work.hold.asked || (state_ == MachineState::hold && work.hold.heard));
   status.holds.set(HoldReason::door, state_ == MachineState::door);
   if (work.feed) {
+    status.outputs = work.feed->outputs();
     status.executes = work.progress.executed.source();
     status.executes.to = work.progress.executed.last_line();
     if (work.start && work.start->nominal_time > Seconds(0)) {

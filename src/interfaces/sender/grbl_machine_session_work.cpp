@@ -82,9 +82,7 @@ void GrblMachineSession::poll_feed() {
   GrblFeed& feed = *work_->feed;
   // A board at rest may ignore a hold: nothing may move then either.
   while (!work_->hold.asked && sender_.wants_lines()) {
-    const OutputState before = feed.outputs();
     const auto line = feed.next();
-    if (feed.outputs() != before) work_->outputs_line = work_->progress.lines_before + feed.lines_written();
     if (!line) break;
     sender_.add(line->text, line->line, line->silence);
   }

@@ -86,7 +86,6 @@ struct GrblMachineSession::Work {
   std::unique_ptr<ProbeLine> probe;
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
-  std::uint64_t outputs_line = 0;  // number of the sender's line with the last change of the outputs
   Progress progress;
   Hold hold;
 

@@ -125,25 +125,6 @@ TEST_F(GrblAtTheBoard, a_program_that_is_held_before_its_first_line_rests_in_a_h
   EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::done);
 }
 
-TEST_F(GrblAtTheBoard, outputs_are_those_that_it_reports) {
-  run.grbl.options = "VM,15,128";
-  ASSERT_TRUE(run.go_online());
-  const auto outputs = [&] { return run.session.status().outputs; };
-  run.grbl.receive("M8\n");
-  EXPECT_TRUE(run.play([&] { return outputs().flood && !outputs().mist; }, Seconds(5))) << "at rest";
-  const auto ticket = run.ask(grbl_start("G21 G90\nM3 S900\nG1 X60 F1200\nM2\n"));
-  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 5; }));
-  EXPECT_EQ(outputs().spindle, SpindleDirection::clockwise);
-  EXPECT_EQ(outputs().revolutions_per_minute, 900);
-  EXPECT_FALSE(outputs().flood);
-  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = true}));
-  EXPECT_TRUE(run.play([&] { return outputs().flood; }, Seconds(1)));
-  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = false}));
-  EXPECT_TRUE(run.play([&] { return !outputs().flood; }, Seconds(1)));
-  run.play([&] { return run.answer_to(*ticket).has_value(); });
-  EXPECT_TRUE(run.play([&] { return outputs() == OutputState(); }, Seconds(5)));
-}
-
 TEST_F(GrblAtTheBoard, a_stall_is_noticed_within_seconds_though_all_was_answered) {
   ASSERT_TRUE(run.go_online());
   const auto ticket = run.ask(grbl_start("G21 G90\nG1 X20 F1200\nG1 X0 F60\nM2\n"));

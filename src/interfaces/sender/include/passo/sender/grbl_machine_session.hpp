@@ -104,8 +104,7 @@ class GrblMachineSession final : public MachineSession {
   struct Heard {
     std::uint64_t reports = 0;  // so far
     std::string pins;
-    std::optional<std::string> outputs;  // letters, as the board reports them; empty: not reported yet
-    std::uint64_t outputs_after = 0;     // how many lines were answered before that report
+    std::string outputs;  // letters, as the board reports them
     std::optional<Point> work_zero;
     Contact contact;
   };
@@ -171,7 +170,6 @@ class GrblMachineSession final : public MachineSession {
   void prepare();
   bool rests() const;
   bool is_held_at_board() const;
-  OutputState outputs_now() const;
   MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
