@@ -20,7 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr Seconds longest_yaml_answer{20};
-constexpr std::string_view usual_name{"config.yaml"};
+constexpr const char* usual_name = "config.yaml";
 
 bool has_yaml(const BoardSettingsArguments& arguments, const GrblConnection& opened) {
   if (opened.sender().machine().firmware == "FluidNC") return true;
