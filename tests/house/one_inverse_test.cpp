@@ -21,6 +21,7 @@ const std::map<std::string, std::string> readers = {
     {"src/interfaces/api/api_json.cpp", "says what the machine file says"},
     {"src/interfaces/grbl/grbl_settings.cpp", "says what the machine file says"},
     {"src/interfaces/grbl/kept_settings.cpp", "writes the machine file"},
+    {"src/interfaces/sender/grbl_match.cpp", "compares what the machine file says with a board's settings"},
     {"src/check/verdict/margin_survey.cpp", "a field of its own"},
     {"src/check/verdict/surveyed_motors.cpp", "a field of its own"},
 };
