@@ -19,7 +19,7 @@ describe('a job that was broken off', () => {
   });
 
   it('goes before all that the banner says else of a machine at rest', () => {
-    const status = { state: 'Idle', lost_place: true, trust: 'unknown', holds: [], job: { name: 'part.ngc', state: 'failed', why: 'lost' } } as unknown as Status;
+    const status = { state: 'Idle', lost_place: true, trust: 'unknown', holds: [], trouble: '', job: { name: 'part.ngc', state: 'failed', why: 'lost' } } as unknown as Status;
     expect(stateWords({ status, program: 'open', canHome: true, broken: 'Resume it.' }).next).toBe('Resume it.');
     expect(stateWords({ status: { ...status, job: null }, program: 'open', canHome: true, broken: '' }).next).toContain('machine position is unknown');
     // A machine that cannot be homed is not told to.

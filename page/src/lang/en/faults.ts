@@ -42,7 +42,6 @@ export const faults = {
   'machine.limit-closed.there': 'the limit switch of {axis} is triggered at that end: move the other way',
   'run.place-unknown': 'the machine position is unknown: home the machine first',
   'run.place-unknown.no-homing': 'the machine position is unknown: jog the machine to a known position and confirm it',
-  'run.tool-change-unplaced': 'M6 goes to machine coordinates, and the machine was not homed: home it, or confirm its position',
   // What the board of a machine cannot do
   'ability.grbl.exact-resume': 'this board does not report which step it has made: an interrupted job continues at the beginning of a line',
   'ability.grbl.step-counts': 'this board does not report its step counts',

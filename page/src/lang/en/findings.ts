@@ -112,6 +112,7 @@ export const findings = {
   'expected.instead-of-m97': 'o… call or M98, which call a subroutine',
   'expected.instead-of-m47': 'M99 in the main program, which restarts it',
   // What the machine cannot do
+  'run.tool-change-unplaced': 'M6 goes to machine coordinates, and the machine was not homed: home it, or confirm its position',
   'travel.exceeded.high': '{axis} would reach {reached} (work {work}), {far} beyond its travel’s end at {end}',
   'travel.exceeded.low': '{axis} would reach {reached} (work {work}), {far} below its travel’s end at {end}',
   'expected.within-travel': '{axis} within {low} to {high}, machine coordinates',

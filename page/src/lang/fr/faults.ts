@@ -44,7 +44,6 @@ export const faults: Same<typeof en> = {
   'machine.limit-closed.there': 'le fin de course de {axis} est actionné de ce côté : déplacez l’axe dans l’autre sens',
   'run.place-unknown': 'la position de la machine est inconnue : faites d’abord la prise d’origine',
   'run.place-unknown.no-homing': 'la position de la machine est inconnue : amenez la machine en manuel à une position connue et confirmez-la',
-  'run.tool-change-unplaced': 'M6 va à des coordonnées machine, et la prise d’origine n’a pas été faite : faites-la, ou confirmez la position',
   // Ce que la carte d’une machine ne sait pas faire
   'ability.grbl.exact-resume': 'cette carte n’indique pas quel pas elle a exécuté\u00a0: un travail interrompu reprend au début d’une ligne',
   'ability.grbl.step-counts': 'cette carte n’indique pas ses compteurs de pas',

@@ -113,6 +113,7 @@ export const findings: Same<typeof en> = {
   'expected.instead-of-m97': 'o… call ou M98, qui appellent un sous-programme',
   'expected.instead-of-m47': 'M99 dans le programme principal, qui le relance',
   // What the machine cannot do
+  'run.tool-change-unplaced': 'M6 va à des coordonnées machine, et la prise d’origine n’a pas été faite : faites-la, ou confirmez la position',
   'travel.exceeded.high': '{axis} arriverait à {reached} (pièce {work}), {far} au-delà de sa limite de course à {end}',
   'travel.exceeded.low': '{axis} arriverait à {reached} (pièce {work}), {far} en dessous de sa limite de course à {end}',
   'expected.within-travel': '{axis} de {low} à {high}, coordonnées machine',

@@ -44,7 +44,6 @@ export const faults: Same<typeof en> = {
   'machine.limit-closed.there': 'il finecorsa di {axis} è azionato da quel lato: muovi l’asse nel verso opposto',
   'run.place-unknown': 'la posizione della macchina è ignota: prima esegui l’homing',
   'run.place-unknown.no-homing': 'la posizione della macchina è ignota: porta la macchina in manuale in una posizione nota e confermala',
-  'run.tool-change-unplaced': 'M6 va a coordinate macchina, e l’homing non è stato eseguito: eseguilo, o conferma la posizione',
   // Ciò che la scheda di una macchina non sa fare
   'ability.grbl.exact-resume': 'questa scheda non indica quale passo ha eseguito: un lavoro interrotto riprende all’inizio di una riga',
   'ability.grbl.step-counts': 'questa scheda non indica i suoi conteggi dei passi',

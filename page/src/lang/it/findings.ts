@@ -113,6 +113,7 @@ export const findings: Same<typeof en> = {
   'expected.instead-of-m97': 'o… call o M98, che chiamano un sottoprogramma',
   'expected.instead-of-m47': 'M99 nel programma principale, che lo fa ripartire',
   // What the machine cannot do
+  'run.tool-change-unplaced': 'M6 va a coordinate macchina, e l’homing non è stato eseguito: eseguilo, o conferma la posizione',
   'travel.exceeded.high': '{axis} arriverebbe a {reached} (pezzo {work}), {far} oltre la fine della corsa a {end}',
   'travel.exceeded.low': '{axis} arriverebbe a {reached} (pezzo {work}), {far} sotto la fine della corsa a {end}',
   'expected.within-travel': '{axis} da {low} a {high}, coordinate macchina',

@@ -44,7 +44,6 @@ export const faults: Same<typeof en> = {
   'machine.limit-closed.there': '{axis} 轴该端限位开关处于触发状态：请向反方向移动',
   'run.place-unknown': '机床位置未知：请先回零',
   'run.place-unknown.no-homing': '机床位置未知：请点动到已知位置并确认',
-  'run.tool-change-unplaced': 'M6 会移动到机床坐标，而机床尚未回零：请先回零，或确认位置',
   // 机床的控制板不能做什么
   'ability.grbl.exact-resume': '此控制板不报告已执行到哪一步：中断的任务从某一行的开头继续',
   'ability.grbl.step-counts': '此控制板不报告步数',

@@ -113,6 +113,7 @@ export const findings: Same<typeof en> = {
   'expected.instead-of-m97': 'o… call 或 M98，用于调用子程序',
   'expected.instead-of-m47': '主程序中的 M99，用于从头重新执行',
   // What the machine cannot do
+  'run.tool-change-unplaced': 'M6 会移动到机床坐标，而机床尚未回零：请先回零，或确认位置',
   'travel.exceeded.high': '{axis} 将到达 {reached}（工件 {work}），超出行程终点 {end} 达 {far}',
   'travel.exceeded.low': '{axis} 将到达 {reached}（工件 {work}），低于行程终点 {end} 达 {far}',
   'expected.within-travel': '{axis} 在 {low} 至 {high} 之间（机床坐标）',

@@ -65,7 +65,9 @@ template <class Pause = NoPause>
 template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t twice_factor(int32_t growth) {
   const int32_t squared = times_fraction<Pause>(growth, growth);
-  return growth + (squared >> 1) + (squared >> 2);
+  // Behind the last part it may leave the range; nobody uses it then.
+  return static_cast<int32_t>(static_cast<uint32_t>(growth) + static_cast<uint32_t>(squared >> 1) +
+                              static_cast<uint32_t>(squared >> 2));
 }
 // Returns the change at each event of a part of 2^k events that begins with that interval.
 template <class Pause = NoPause>
