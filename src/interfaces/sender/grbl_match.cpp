@@ -116,14 +116,16 @@ class Comparison {
         "{} goes from {:g} to {:g} in the file and from {:g} to {:g} on the board (${})", letter_of(axis.axis),
         axis.travel_low, axis.travel_high, travel->low, travel->high, travel_length + index);
     add(differences_, words);
-    add(outside_, words);
+    if (axis.travel_low > travel->high - same_value || axis.travel_high < travel->low + same_value)
+      add(outside_, words);
   }
   static void add(std::string& all, const std::string& words) { all += (all.empty() ? "" : ", ") + words; }
   static Sentence sentence(const char* code, const std::string& differences) {
     constexpr std::string_view warning =
         "the machine file does not suit the board: {differences}. `passo machine --from` makes a file from the board";
     constexpr std::string_view objection =
-        "the travel in the machine file leaves that of the board, whose soft limits are on ($20=1): {differences}. "
+        "the travel in the machine file lies outside that of the board, whose soft limits are on ($20=1): "
+        "{differences}. "
         "`passo machine --from` makes a file from the board";
     SentenceArguments arguments = {{"differences", differences}};
     const bool is_warning = std::string_view(code) == "grbl.other-machine";

@@ -57,7 +57,7 @@ export const faults = {
   'ability.grbl.hold-input-first': 'the hold input of the board is active: release it, then press Resume',
   'ability.grbl.held': 'the board is on hold: press Resume, here or at the board',
   'grbl.other-machine': 'the machine file does not suit the board: {differences}. `passo machine --from` makes a file from the board',
-  'grbl.outside-travel': 'the travel in the machine file leaves that of the board, whose soft limits are on ($20=1): make a file from the board with `passo machine --from`',
+  'grbl.outside-travel': 'the travel in the machine file lies outside that of the board, whose soft limits are on ($20=1): make a file from the board with `passo machine --from`',
   // Requests that the server refuses
   'http.bad-request': 'the server cannot interpret this request',
   'http.token': 'a token is required',

@@ -59,7 +59,7 @@ export const faults: Same<typeof en> = {
   'ability.grbl.hold-input-first': 'l’entrée de pause de la carte est active\u00a0: relâchez-la, puis reprenez',
   'ability.grbl.held': 'la carte est en pause\u00a0: reprenez, ici ou sur la carte',
   'grbl.other-machine': 'le fichier de machine ne convient pas à la carte\u00a0: {differences}. `passo machine --from` crée un fichier à partir de la carte',
-  'grbl.outside-travel': 'la course du fichier de machine dépasse celle de la carte, dont les limites logicielles sont actives ($20=1)\u00a0: créez un fichier à partir de la carte avec `passo machine --from`',
+  'grbl.outside-travel': 'la course du fichier de machine est en dehors de celle de la carte, dont les limites logicielles sont actives ($20=1)\u00a0: créez un fichier à partir de la carte avec `passo machine --from`',
   // Requests that the server refuses
   'http.bad-request': 'le serveur ne comprend pas cette requête',
   'http.token': 'un jeton est requis',

@@ -59,7 +59,7 @@ export const faults: Same<typeof en> = {
   'ability.grbl.hold-input-first': 'l’ingresso di pausa della scheda è attivo: rilasciarlo, poi riprendere',
   'ability.grbl.held': 'la scheda è in pausa: riprendere, qui o sulla scheda',
   'grbl.other-machine': 'il file della macchina non è adatto alla scheda: {differences}. `passo machine --from` crea un file dalla scheda',
-  'grbl.outside-travel': 'la corsa nel file della macchina supera quella della scheda, i cui limiti software sono attivi ($20=1): creare un file dalla scheda con `passo machine --from`',
+  'grbl.outside-travel': 'la corsa nel file della macchina è fuori da quella della scheda, i cui limiti software sono attivi ($20=1): creare un file dalla scheda con `passo machine --from`',
   // Requests that the server refuses
   'http.bad-request': 'il server non capisce questa richiesta',
   'http.token': 'serve un token',

@@ -59,7 +59,7 @@ export const faults: Same<typeof en> = {
   'ability.grbl.hold-input-first': '控制板的进给保持输入有效：请先松开，再按“继续”',
   'ability.grbl.held': '控制板处于暂停状态：请在此处或控制板上按“继续”',
   'grbl.other-machine': '机床文件与控制板不符：{differences}。`passo machine --from` 可由控制板生成文件',
-  'grbl.outside-travel': '机床文件中的行程超出控制板的行程，而控制板的软限位已启用（$20=1）：请用 `passo machine --from` 由控制板生成文件',
+  'grbl.outside-travel': '机床文件中的行程在控制板的行程之外，而控制板的软限位已启用（$20=1）：请用 `passo machine --from` 由控制板生成文件',
   // Requests that the server refuses
   'http.bad-request': '服务器无法解析此请求',
   'http.token': '需要令牌',

@@ -15,7 +15,8 @@ struct GrblMatch {
   // "grbl.other-machine": what differs, with both values. Empty: nothing, or the board does not tell its settings.
   // A file with a smaller travel or lower speeds than the board suits it.
   std::optional<Sentence> warning = {};
-  // "grbl.outside-travel": a travel that leaves that of the board, whose soft limits are on ($20). No program may run.
+  // "grbl.outside-travel": a travel with no place in common with that of the board, whose soft limits are on ($20). No
+  // program may run.
   std::optional<Sentence> objection = {};
 };
 
