@@ -238,7 +238,8 @@ MachineAbilities BoardMachineSession::abilities() const {
 BoardMachineSession::Answer BoardMachineSession::handle(request::Home& home) {
   if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
   if (home.axis) {
-    const Sentence& why = *abilities().why_not(Ability::home_axis);
+    const MachineAbilities all = abilities();
+    const Sentence& why = *all.why_not(Ability::home_axis);
     return Failure{Refusal{RefusalReason::board_cannot, {{"why", why.text}, {"why.code", why.code}}}};
   }
   if (machine_.homing.empty()) {
