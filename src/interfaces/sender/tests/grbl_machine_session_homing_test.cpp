@@ -32,6 +32,16 @@ TEST(GrblSession, homes_a_single_axis_where_the_board_can) {
   EXPECT_FALSE(run.session.lost_place());
 }
 
+TEST(GrblSession, homes_no_single_axis_on_a_board_that_cannot) {
+  GrblSessionRun run(example_machine("router"));
+  run.grbl.put(22, 1);
+  run.grbl.restart();
+  ASSERT_TRUE(run.go_online());
+  EXPECT_FALSE(run.ask(request::Home{.axis = Axis::x}));
+  EXPECT_EQ(run.refusal->reason, RefusalReason::board_cannot);
+  EXPECT_THAT(run.refusal->message(), HasSubstr("homes all its axes together"));
+}
+
 TEST(GrblSession, homes_and_then_knows_its_place) {
   GrblSessionRun run(example_machine("router"), [](StrictGrbl& grbl) { grbl.put(22, 1); });
   ASSERT_TRUE(run.go_online());

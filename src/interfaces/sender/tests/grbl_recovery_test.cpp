@@ -1,5 +1,4 @@
-// How a GrblMachineSession comes to a known place, and to its sender: homing of single axes, devices that return, a
-// sender that was lent.
+// How a GrblMachineSession comes back to its board: devices that return, a sender that was lent.
 #include "kit/example_machine.hpp"
 #include "kit/grbl_session_run.hpp"
 #include <gmock/gmock.h>
@@ -17,37 +16,6 @@ struct GrblRecoveries : testing::Test {
   explicit GrblRecoveries() : run(example_machine("router")) {}
   GrblSessionRun run;
 };
-
-TEST(GrblRecovery, homes_a_single_axis_where_the_board_can) {
-  const auto switched = [](StrictGrbl& grbl) {
-    grbl.put(22, 1);
-    grbl.options = "VH,15,128";
-  };
-  GrblSessionRun run(example_machine("router"), switched);
-  ASSERT_TRUE(run.go_online());
-  EXPECT_TRUE(run.session.abilities().can(Ability::home_axis));
-  // The place is known when all axes have been homed.
-  for (const Axis axis : {Axis::x, Axis::z, Axis::y}) {
-    EXPECT_TRUE(run.session.lost_place());
-    const auto homed = run.ask_and_wait(request::Home{.axis = axis});
-    ASSERT_TRUE(homed);
-    EXPECT_EQ(homed->outcome, Outcome::done);
-  }
-  EXPECT_FALSE(run.session.lost_place());
-  EXPECT_EQ(run.session.status().position.trust, Trust::homed);
-  EXPECT_THAT(run.port.sent, HasSubstr("$HX\n"));
-  ASSERT_TRUE(run.ask_and_wait(request::Home{.axis = Axis::x}));
-  EXPECT_FALSE(run.session.lost_place());
-}
-
-TEST_F(GrblRecoveries, home_no_single_axis_on_a_board_that_cannot) {
-  run.grbl.put(22, 1);
-  run.grbl.restart();
-  ASSERT_TRUE(run.go_online());
-  EXPECT_FALSE(run.ask(request::Home{.axis = Axis::x}));
-  EXPECT_EQ(run.refusal->reason, RefusalReason::board_cannot);
-  EXPECT_THAT(run.refusal->message(), HasSubstr("homes all its axes together"));
-}
 
 TEST_F(GrblRecoveries, open_a_device_that_was_unplugged_and_returns) {
   run.port.is_usb = true;
