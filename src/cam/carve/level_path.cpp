@@ -29,8 +29,9 @@ std::vector<FlatPlace> without_doubles(const LevelLine& line) {
   return points;
 }
 
-// To the left by `distance`, along the mean of the directions before and after each point.
-std::vector<FlatPlace> moved_left(const std::vector<FlatPlace>& points, bool is_closed, double distance) {
+// To the left by the distance of each point, along the mean of the directions before and after it.
+std::vector<FlatPlace> moved_left(const std::vector<FlatPlace>& points, bool is_closed,
+                                  const std::vector<double>& distances) {
   const std::size_t count = points.size();
   std::vector<FlatPlace> moved;
   for (std::size_t i = 0; i < count; ++i) {
@@ -46,24 +47,46 @@ std::vector<FlatPlace> moved_left(const std::vector<FlatPlace>& points, bool is_
     if (is_closed && i == 0) add(points[count - 2], points[0]);
     if (is_closed && i + 1 == count) add(points[0], points[1]);
     const double size = std::hypot(ahead.x, ahead.y);
-    const double share = size > 0 ? distance / size : 0;
+    const double share = size > 0 ? distances[i] / size : 0;
     moved.push_back({points[i].x - ahead.y * share, points[i].y + ahead.x * share});
   }
   if (is_closed) moved.back() = moved.front();
   return moved;
 }
 
+// How far a fitted path may be from each point. On a wall the map is a staircase whose steps are a cell wide, since a
+// node is as high as the highest place around it: there the path may be off by a step, lest it copy the stairs.
+std::vector<double> distances_of_fit(const std::vector<FlatPlace>& points, const TipSurface& surface, double near) {
+  constexpr double wall = 6;  // rise over run, 80 degrees
+  const double cell = std::hypot(surface.pitch_x(), surface.pitch_y());
+  const double step = std::max(surface.pitch_x(), surface.pitch_y());
+  std::vector<double> distances(points.size(), near);
+  for (std::size_t i = 0; i < points.size() && step > near; ++i) {
+    const FlatPlace& from = points[i > 0 ? i - 1 : 0];
+    const FlatPlace& to = points[i > 0 ? i : 1];
+    const double way = distance_between(from, to);
+    const FlatPlace across{(to.y - from.y) / way * cell, (from.x - to.x) / way * cell};
+    const double rise = surface.at({points[i].x + across.x, points[i].y + across.y}) -
+                        surface.at({points[i].x - across.x, points[i].y - across.y});
+    if (rise > wall * 2 * cell) distances[i] = step;
+  }
+  return distances;
+}
+
 class PathFitter {
  public:
-  PathFitter(std::vector<FlatPlace> points, double height, const TipSurface& surface, const NodeLattice& lattice,
+  // `near`: how far the path may be from each point.
+  PathFitter(std::vector<FlatPlace> points, std::vector<double> near, double height, const TipSurface& surface, const NodeLattice& lattice,
              const LevelPathFit& fit)
       : points_(std::move(points)),
+        near_(std::move(near)),
         height_(height),
         surface_(surface),
         lattice_(lattice),
         has_arcs_(fit.has_arcs),
-        looks_(fit.looks_for_gouges),
-        near_(std::max(fit.tolerance / 2, LevelLines::slack)) {}
+        looks_(fit.looks_for_gouges) {}
+
+  static double near(const LevelPathFit& fit) { return std::max(fit.tolerance / 2, LevelLines::slack); }
 
   std::vector<CarvedCut> fit() {
     const std::size_t last = points_.size() - 1;
@@ -138,7 +161,7 @@ class PathFitter {
     const FlatPlace a = flat(at);
     const FlatPlace b = flat(to);
     for (std::size_t i = first + 1; i < last; ++i) {
-      if (distance_from(points_[i], a, b) > near_) return std::nullopt;
+      if (distance_from(points_[i], a, b) > near_[i]) return std::nullopt;
     }
     if (!is_free(a, b)) return std::nullopt;
     return CarvedCut{.from = at, .to = to};
@@ -174,11 +197,11 @@ class PathFitter {
     FlatPlace before = a;
     for (std::size_t i = first + 1; i <= last; ++i) {
       const FlatPlace& here = points_[i];
-      if (std::abs(distance_between(centre, here) - radius) > near_) return std::nullopt;
+      if (std::abs(distance_between(centre, here) - radius) > near_[i]) return std::nullopt;
       const double cross = (before.x - centre.x) * (here.y - centre.y) - (before.y - centre.y) * (here.x - centre.x);
       const double dot = (before.x - centre.x) * (here.x - centre.x) + (before.y - centre.y) * (here.y - centre.y);
       const double turn = std::atan2(cross, dot);
-      if (turn * turned < 0 || radius * (1 - std::cos(turn / 2)) > near_) return std::nullopt;
+      if (turn * turned < 0 || radius * (1 - std::cos(turn / 2)) > near_[i]) return std::nullopt;
       turned += turn;
       before = here;
     }
@@ -224,12 +247,12 @@ class PathFitter {
   }
 
   std::vector<FlatPlace> points_;
+  std::vector<double> near_;
   double height_;
   const TipSurface& surface_;
   const NodeLattice& lattice_;
   bool has_arcs_;
   bool looks_;
-  double near_;
 };
 
 }  // namespace
@@ -244,14 +267,18 @@ LevelPath fit_level_path(const LevelLine& line, double height, const TipSurface&
                          const LevelPathFit& fit) {
   std::vector<FlatPlace> points = without_doubles(line);
   if (points.size() < 2) return {};
+  std::vector<double> near(points.size(), PathFitter::near(fit));
   if (fit.is_on_edge && fit.tolerance > 0) {
+    near = distances_of_fit(points, surface, fit.tolerance / 2);
     // In a pit that is narrower than the tolerance, a point would come out on the other side.
-    const std::vector<FlatPlace> moved = moved_left(points, line.is_closed, fit.tolerance / 2);
+    std::vector<double> aside = near;
+    for (double& distance : aside) distance = std::max(distance / 2, fit.tolerance / 2);
+    const std::vector<FlatPlace> moved = moved_left(points, line.is_closed, aside);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!fit.looks_for_gouges || surface.at(moved[i]) <= height + LevelLines::slack) points[i] = moved[i];
     }
   }
-  PathFitter fitter(std::move(points), height, surface, lattice, fit);
+  PathFitter fitter(std::move(points), std::move(near), height, surface, lattice, fit);
   return {.cuts = fitter.fit(), .is_closed = line.is_closed};
 }
 
@@ -307,7 +334,9 @@ LevelPath fit_following_path(const LevelLine& line, double least, const TipSurfa
   LevelPathFit flat = fit;
   flat.has_arcs = false;
   flat.looks_for_gouges = false;
-  const std::vector<CarvedCut> lines = PathFitter(std::move(points), least, surface, lattice, flat).fit();
+  std::vector<double> near(points.size(), PathFitter::near(fit));
+  const std::vector<CarvedCut> lines =
+      PathFitter(std::move(points), std::move(near), least, surface, lattice, flat).fit();
   if (lines.empty()) return {};
   const WayProfile profile(lines, least, surface, lattice, line.is_closed, fit.places_of_cell);
   LevelPath path{.cuts = {}, .is_closed = line.is_closed};

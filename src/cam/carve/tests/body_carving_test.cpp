@@ -147,6 +147,38 @@ TEST(BodyCarving, contours_never_cut_into_the_sides_of_narrow_pits) {
   EXPECT_LE(depth.deepest, most_depth) << depth.where;
 }
 
+// On a wall that is not along X or Y the grid is a staircase. The path is straight all the same, and near the wall.
+TEST(BodyCarving, contours_do_not_copy_the_stairs_of_a_wall) {
+  constexpr double pitch = 0.03;
+  const Faces body = turned(box(0, 0, -4, 12, 12, 0), 27, 6, 6);
+  ReliefProgramOptions options = options_of("flat:3");
+  options.finish.step_over = Mm(1);
+  options.way = FinishStrategy::contours;
+  options.ramps = false;
+  options.beside = BesideGrid::nothing;
+  Diagnostics diagnostics;
+  const HeightGrid grid = relief_of({.faces = body}, {.pitch = Mm(pitch)}, "it", diagnostics);
+  const std::string program = written(grid, options).text;
+  const Faces where = placed(body);
+  const Depth depth = depth_of(ContactOracle(where), program, {oracle_of("flat:3")});
+  EXPECT_LE(depth.deepest, most_depth) << depth.where;
+  const double middle = 6 * (std::cos(27 * M_PI / 180) + std::sin(27 * M_PI / 180));
+  std::size_t moves = 0;
+  double farthest = 0;
+  for (const ReadMove& move : moves_of(program)) {
+    if (move.is_rapid || move.is_arc || move.to[2] != move.from[2] || move.to[2] > -0.5) continue;
+    ++moves;
+    const double x = move.to[0] - middle;
+    const double y = move.to[1] - middle;
+    const double along = std::abs(x * std::cos(27 * M_PI / 180) + y * std::sin(27 * M_PI / 180));
+    const double across = std::abs(y * std::cos(27 * M_PI / 180) - x * std::sin(27 * M_PI / 180));
+    farthest = std::max(farthest, std::hypot(std::max(along - 6, 0.0), std::max(across - 6, 0.0)) - 1.5);
+  }
+  EXPECT_GT(moves, 16U);
+  EXPECT_LT(moves, 400U);  // a line for each cell would be 1,600 a level
+  EXPECT_LT(farthest, 3 * pitch);
+}
+
 TEST(BodyCarving, with_three_cutters_never_cuts_into_a_body) {
   std::mt19937_64 random(seed());
   const std::vector<OracleCutter> tools = {oracle_of("flat:2.3"), oracle_of("ball:3"), oracle_of("taper:1:10:3")};
