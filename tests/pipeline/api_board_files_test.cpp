@@ -100,9 +100,7 @@ TEST_F(ApiBoardFiles, are_listed_sent_and_deleted_by_the_client_in_control) {
 }
 
 TEST_F(ApiBoardFiles, tell_the_progress_and_the_time_left_of_an_upload) {
-  // As a line at 115,200 baud carries them.
-  run.grbl.bytes_per_second = 11520;
-  ask("PUT", "/board/files/big.nc", std::string(400'000, ' '));
+  ask("PUT", "/board/files/big.nc", std::string(300'000, ' '));
   double share = 0;
   bool was_left_told = false;
   ASSERT_TRUE(turn_until([&] {
