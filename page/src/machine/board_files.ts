@@ -3,7 +3,6 @@
 import { computed, signal } from '@preact/signals';
 import type { Sentence } from '../core/faults';
 import { attempt } from '../core/notices';
-import { whyUnable } from './abilities';
 import { ask, get, post } from './api';
 import { machine } from './connection';
 import { beOwner } from './owner';
@@ -34,7 +33,7 @@ const lookEvery = 200; // ms
 const longestUpload = 600_000; // ms, until the server has the file
 
 export const toldFiles = signal<BoardFilesTold | null>(null);
-export const hasStorage = computed(() => machine.value !== null && whyUnable('board-files') === '');
+export const hasStorage = computed(() => machine.value?.abilities.some((one) => one.ability === 'board-files' && one.can) ?? false);
 export const worksAtFiles = computed(() => toldFiles.value?.state === 'running');
 
 let following = false;
