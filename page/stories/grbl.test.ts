@@ -317,7 +317,8 @@ describe.skipIf(!existsSync(strictGrbl))('a board with a card', () => {
     await look(page, 'card-ask');
     await agree(page, 'Run');
     await daemon.until((status) => status.state === 'Run' && status.board_file === '/part.nc' && (status.place.x ?? 0) > 2);
-    await page.getByRole('heading', { name: 'The board runs /part.nc by itself' }).waitFor();
+    await page.getByRole('heading', { name: '/part.nc' }).waitFor();
+    expect(await page.locator('.state').innerText()).toContain('The board runs /part.nc by itself');
     await look(page, 'card-run');
     expect(await violations(page)).toEqual([]);
     await click(page, 'Hold');

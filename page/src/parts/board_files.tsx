@@ -141,7 +141,7 @@ export function BoardFileProgress({ path }: { path: string }) {
   return (
     <section class="panel job" aria-label={path}>
       <div class="position-head">
-        <h2 class="job-name">{say('board.files.runs', { path })}</h2>
+        <h2 class="job-name">{path}</h2>
       </div>
       <ProgressBar share={share} name={say('board.files.read')} />
       <div class="job-figures">
