@@ -1,12 +1,13 @@
-// A Grbl machine worked from the page alone, on firmware of other people: Grbl 1.1h on an emulated Uno, and grblHAL's
-// simulator. The simulators share the computer, so places are judged, never times.
+// A Grbl machine worked from the page alone: on firmware of other people, Grbl 1.1h on an emulated Uno and grblHAL's
+// simulator, and on the strict grbl of the tests, which is always there. The simulators share the computer, so places are
+// judged, never times.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { Daemon, example, openBrowser, passo, peers, Peer, sleep, violations, visit } from './kit';
+import { Daemon, example, openBrowser, passo, peers, Peer, sleep, strictGrbl, violations, visit } from './kit';
 
 let browser: Browser;
 let folder: string;
@@ -69,12 +70,30 @@ async function bench(board: Peer, address: string, settings: readonly string[], 
   ends.push(() => context.close());
   return { board, daemon, page, errors };
 }
-async function uno(options: readonly string[] = [], settings: readonly string[] = []): Promise<Bench> {
+// What a story needs of a machine beside its board.
+interface Wanted {
+  switches?: boolean; // of homing
+  probe?: boolean; // something that the probe touches, 5 mm below machine zero
+  card?: 'grblhal' | 'fluidnc';
+}
+async function uno({ switches, probe }: Wanted = {}, settings: readonly string[] = []): Promise<Bench> {
+  const options: string[] = [];
+  if (switches === true) for (const at of ['X:500', 'Y:500', 'Z:250']) options.push('--switch-at', at);
+  if (probe === true) options.push('--probe-at', 'Z:-1250'); // steps
   const own = mkdtempSync(join(folder, 'uno-'));
   const program = join(folder, 'grbl_on_uno');
   if (!existsSync(program)) execFileSync(join(peers, 'build.sh'), [program]);
   const line = join(own, 'line');
   const board = await Peer.start([program, join(peers, 'grbl-1.1h-uno.elf'), line, ...options], own, () => existsSync(line));
+  return bench(board, `grbl:${line}`, settings);
+}
+async function strict({ probe, card }: Wanted = {}, settings: readonly string[] = []): Promise<Bench> {
+  const options: string[] = [];
+  if (probe === true) options.push('--probe-at', 'Z:-5');
+  if (card !== undefined) options.push('--card', card);
+  const own = mkdtempSync(join(folder, 'strict-'));
+  const line = join(own, 'line');
+  const board = await Peer.start([strictGrbl, line, ...options], own, () => existsSync(line));
   return bench(board, `grbl:${line}`, settings);
 }
 let ports = 0;
@@ -192,16 +211,21 @@ async function resetByPage({ daemon, page }: Bench): Promise<void> {
   expect(await whyDisabled(page, 'Start')).toContain('The machine position is unknown. Home the machine');
 }
 
-describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
-  it('with Grbl 1.1h on an Uno is jogged, zeroed, run, held, overridden and stopped', async () => {
-    const all = await uno();
+type Maker = (wanted?: Wanted, settings?: readonly string[]) => Promise<Bench>;
+const boards: [string, string, boolean, Maker][] = [
+  ['Grbl 1.1h on an Uno', 'uno', existsSync(peers), uno],
+  ['the strict grbl', 'strict', existsSync(strictGrbl), strict],
+];
+for (const [name, short, isThere, made] of boards) describe.skipIf(!isThere)('a Grbl board', () => {
+  it(`with ${name} is jogged, zeroed, run, held, overridden and stopped`, async () => {
+    const all = await made();
     const { daemon, page, errors } = all;
     expect(await whyDisabled(page, 'Home')).toContain('$22=0');
-    await look(page, 'uno-start');
+    await look(page, `${short}-start`);
     expect(await violations(page)).toEqual([]);
-    await jogByKey(all, 'uno');
+    await jogByKey(all, `${short}`);
     await zeroHere(all);
-    await runHoldOverrideStop(all, 'uno');
+    await runHoldOverrideStop(all, `${short}`);
     // The console does not make up the settings of a board.
     expect(errors).toEqual([]);
     await page.goto(`${daemon.address}#/console`);
@@ -210,10 +234,10 @@ describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
     await page.getByText('the board has its own settings').first().waitFor();
   });
 
-  it('with Grbl 1.1h on an Uno is unlocked after a limit switch amid a program', async () => {
-    const all = await uno([], ['21=1']);
+  it(`with ${name} is unlocked after a limit switch amid a program`, async () => {
+    const all = await made({}, ['21=1']);
     const { board, daemon, page, errors } = all;
-    await jogByKey(all, 'uno-first');
+    await jogByKey(all, `${short}-first`);
     await open(all, 'long.ngc', 'G21 G90\nG1 X60 F600\nM2\n');
     const from = await xOf(daemon);
     await start(all);
@@ -221,41 +245,40 @@ describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
     board.say('limit X 1');
     await page.getByText('Alarm', { exact: true }).waitFor();
     expect(await page.locator('.state').innerText()).toContain('a limit switch closed');
-    await look(page, 'uno-alarm');
+    await look(page, `${short}-alarm`);
     expect(await violations(page)).toEqual([]);
     board.say('limit X 0');
     await click(page, 'Reset');
     await daemon.until((status) => status.state === 'Idle');
-    await look(page, 'uno-reset');
+    await look(page, `${short}-reset`);
     await confirmPlace(all);
-    await look(page, 'uno-unlocked');
-    await jogByKey(all, 'uno-again');
+    await look(page, `${short}-unlocked`);
+    await jogByKey(all, `${short}-again`);
     expect(errors).toEqual([]);
   });
 
-  it('with Grbl 1.1h on an Uno homes, probes, and goes on after an unplugged line and a power cut', async () => {
-    const switches = ['--switch-at', 'X:500', '--switch-at', 'Y:500', '--switch-at', 'Z:250'];
-    const all = await uno([...switches, '--probe-at', 'Z:-1250'], ['22=1', '24=100', '25=500']);
+  it(`with ${name} homes, probes, and goes on after an unplugged line and a power cut`, async () => {
+    const all = await made({ switches: true, probe: true }, ['22=1', '24=100', '25=500']);
     const { daemon, page, errors } = all;
-    await look(page, 'uno-unhomed');
+    await look(page, `${short}-unhomed`);
     await homeByPage(all);
-    await look(page, 'uno-homed');
+    await look(page, `${short}-homed`);
     // The surface is found, and is Z0.
     await click(page, 'Probe …');
     await agree(page, 'Probe');
     await expect.poll(async () => (await daemon.status()).work_offset?.z).toBeLessThan(-1);
     await daemon.until((status) => status.state === 'Idle');
-    await look(page, 'uno-probed');
+    await look(page, `${short}-probed`);
     await open(all, 'far.ngc', 'G21 G90\nG1 X-30 F600\nM2\n');
     await breakOff(all, 'unplug 4', 'grbl.no-answer');
-    await look(page, 'uno-unplugged');
+    await look(page, `${short}-unplugged`);
     expect(await violations(page)).toEqual([]);
     await sleep(4000);
     await resetByPage(all);
     await homeByPage(all);
     await page.goto(`${daemon.address}#/run`);
     await breakOff(all, 'power', 'grbl.restarted');
-    await look(page, 'uno-power');
+    await look(page, `${short}-power`);
     await resetByPage(all);
     await homeByPage(all);
     // At the line at which it was.
@@ -263,14 +286,57 @@ describe.skipIf(!existsSync(peers))('a real Grbl board', () => {
     await page.locator('.text-line', { hasText: 'G1 X-30' }).click();
     await page.locator('.picked-line:visible').getByRole('button', { name: /Start at line 2/ }).click();
     await page.getByRole('dialog').locator('li').first().waitFor();
-    await look(page, 'uno-restart');
+    await look(page, `${short}-restart`);
     await agree(page, 'Start');
     const ended = await daemon.until((status) => status.job?.state === 'done' && status.state === 'Idle');
     expect(ended.place.x).toBeCloseTo(-30, 2);
     expect(errors).toEqual([]);
   });
+});
 
-  it('with grblHAL is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
+describe.skipIf(!existsSync(strictGrbl))('a board with a card', () => {
+  it('lists its files, takes one, and runs it by itself', async () => {
+    const all = await strict({ card: 'grblhal' });
+    const { daemon, page, errors } = all;
+    await page.goto(`${daemon.address}#/files`);
+    const files = page.getByRole('region', { name: 'Files on the board' });
+    await files.getByRole('button', { name: 'List', exact: true }).click();
+    await files.locator('[data-file="/old.nc"]').waitFor();
+    await page.setInputFiles('input[aria-label="Send a file"]', { name: 'part.nc', mimeType: 'text/plain', buffer: Buffer.from('G21 G90\nG1 X60 F600\nG1 X0\nM2\n') });
+    const mine = files.locator('[data-file="/part.nc"]');
+    await mine.getByText('Text known').waitFor();
+    await look(page, 'card-files');
+    expect(await violations(page)).toEqual([]);
+    // Of the other file nothing is known: the question says so.
+    await files.locator('[data-file="/old.nc"]').getByRole('button', { name: 'Run …' }).click();
+    await page.getByRole('dialog').getByText('Passo has NOT checked this file').waitFor();
+    await look(page, 'card-unchecked');
+    await agree(page, 'Cancel');
+    await mine.getByRole('button', { name: 'Run …' }).click();
+    await page.getByRole('dialog').getByText('Passo checks the file first').waitFor();
+    await look(page, 'card-ask');
+    await agree(page, 'Run');
+    await daemon.until((status) => status.state === 'Run' && status.board_file === '/part.nc' && (status.place.x ?? 0) > 2);
+    await page.getByRole('heading', { name: '/part.nc' }).waitFor();
+    expect(await page.locator('.state').innerText()).toContain('The board runs /part.nc by itself');
+    await look(page, 'card-run');
+    expect(await violations(page)).toEqual([]);
+    await click(page, 'Hold');
+    const held = await daemon.until((status) => status.state === 'Hold' && status.rests);
+    await sleep(400);
+    expect(await xOf(daemon)).toBe(held.place.x);
+    await click(page, 'Resume');
+    await daemon.until((status) => status.state === 'Run' && (status.place.x ?? 0) > (held.place.x ?? 0) + 1);
+    await click(page, 'Stop');
+    const stopped = await daemon.until((status) => status.job?.state === 'stopped' && status.state === 'Idle');
+    expect(stopped.lost_place).toBe(false);
+    expect(stopped.board_file).toBe(null);
+    expect(errors).toEqual([]);
+  });
+});
+
+describe.skipIf(!existsSync(peers))('a real grblHAL board', () => {
+  it('is jogged, zeroed, run, held, overridden and stopped, and its alarm is unlocked', async () => {
     const all = await grblHal(['22=1']);
     const { daemon, page, errors } = all;
     await look(page, 'hal-start');

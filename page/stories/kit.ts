@@ -70,6 +70,8 @@ export class Board {
   end = (): Promise<void> => kill(this.process, 'SIGTERM');
 }
 
+// A strict grbl of the tests, as a program of its own.
+export const strictGrbl = process.env.PASSO_STRICT_GRBL ?? join(root, 'build/release/tests/strict_grbl_on_line');
 export const peers = join(root, '../shared/peers/grbl');
 
 // What another program says on its first line, and the program; it is killed when the story ends.

@@ -13,7 +13,7 @@ afterEach(() => {
 const valuesOf = (words: string): string[] => (words.match(/\{\w+\}/g) ?? []).sort();
 
 // Codes whose words say more than the page could: what exactly is wrong with a body, or with a value that was set.
-const ownWords = ['http.bad-body', 'http.wrong-type', 'machine-file.cannot-set', 'make.cannot-edit', 'reentry.shifted', 'surface.height-map'];
+const ownWords = ['http.bad-body', 'http.wrong-type', 'board-files.cannot-send', 'machine-file.cannot-set', 'make.cannot-edit', 'reentry.shifted', 'surface.height-map'];
 // Of a run on a terminal alone; of faults of the board, which are sent by the code of the link.
 const isElsewhere = (code: string): boolean => code === 'run.waits' || code.startsWith('board.');
 
@@ -21,7 +21,7 @@ describe('the words of a code', () => {
   const tables = ['board/link/link.cpp', 'machine/session/refusal.cpp', 'machine/activity/machine_fault.cpp', 'machine/journal/resumption.cpp', 'machine/journal/reentry.cpp', 'machine/job/job_identity.cpp', 'machine/job/kept_job.cpp'];
   const api = sources('interfaces/api');
   const texts = new Set(textsOf([...sources('board/link'), ...sources('machine'), ...sources('interfaces/sender'), ...api]));
-  const code = /^(?:http|owner|mdi|jobs?|framing|goto|macro|waits|programs|uploads|data|make|ports|settings|study|machine|machine-file|run|link|home|probe|program|resume|reentry|way)\.[a-z]+[a-z-]*(?:\.[a-z-]+)*$/;
+  const code = /^(?:http|owner|mdi|jobs?|framing|goto|macro|waits|programs|uploads|data|make|ports|settings|board-files|study|machine|machine-file|run|link|home|probe|program|resume|reentry|way)\.[a-z]+[a-z-]*(?:\.[a-z-]+)*$/;
 
   it('are there for each code of the tables and of the API', () => {
     const sent = textsOf([...tables.map(source), ...api]).filter((text) => code.test(text) && !isElsewhere(text) && !ownWords.includes(text));

@@ -5,6 +5,8 @@
 #include "kit/board_on_port.hpp"
 #include "kit/board_with_files.hpp"
 #include "kit/command_line.hpp"
+#include "kit/served_http.hpp"
+#include "kit/strict_card_board.hpp"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -57,10 +59,16 @@ TEST_F(BoardFiles, are_sent_listed_and_run) {
     outcome = files(*board, "--run " + at);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr(at + ": "));
-    EXPECT_THAT(outcome.out, HasSubstr("stopped at X0.000"));
+    EXPECT_THAT(outcome.out, HasSubstr("stopped at X10.000"));
     outcome = files(*board, "--run " + at + "x");
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.err, HasSubstr("the board rejects"));
+    outcome = files(*board, "--delete " + at + "x");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("no such file"));
+    outcome = files(*board, "--delete " + at);
+    EXPECT_EQ(outcome.out, at + " deleted\n");
+    EXPECT_EQ(files(*board, "").out, "no files\n");
   }
 }
 
@@ -93,6 +101,34 @@ TEST_F(BoardFiles, of_fluidnc_include_its_yaml) {
   EXPECT_THAT(outcome.err, HasSubstr("[settings.bad-yaml]"));
   const CardBoard grbl{BoardWithFiles(test::grbl_mega(), false)};
   EXPECT_THAT(passo("board settings " + grbl.address() + " --config").err, HasSubstr("[board.no-yaml]"));
+}
+
+class ServedBoardFiles : public passo::test::ServedHttp {};
+
+// Over the real server: all that is between a client and the board.
+TEST_F(ServedBoardFiles, are_sent_and_run) {
+  auto card = test::strict_grblhal_with_card();
+  for (const int axis : {0, 1, 2}) {
+    card.inner().put(110 + axis, 6000);
+    card.inner().put(120 + axis, 500);
+    card.inner().put(130 + axis, 400);
+  }
+  const passo::test::BoardOnPort<test::StrictCardBoard> board(std::move(card));
+  ASSERT_TRUE(board.listens());
+  serve({"-m", PASSO_SOURCE_DIR "/examples/machines/router.toml", "--board", board.address()});
+  const std::string key = new_key();
+  json("PUT", "/board/files/part.nc", "G21 G90\nG1 X30 F3000\nG1 X0\nM2\n", key);
+  ASSERT_TRUE(until([&] { return this->json("GET", "/board/files")["state"] == "done"; }));
+  const auto files = json("GET", "/board/files")["files"];
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0]["path"], "/part.nc");
+  EXPECT_TRUE(files[0]["program"].is_number());
+  json("POST", "/board/run", R"({"path": "/part.nc"})", key);
+  ASSERT_TRUE(until([&] { return this->json("GET", "/status")["board_file"] == "/part.nc"; }));
+  ASSERT_TRUE(until([&] { return this->json("GET", "/status")["job"]["state"] == "done"; }))
+      << json("GET", "/status")["job"];
+  json("DELETE", "/board/files/part.nc", "", key);
+  ASSERT_TRUE(until([&] { return this->json("GET", "/board/files")["files"].empty(); }));
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ class FileReceiver {
   std::string command;                                    // the line that began the upload
 
   std::string take_output() { return std::exchange(output_, {}); }
+  bool is_receiving() const { return receives_; }
   void receive(const std::string& bytes) {
     for (const char byte : bytes) take(byte);
   }

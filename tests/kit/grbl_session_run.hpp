@@ -14,10 +14,11 @@
 
 namespace passo::test {
 
-// The line to a StrictGrbl, whose time passes while somebody waits.
-class StrictGrblPort final : public GrblPort {
+// The line to a StrictGrbl, or to a board on one, whose time passes while somebody waits.
+template <class Board>
+class VirtualGrblPort final : public GrblPort {
  public:
-  explicit StrictGrblPort(StrictGrbl& grbl) : grbl_(grbl) {}
+  explicit VirtualGrblPort(Board& grbl) : grbl_(grbl) {}
 
   bool unplugged = false;
   bool is_usb = false;  // it is seen when it is plugged in again
@@ -44,7 +45,7 @@ class StrictGrblPort final : public GrblPort {
   }
 
  private:
-  StrictGrbl& grbl_;
+  Board& grbl_;
   Seconds now_{0};
   bool broken_ = false;
 };
@@ -60,25 +61,36 @@ inline MachineDescription strict_router(MachineDescription machine) {
   return machine;
 }
 
-class GrblSessionRun {
+inline StrictGrbl& strict_in(StrictGrbl& board) {
+  return board;
+}
+// Of a board whose inner machine it is.
+template <class Board>
+StrictGrbl& strict_in(Board& board) {
+  return board.inner();
+}
+
+template <class Board>
+class GrblSessionRunOn {
  public:
   // `set_up`: what the machine is, before it is switched on.
-  explicit GrblSessionRun(MachineDescription machine, const std::function<void(StrictGrbl&)>& set_up = {})
-      : description(strict_router(std::move(machine))) {
+  explicit GrblSessionRunOn(MachineDescription machine, const std::function<void(StrictGrbl&)>& set_up = {},
+                            Board its_board = Board())
+      : board(std::move(its_board)), description(strict_router(std::move(machine))) {
     for (int axis = 0; axis < 3; ++axis) {
       grbl.put(110 + axis, 3000);
       grbl.put(120 + axis, 500);
       grbl.put(130 + axis, 200);
     }
     if (set_up) set_up(grbl);
-    grbl.restart();
+    board.restart();
   }
-  ~GrblSessionRun() {
+  ~GrblSessionRunOn() {
     collect();
     if (!session.busy()) EXPECT_TRUE(unanswered.empty()) << unanswered.size() << " requests have no answer";
   }
-  GrblSessionRun(const GrblSessionRun&) = delete;
-  GrblSessionRun& operator=(const GrblSessionRun&) = delete;
+  GrblSessionRunOn(const GrblSessionRunOn&) = delete;
+  GrblSessionRunOn& operator=(const GrblSessionRunOn&) = delete;
 
   // Polls until is_so() returns true. Returns false after `most`.
   bool play(const std::function<bool()>& is_so, Seconds most = Seconds(120)) {
@@ -131,8 +143,9 @@ class GrblSessionRun {
         std::ranges::count_if(changes, [&](const MachineChange& one) { return one.kind == kind; }));
   }
 
-  StrictGrbl grbl;
-  StrictGrblPort port{grbl};
+  Board board;
+  StrictGrbl& grbl = strict_in(board);
+  VirtualGrblPort<Board> port{board};
   MachineDescription description;
   GrblMachineSession session{description, port};
   std::vector<MachineChange> changes;
@@ -160,6 +173,8 @@ class GrblSessionRun {
 
   MachineState last_ = MachineState::offline;
 };
+
+using GrblSessionRun = GrblSessionRunOn<StrictGrbl>;
 
 inline request::Start grbl_start(const std::string& text) {
   request::Start start{.program = ProgramReader::from_text("part.ngc", text), .options = {}};

@@ -102,6 +102,13 @@ class StrictGrbl {
     asks_door_ = asks_door_ || open;
     if (!open && state == "Door:1") state = "Door:0";
   }
+  // With hard limits ($21) a switch that closes stops the machine at once.
+  void set_limit(char axis, bool closed) {
+    std::erase(closed_limits_, axis);
+    if (!closed) return;
+    closed_limits_ += axis;
+    if (values_[21] != 0 && !is("Alarm") && !is("Home")) halt(1);
+  }
   void say(const std::string& line) { add_reply(line + "\r\n"); }
   // Goes on after a state that a test has set.
   void resume() {
@@ -451,6 +458,7 @@ class StrictGrbl {
   std::vector<unsigned char> asked_overrides_;
   bool cancels_jog_ = false;
   bool waits_for_start_ = false;
+  std::string closed_limits_;
   bool door_is_open_ = false;
   bool door_after_jog_ = false;
   bool probes_ = false;

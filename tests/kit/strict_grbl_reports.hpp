@@ -31,7 +31,11 @@ inline void StrictGrbl::report() {
   const double speed = spindle_ == 5 ? 0 : spindle_speed_ * spindle_override_ / 100;
   text += "|FS:" + rate(motion_.speed() * 60) + fmt::format(",{:.0f}", speed);
   const bool touches = probe && probe(machine);
-  const std::string pins = std::string(touches ? "P" : "") + (door_is_open_ ? "D" : "") + (held_input ? "H" : "");
+  std::string pins = touches ? "P" : "";
+  for (const char axis : axes) {
+    if (closed_limits_.find(axis) != std::string::npos) pins += axis;
+  }
+  pins += std::string(door_is_open_ ? "D" : "") + (held_input ? "H" : "");
   if (!pins.empty()) text += "|Pn:" + pins;
   const bool busy = state != "Idle" && state != "Alarm" && state != "Check" && state != "Sleep";
   if (offset_count_ > 0) {

@@ -46,6 +46,7 @@ export interface Status {
   work_rotation?: number; // degrees about Z
   speed: number;
   line: number;
+  board_file?: string | null; // the board runs this file of its own: its lines are not known
   progress: number | null;
   left: number | null; // s, of the job
   outputs: { spindle: 'off' | 'clockwise' | 'counterclockwise'; spindle_speed: number; mist: boolean; flood: boolean };
@@ -85,7 +86,7 @@ export type PinName =
   | 'probe' | 'door' | 'emergency_stop' | 'hold' | 'start' | 'driver_enable' | 'step' | 'spindle' | 'spindle_reverse' | 'mist' | 'flood';
 export type Ability =
   | 'exact-resume' | 'step-counts' | 'pulses' | 'adaptive-feed' | 'any-override' | 'single-block' | 'door-hold' | 'probe-state'
-  | 'jog' | 'home' | 'home-axis' | 'probe' | 'sleep' | 'set-position' | 'thread';
+  | 'jog' | 'home' | 'home-axis' | 'probe' | 'sleep' | 'set-position' | 'thread' | 'board-files';
 export interface MachineAbility {
   ability: Ability;
   can: boolean;

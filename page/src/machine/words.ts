@@ -60,6 +60,7 @@ function nextOf({ status, program, canHome, broken }: Facts): string {
     if (canHome && status.trust !== 'homed' && program === 'none') return say('state.Idle.home');
     return say(program === 'none' ? 'state.Idle.open' : program === 'bad' ? 'state.Idle.bad' : 'state.Idle.next');
   }
+  if (state === 'Run' && (status.board_file ?? null) !== null) return say('board.files.runs', { path: status.board_file ?? '' });
   if (state === 'Run') return say('state.Run.next', { line: status.line });
   if (state === 'Line' && status.mdi.streams) return say('state.Line.console');
   if (state === 'Hold' && status.rests && status.holds.includes('line-end')) return say('state.Hold.line');

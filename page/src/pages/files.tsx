@@ -21,6 +21,7 @@ import { loadsOfShown } from '../machine/studies';
 import { lookOf, overallVerdict, type OverallLook } from '../machine/verdict';
 import { wordsOfWait } from '../machine/waits';
 import { isUnderWay } from '../machine/words';
+import { BoardFiles } from '../parts/board_files';
 import { Button } from '../parts/button';
 import { DropZone } from '../parts/drop_zone';
 import { Icon, type IconName } from '../parts/icon';
@@ -269,6 +270,7 @@ export function FilesPage() {
             ))}
           </ul>
         </section>
+        <BoardFiles />
         {keeps.value === false && <p class="dim past">{say('files.history.off')}</p>}
         {keeps.value === true && (
           <>

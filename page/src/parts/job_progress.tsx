@@ -9,6 +9,7 @@ import { shown, timeOf } from '../machine/programs';
 import { loadsOfShown } from '../machine/studies';
 import { lookOf, overallVerdict } from '../machine/verdict';
 import { isUnderWay } from '../machine/words';
+import { BoardFileProgress } from './board_files';
 import { Button } from './button';
 import { ProgressBar } from './progress_bar';
 
@@ -23,6 +24,8 @@ const run = computed(() => {
 
 export function JobProgress() {
   const program = shown.value;
+  const boardFile = status.value?.board_file ?? null;
+  if (boardFile !== null) return <BoardFileProgress path={boardFile} />;
   if (program === null) {
     return (
       <section class="panel job">

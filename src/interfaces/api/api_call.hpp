@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 struct ApiCall {
   const WebRequest& request;
   std::uint64_t id = 0;                  // the number in the path
+  std::string rest = {};                 // the last part of the path, where the route has any; not decoded
   Json body = Json::value_t::discarded;  // the body if it is a JSON object; otherwise discarded
 
   // Returns the members of the body; an empty object if there is no body.

@@ -1,7 +1,9 @@
 #include "passo/api/api_routes.hpp"
 
 #include <charconv>
+#include <utility>
 
+#include "board_files_api.hpp"
 #include "cam_api.hpp"
 #include "jobs_api.hpp"
 #include "machine_api.hpp"
@@ -36,6 +38,12 @@ constexpr ApiRoute routes[] = {
     {"GET", "/pulses", "getPulses", anybody, none, &MachineApi::pulses},
     {"GET", "/status", "getStatus", anybody, none, &MachineApi::status},
     {"GET", "/stream", "openStream", anybody, none, &MachineApi::stream},
+
+    {"GET", "/board/files", "getBoardFiles", anybody, none, &BoardFilesApi::get},
+    {"POST", "/board/files", "listBoardFiles", owner, none, &BoardFilesApi::list},
+    {"PUT", "/board/files/{path}", "sendBoardFile", owner, program, &BoardFilesApi::send},
+    {"DELETE", "/board/files/{path}", "deleteBoardFile", owner, none, &BoardFilesApi::remove},
+    {"POST", "/board/run", "runBoardFile", owner, json, &BoardFilesApi::run},
 
     {"GET", "/board/settings", "getBoardSettings", anybody, none, &SettingsApi::get, Needs::settings},
     {"POST", "/board/settings", "useBoardSettings", owner, json, &SettingsApi::begin},
@@ -129,8 +137,15 @@ constexpr ApiRoute routes[] = {
     {"POST", "/work", "setWorkZero", owner, json, &MachineApi::set_work_zero},
 };
 constexpr std::string_view id_place = "{id}";
+constexpr std::string_view rest_place = "{path}";
 
-bool matches(std::string_view pattern, std::string_view path, std::uint64_t& id) {
+bool matches(std::string_view pattern, std::string_view path, std::uint64_t& id, std::string& rest) {
+  if (pattern.ends_with(rest_place)) {
+    const std::string_view head = pattern.substr(0, pattern.size() - rest_place.size());
+    if (!path.starts_with(head) || path.size() == head.size()) return false;
+    rest = path.substr(head.size());
+    return true;
+  }
   const std::size_t at = pattern.find(id_place);
   if (at == std::string_view::npos) return pattern == path;
   if (!path.starts_with(pattern.substr(0, at))) return false;
@@ -152,8 +167,8 @@ FoundRoute find_route(std::string_view method, std::string_view path) {
   if (!path.starts_with(api_root)) return found;
   path.remove_prefix(api_root.size());
   for (const ApiRoute& one : routes) {
-    if (!matches(one.path, path, found.id)) continue;
-    if (one.method == method) return {.route = &one, .id = found.id};
+    if (!matches(one.path, path, found.id, found.rest)) continue;
+    if (one.method == method) return {.route = &one, .id = found.id, .rest = std::move(found.rest)};
     found.allowed += found.allowed.empty() ? "" : ", ";
     found.allowed += one.method;
   }

@@ -125,25 +125,41 @@ WebAnswer JobRunner::begin(const StoredProgram& program, const Wanted& wanted) {
     return error_answer(409, why.code, why);
   }
   // A job that cannot be noted does not begin.
-  JobHistory* const history = shared_.options.history;
   std::int64_t number = wanted.history;
   if (number != 0) {
-    if (!history->begin(number, shared_.wall_time())) return no_room_in_history();
-  } else if (history != nullptr) {
-    number =
-        history->add_running(program.name, dialect_name(program.dialect), program.text_to_keep(), shared_.wall_time())
-            .value_or(0);
-    if (number == 0) return no_room_in_history();
+    if (!shared_.options.history->begin(number, shared_.wall_time())) return no_room_in_history();
+  } else {
+    const std::string& name = wanted.board_file.empty() ? program.name : wanted.board_file;
+    const auto noted = note_job(name, program.dialect, program.text_to_keep());
+    if (!noted) return no_room_in_history();
+    number = *noted;
   }
-  begins_ = {.from = wanted.from, .map_for = wanted.map_for};
+  begins_ = {.from = wanted.from, .map_for = wanted.map_for, .board_file = wanted.board_file};
   return begin_check(program, number, shared_.session.status().position.place);
+}
+
+std::optional<std::int64_t> JobRunner::note_job(const std::string& name, Dialect dialect, const std::string& text) {
+  JobHistory* const history = shared_.options.history;
+  if (history == nullptr) return 0;
+  return history->add_running(name, dialect_name(dialect), text, shared_.wall_time());
+}
+
+WebAnswer JobRunner::begin_unchecked(const std::string& board_file) {
+  if (auto refused = refuse_begin()) return std::move(*refused);
+  const auto noted = note_job(board_file, Dialect::grbl, "");
+  if (!noted) return no_room_in_history();
+  begins_ = {.owner = shared_.owner.changes(), .board_file = board_file};
+  named_ = false;
+  job_ = {.id = ++last_job_, .name = board_file, .state = JobState::checking, .why = {}, .history = *noted};
+  start_board_file();
+  return json_answer(202, as_json(job_));
 }
 
 WebAnswer JobRunner::begin_check(const StoredProgram& program, std::int64_t history, const Point& start) {
   named_ = false;
   job_ = {.id = ++last_job_,
           .program = program.id,
-          .name = program.name,
+          .name = begins_.board_file.empty() ? program.name : begins_.board_file,
           .state = JobState::checking,
           .why = {},
           .history = history};
@@ -236,7 +252,21 @@ void JobRunner::name_job() {
   }
 }
 
+// The board reads the program from its own storage. Its lines do not come from here.
+void JobRunner::start_board_file() {
+  findings_.clear();
+  log_.clear();
+  const auto ticket = shared_.session.request(request::RunBoardFile{begins_.board_file});
+  if (!ticket) return end_job(JobState::failed, ticket.error().sentence());
+  start_ = shared_.session.status().position.place;
+  probes_.clear();
+  ticket_ = *ticket;
+  job_.state = JobState::running;
+  stopped_by_.reset();
+}
+
 void JobRunner::start_job() {
+  if (!begins_.board_file.empty()) return start_board_file();
   const StoredProgram& program = *shared_.programs.find(job_.program);
   findings_.clear();
   request::Start start{.program = ProgramReader::from_text(program.name, program.text),

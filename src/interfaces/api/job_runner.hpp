@@ -50,8 +50,11 @@ class JobRunner {
     std::int64_t history = 0;            // its number in the history; 0: a new one is assigned
     std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning
     std::uint64_t map_for = 0;           // the program that gets the height map probed by the job; 0: none
+    std::string board_file = {};         // the board runs this file of its own; the program is its text
   };
   WebAnswer begin(const StoredProgram& program, const Wanted& wanted);
+  // Begins a file of the board whose text is not known here, so that it is not checked.
+  WebAnswer begin_unchecked(const std::string& board_file);
   // Resumes the interrupted job in the middle of its path. It is checked from its original start.
   WebAnswer resume(bool by_a_way_back);
   // Returns true if the job had not begun yet and is now cancelled.
@@ -76,10 +79,13 @@ class JobRunner {
 
  private:
   std::optional<WebAnswer> refuse_begin() const;
+  // Notes a job in the history. Empty: it cannot be noted. 0: there is no history.
+  std::optional<std::int64_t> note_job(const std::string& name, Dialect dialect, const std::string& text);
   WebAnswer begin_check(const StoredProgram& program, std::int64_t history, const Point& start);
   void begin_checked_job();
   void name_job();
   void start_job();
+  void start_board_file();
   void end_job(JobState state, Sentence why = {});
   Sentence sentence_of_stop() const;
   void on_end(const MachineChange& change);
@@ -99,6 +105,7 @@ class JobRunner {
     std::optional<LinePlace> from = {};  // start position in the program; empty: its beginning
     std::optional<Reentry> way = {};     // the reentry move
     std::uint64_t map_for = 0;           // the program that gets the height map, as in Wanted
+    std::string board_file = {};         // as in Wanted
   };
   Beginning begins_;
   bool named_ = false;                // the job's journal has been started

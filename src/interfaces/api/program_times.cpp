@@ -72,6 +72,8 @@ void ProgramTimes::poll() {
 std::optional<Seconds> ProgramTimes::left(const MachineStatus& status) const {
   const StoredProgram* const program = shared_.programs.find(timed_);
   if (program == nullptr || !jobs_.runs(*program) || !times_ || !status.progress) return {};
+  // How much of a file the board has read is no measure of time.
+  if (!status.executes.board_file.empty()) return {};
   if (program->path != timed_path_ || status.overrides.feed < least_feed) return {};
   return times_->left_from(program->check.nominal_time * *status.progress) *
          (times_factors_.feed / timed_factors_.feed);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "api_json.hpp"
+#include "board_files_api.hpp"
 #include "cam_api.hpp"
 #include "jobs_api.hpp"
 #include "machine_api.hpp"
@@ -87,7 +88,7 @@ class WebApi::Parts {
     auto body = read_body(route.body, request, std::move(said));
     if (!body) return body.error();
     if (auto lacks = what_lacks(route.needs, options)) return std::move(*lacks);
-    const ApiCall call{.request = request, .id = found.id, .body = std::move(*body)};
+    const ApiCall call{.request = request, .id = found.id, .rest = found.rest, .body = std::move(*body)};
     return std::visit([&](auto handler) { return ask(handler, call); }, route.handler);
   }
   // The disk may take its time while nothing moves. What it refuses is tried again each second.
@@ -106,6 +107,7 @@ class WebApi::Parts {
   const ApiShared shared;
   JobRunner jobs{shared, mdi};
   ProgramTimes times{shared, jobs};
+  BoardFilesApi board_files_api{shared, jobs};
   CamApi cam_api{shared, jobs};
   JobsApi jobs_api{shared, jobs};
   MachineApi machine_api{shared, jobs, times, mdi};
@@ -133,6 +135,7 @@ class WebApi::Parts {
     auto page = looks ? options.page(request) : std::nullopt;
     return page ? std::move(*page) : refusal_answer(404);
   }
+  WebAnswer ask(AnswerOf<BoardFilesApi> handler, const ApiCall& call) { return (board_files_api.*handler)(call); }
   WebAnswer ask(AnswerOf<CamApi> handler, const ApiCall& call) { return (cam_api.*handler)(call); }
   WebAnswer ask(AnswerOf<JobsApi> handler, const ApiCall& call) { return (jobs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<MachineApi> handler, const ApiCall& call) { return (machine_api.*handler)(call); }
@@ -203,6 +206,7 @@ void WebApi::on_change(const std::vector<MachineChange>& changes) {
 void WebApi::poll() {
   parts_->owner_api.poll();
   parts_->programs.poll();
+  parts_->board_files_api.poll();
   parts_->cam_api.poll();
   parts_->times.poll();
   parts_->machine_api.poll();

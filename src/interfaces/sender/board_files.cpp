@@ -28,6 +28,13 @@ Status<std::string> check_path(std::string_view path) {
   return Failure{fmt::format("expected a name without {}", path[wrong])};
 }
 
+// The command of FluidNC for the place of a path.
+Result<std::string, std::string> line_in_place(std::string_view command, std::string_view path) {
+  if (path.starts_with(flash)) return fmt::format("$LocalFS/{}=/{}", command, path.substr(flash.size()));
+  if (path.starts_with(card)) return fmt::format("$SD/{}=/{}", command, path.substr(card.size()));
+  return Failure{std::string("expected a path that begins with /sd/ or /localfs/, as the list shows it")};
+}
+
 }  // namespace
 
 Result<BoardFiles, std::string> BoardFiles::of(const GrblMachine& machine) {
@@ -95,9 +102,14 @@ void BoardFiles::add(std::string path, std::string_view fields) {
 Result<std::string, std::string> BoardFiles::run_line(std::string_view path) const {
   if (const auto good = check_path(path); !good) return Failure{good.error()};
   if (!is_fluidnc_) return fmt::format("$F={}{}", path.starts_with('/') ? "" : "/", path);
-  if (path.starts_with(flash)) return fmt::format("$LocalFS/Run=/{}", path.substr(flash.size()));
-  if (path.starts_with(card)) return fmt::format("$SD/Run=/{}", path.substr(card.size()));
-  return Failure{std::string("expected a path that begins with /sd/ or /localfs/, as the list shows it")};
+  return line_in_place("Run", path);
+}
+
+// grblHAL: "$FD=" of fs_stream.c; FluidNC: "SD/Delete" of WebCommands.cpp.
+Result<std::string, std::string> BoardFiles::remove_line(std::string_view path) const {
+  if (const auto good = check_path(path); !good) return Failure{good.error()};
+  if (!is_fluidnc_) return fmt::format("$FD={}{}", path.starts_with('/') ? "" : "/", path);
+  return line_in_place("Delete", path);
 }
 
 Result<std::string, std::string> BoardFiles::upload_line(std::string_view path) const {

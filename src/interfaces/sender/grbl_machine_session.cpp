@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grbl_board_storage.hpp"
 #include "grbl_work.hpp"
 #include <fmt/format.h>
 
@@ -55,6 +56,7 @@ std::optional<Point> contact_of(std::string_view value, const GrblMachine& board
 GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port, Seconds ahead)
     : machine_(machine), port_(port), sender_(port.now()) {
   connection_.ahead = ahead;
+  loan_.storage = std::make_unique<GrblBoardStorage>(*this);
   connect_again(false);
 }
 
@@ -64,7 +66,7 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   sender_ = on_open_line ? GrblSender::on_open_line(now()) : GrblSender(now());
   sender_.listen([this](std::string_view line) { hear(line); });
   connection_.is_prepared = false;
-  lent_ = false;
+  loan_.lent = false;
   connection_.asks_offsets = false;
   heard_.reports = 0;
 }
@@ -74,7 +76,7 @@ bool GrblMachineSession::busy() const {
 }
 
 bool GrblMachineSession::works() const {
-  return busy() || state_ == MachineState::offline || to_store_.has_value() || lent_ || !sender_.all_answered() ||
+  return busy() || state_ == MachineState::offline || to_store_.has_value() || loan_.lent || !sender_.all_answered() ||
          connection_.asks_offsets;
 }
 
@@ -89,6 +91,11 @@ bool GrblMachineSession::is_held_at_board() const {
 }
 
 void GrblMachineSession::exchange(Seconds most) {
+  if (loan_.storage->uploads()) {
+    loan_.storage->exchange(port_, std::min(most, between_looks));
+    if (port_.is_broken()) sender_.lose();
+    return;
+  }
   const std::string bytes = sender_.take_bytes(now());
   if (!bytes.empty()) port_.send(bytes);
   const std::string came = port_.receive(std::isfinite(most.value()) ? most : between_looks);
@@ -123,6 +130,7 @@ void GrblMachineSession::poll(Seconds most) {
   if (state_ == MachineState::check) return poll_check();
   if (busy()) return poll_work();
   poll_idle();
+  loan_.storage->poll();
 }
 
 // A device that was unplugged is opened when it has returned. What it was doing is not continued, and its place stays
@@ -137,6 +145,7 @@ void GrblMachineSession::look_for_device() {
 }
 
 void GrblMachineSession::hear(std::string_view line) {
+  hear_board_file(line);
   constexpr std::string_view probe = "[PRB:";
   if (!line.starts_with(probe) || !line.ends_with(']')) return;
   line.remove_prefix(probe.size());
@@ -240,7 +249,7 @@ void GrblMachineSession::poll_idle() {
   } else if (state_ == MachineState::door && report->state == "Idle") {
     move_to(MachineEvent::close_door);
   }
-  if (lent_ || state_ != MachineState::idle) return;
+  if (loan_.lent || state_ != MachineState::idle) return;
   if (connection_.asks_offsets && sender_.all_answered()) take_board();
   if (locked_ || !rests()) return;
   if (connection_.offsets_are_old) return ask_for_offsets();
@@ -296,17 +305,25 @@ void GrblMachineSession::store_offsets(const SavedParameters& parameters) {
 
 // A board in an alarm tells and takes settings, too.
 GrblSender* GrblMachineSession::lend_sender() {
-  if (lent_ || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
+  if (loan_.lent || busy() || state_ != MachineState::idle || !sender_.all_answered()) return nullptr;
   while (sender_.take_reply()) continue;  // of an earlier reader that did not wait
-  lent_ = true;
+  loan_.lent = true;
   return &sender_;
 }
 
 void GrblMachineSession::take_sender_back() {
-  if (!std::exchange(lent_, false)) return;
+  if (!std::exchange(loan_.lent, false)) return;
   board_ = sender_.machine();
   match_ = match_with_board(machine_, board_);
   ++news_.version;
+}
+
+void GrblMachineSession::take_sender_back_and_greet() {
+  if (loan_.lent) connect_again(true);
+}
+
+BoardStorage* GrblMachineSession::storage() {
+  return BoardFiles::of(board_) ? loan_.storage.get() : nullptr;
 }
 
 std::optional<Refusal> GrblMachineSession::lost_place() const {
@@ -377,6 +394,7 @@ MachineStatus GrblMachineSession::status() const {
     }
     if (waits && work.feed->asks() == GrblFeed::Asks::line) status.holds.add(HoldReason::await_line);
   }
+  if (work.is_board_file()) tell_board_file(status);
   return status;
 }
 

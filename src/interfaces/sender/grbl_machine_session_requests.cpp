@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grbl_board_storage.hpp"
 #include "grbl_work.hpp"
 #include <fmt/format.h>
 
@@ -19,11 +20,6 @@ constexpr int setting_of_homing = 22;
 
 Failure<Refusal> refused(RefusalReason reason) {
   return Failure{Refusal{reason}};
-}
-
-// What this board cannot do now, in words of its own.
-Refusal refused_because(std::string code, std::string why) {
-  return {RefusalReason::board_cannot, {{"why", std::move(why)}, {"why.code", std::move(code)}}};
 }
 
 int percent_of(double factor) {
@@ -54,18 +50,22 @@ MachineAbilities GrblMachineSession::abilities() const {
     lack(Ability::home, "home", "homing is off on this board ($22=0)");
     lack(Ability::home_axis, "home", "homing is off on this board ($22=0)");
   }
+  if (const auto files = BoardFiles::of(board_); !files) {
+    abilities.lack(Ability::board_files, {.code = "ability.board-files", .text = files.error()});
+  }
   return abilities;
 }
 
 GrblMachineSession::Answer GrblMachineSession::refuse_ability(Ability ability) const {
-  const MachineAbilities all = abilities();
-  const Sentence* const why = all.why_not(ability);
-  if (why == nullptr) return refused(RefusalReason::board_cannot);
-  return Failure{Refusal{RefusalReason::board_cannot, {{"why", why->text}, {"why.code", why->code}}}};
+  return Failure{refusal_of(abilities(), ability)};
 }
 
 Result<Ticket, Refusal> GrblMachineSession::request(Request wanted) {
-  if (lent_) return refused(RefusalReason::busy);
+  if (loan_.storage->uploads() && std::holds_alternative<request::Stop>(wanted)) {
+    loan_.storage->cancel();
+    return at_once();
+  }
+  if (loan_.lent) return refused(RefusalReason::busy);
   return std::visit([this](auto& one) { return handle(one); }, wanted);
 }
 
@@ -202,8 +202,8 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Probe& probe) {
   unlock();
   auto work = std::make_unique<Work>();
   work->kind = ActivityKind::probing;
-  work->probe =
-      std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->probe_results);
+  work->probing.line =
+      std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->probing.results);
   prepare();
   return begin(MachineEvent::begin_probe, std::move(work));
 }
@@ -215,6 +215,20 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Check& check) {
   check.options.start = position_.place;
   work->checker = std::make_unique<ProgramChecker>(std::move(check.program), machine_, check.options, *work->findings);
   return begin(MachineEvent::begin_check, std::move(work));
+}
+
+GrblMachineSession::Answer GrblMachineSession::handle(request::RunBoardFile& run) {
+  if (auto refusal = refuse_motion(MachineEvent::begin_run)) return Failure{*refusal};
+  const auto files = BoardFiles::of(board_);
+  if (!files) return refuse_ability(Ability::board_files);
+  if (auto refusal = lost_place()) return Failure{*refusal};
+  auto line = files->run_line(run.path);
+  if (!line) return Failure{refused_because("board-files.bad-path", line.error())};
+  auto work = std::make_unique<Work>();
+  work->board_file.path = std::move(run.path);
+  work->board_file.line = std::move(*line);
+  prepare();
+  return begin(MachineEvent::begin_run, std::move(work));
 }
 
 GrblMachineSession::Answer GrblMachineSession::handle(request::Hold& hold) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "grbl_board_storage.hpp"
 #include "grbl_work.hpp"
 #include <fmt/format.h>
 
@@ -27,9 +28,10 @@ void GrblMachineSession::poll_work() {
   switch (work_->stage) {
     case Work::Stage::prepares:
       update_holds();
-      if (rests()) make_feed();
-      return;
+      if (!rests()) return;
+      return work_->is_board_file() ? begin_board_file() : make_feed();
     case Work::Stage::moves:
+      if (work_->is_board_file()) return poll_board_file();
       if (work_->jog.line) return poll_jog();
       if (work_->feed) return poll_feed();
       return poll_home();
@@ -51,10 +53,10 @@ void GrblMachineSession::make_feed() {
   if (work.program && is_other_zero) return end_at_other_zero(0);
   StoredResults& results = work.program            ? work.program->answers()
                            : work.lines != nullptr ? work.lines->answers()
-                                                   : work.probe_results;
+                                                   : work.probing.results;
   Source<PathItem>& path = work.program            ? static_cast<Source<PathItem>&>(*work.program)
                            : work.lines != nullptr ? static_cast<Source<PathItem>&>(*work.lines)
-                                                   : *work.probe;
+                                                   : *work.probing.line;
   const bool waits = !work.start || work.start->waits_for_operator;
   work.feed = std::make_unique<GrblFeed>(path, results, GrblTarget::of(board_), waits, stops_.optional_stop);
   sender_.follow(first_work_zero(board_), connection_.ahead);
@@ -145,9 +147,10 @@ void GrblMachineSession::end_program() {
     send_overrides();
   }
   if (work_->findings->any_error()) return end_work(Outcome::failed, ActivityFault{MachineFault::program_wrong});
-  auto fault = work_->probe ? work_->probe->fault() : std::nullopt;
-  if (work_->probe && work_->probe_results.probe()->refused) {
-    publish({.kind = MachineChange::Kind::probed, .probe = *work_->probe_results.probe()});
+  const Work::Probing& probing = work_->probing;
+  auto fault = probing.line ? probing.line->fault() : std::nullopt;
+  if (probing.line && probing.results.probe()->refused) {
+    publish({.kind = MachineChange::Kind::probed, .probe = *probing.results.probe()});
   }
   const Outcome outcome = fault ? Outcome::failed : Outcome::done;
   end_work(outcome, std::move(fault));
@@ -158,7 +161,7 @@ void GrblMachineSession::update_holds() {
   Work& work = *work_;
   if (!work.is_program() || work.stage > Work::Stage::moves || !sender_.report()) return;
   const GrblReport& report = *sender_.report();
-  const bool holds = report.state == "Hold";
+  const bool holds = report.state == "Hold" || (work.is_board_file() && report.state == "Tool");
   const bool is_door = report.state == "Door";
   // Somebody has resumed the program at the machine.
   if (work.hold.heard && !holds && !is_door && report.state == "Run")
@@ -290,8 +293,8 @@ void GrblMachineSession::end_resync() {
     answer_holds(Outcome::done);
     return make_feed();
   }
-  const Outcome outcome = work_->fault ? Outcome::failed : Outcome::stopped;
-  end_work(outcome, work_->fault);
+  const Outcome without_fault = work_->board_file.has_ended ? Outcome::done : Outcome::stopped;
+  end_work(work_->fault ? Outcome::failed : without_fault, work_->fault);
 }
 
 void GrblMachineSession::end_work(Outcome outcome, std::optional<ActivityFault> fault) {
@@ -356,6 +359,13 @@ std::string GrblMachineSession::words_of_restart() const {
 }
 
 Sentence GrblMachineSession::sentence_of(const GrblFault& fault) const {
+  const bool goes_on =
+      busy() && work_->is_board_file() && (fault.code == "grbl.line-lost" || fault.code == "grbl.no-answer");
+  if (goes_on) {
+    return {.code = fault.code,
+            .text = fmt::format("{}; the board may go on with {} by itself: stop it at the machine, or press Reset",
+                                fault.message, work_->board_file.path)};
+  }
   return {.code = fault.code, .text = fault.message + words_of_restart()};
 }
 
@@ -380,7 +390,8 @@ void GrblMachineSession::stop_by_reset() {
 // The board may have moved further, or lost steps.
 void GrblMachineSession::break_off(MachineEvent event, const GrblFault& fault) {
   const Sentence sentence = sentence_of(fault);
-  lent_ = false;
+  loan_.lent = false;
+  loan_.storage->lose();
   connection_.asks_offsets = false;
   trouble_ = {sentence, fault};
   if (state_ != MachineState::offline) {

@@ -332,7 +332,12 @@ void GrblSender::hear(std::string_view line) {
     return hear_greeting();
   }
   if (line == "ok") return answer({});
-  if (line.starts_with(error)) return answer(without_blanks(line.substr(error.size())));
+  if (line.starts_with(error)) {
+    const bool is_answer = window_.oldest() != nullptr;
+    answer(without_blanks(line.substr(error.size())));
+    if (!is_answer && listener_) listener_(line);  // e.g. of a line in a file that the board runs
+    return;
+  }
   if (line.starts_with(alarm_head)) return alarm(without_blanks(line.substr(alarm_head.size())));
   if (follower_ && line.starts_with("[GC:") && line.ends_with(']')) hear_modes(line.substr(4, line.size() - 5));
   machine_.hear(line);

@@ -65,7 +65,9 @@ bool GrblSender::must_move() const {
 void GrblSender::check_standstill() {
   const bool has_nothing_to_do =
       window_.oldest() == nullptr && (report()->state == "Idle" || report()->state == "Alarm");
-  if (has_nothing_to_do || !words_of_grbl_wait(*report()).empty()) last_.progress = now_;
+  // A file of its own may dwell for long.
+  const bool runs_file = report()->file_share.has_value();
+  if (has_nothing_to_do || runs_file || !words_of_grbl_wait(*report()).empty()) last_.progress = now_;
   // A stall is judged by the reports, not by the clock: a machine that is silent may move.
   const Seconds stands = must_move() ? reports_.came() - last_.progress : now_ - last_.progress;
   const Seconds most = must_move() ? longest_stall + follower_->longest_between_changes() : longest_standstill;

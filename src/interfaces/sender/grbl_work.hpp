@@ -61,8 +61,25 @@ struct GrblMachineSession::Work {
     bool freed = false;  // a cycle start has followed the last cancel
   };
 
+  struct Probing {
+    StoredResults results;
+    std::unique_ptr<ProbeLine> line;  // null: this is no probe move
+  };
+  // A file that the board runs by itself.
+  struct BoardFile {
+    std::string path;         // empty: this is none
+    std::string line;         // that begins it
+    bool is_running = false;  // the board has begun
+    bool has_ended = false;
+    double share = 0;           // that the board has read, 0 to 1
+    Seconds active{0};          // when the board last showed that it runs
+    std::uint64_t reports = 0;  // that had come by then
+    std::string trouble = {};   // what the board says of an error in it
+  };
+
+  bool is_board_file() const { return !board_file.path.empty(); }
   // Whether this is a program, which can be held and resumed.
-  bool is_program() const { return program != nullptr || lines != nullptr; }
+  bool is_program() const { return program != nullptr || lines != nullptr || is_board_file(); }
   std::string words_at(std::uint32_t line) {
     if (program != nullptr) return program->operator_messages().at(line);
     return lines != nullptr ? lines->operator_messages().at(line) : std::string();
@@ -80,10 +97,10 @@ struct GrblMachineSession::Work {
   std::optional<request::Start> start;
   Diagnostics own_findings;
   Diagnostics* findings = &own_findings;
-  StoredResults probe_results;
   std::unique_ptr<GrblProgramPath> program;
   StreamedProgram* lines = nullptr;
-  std::unique_ptr<ProbeLine> probe;
+  Probing probing;
+  BoardFile board_file;
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
   Progress progress;

@@ -8,6 +8,13 @@ namespace {
 constexpr std::size_t most_said = 5000;   // lines of one answer
 constexpr std::size_t least_buffer = 64;  // fewer free bytes are hardly a whole buffer
 
+// The chip of a Grbl board takes no byte while it writes its EEPROM, so what follows such a line would be lost.
+bool writes_eeprom(std::string_view line) {
+  const bool is_setting = line.size() > 1 && line[0] == '$' && ((line[1] >= '0' && line[1] <= '9') || line[1] == 'N');
+  const auto has = [line](std::string_view word) { return line.find(word) != std::string_view::npos; };
+  return is_setting || has("G10L") || has("G28.1") || has("G30.1");
+}
+
 }  // namespace
 
 std::string UnacknowledgedLines::send(Seconds now, std::size_t size) {
@@ -17,6 +24,7 @@ std::string UnacknowledgedLines::send(Seconds now, std::size_t size) {
 }
 
 const UnacknowledgedLines::Line* UnacknowledgedLines::next_fitting(std::size_t size) const {
+  if (!sent_.empty() && writes_eeprom(sent_.back().text)) return nullptr;
   const bool fits = !waiting_.empty() && sent_bytes_ + waiting_.front().text.size() <= usable(size);
   return fits ? &waiting_.front() : nullptr;
 }
@@ -34,6 +42,7 @@ std::string UnacknowledgedLines::send_next(Seconds now) {
 }
 
 bool UnacknowledgedLines::send_mark(const std::string& text, Seconds now, std::size_t size) {
+  if (!sent_.empty() && writes_eeprom(sent_.back().text)) return false;
   if (sent_bytes_ + text.size() > usable(size)) return false;
   sent_.push_back({.text = text, .sent = now, .marks = true});
   sent_bytes_ += text.size();

@@ -232,16 +232,13 @@ MachineAbilities BoardMachineSession::abilities() const {
   MachineAbilities abilities;
   abilities.lack(Ability::home_axis,
                  {.code = "ability.grbl.home-axis", .text = "this board homes all its axes together"});
+  abilities.lack(Ability::board_files, {.code = "ability.board-files", .text = "this board stores no files"});
   return abilities;
 }
 
 BoardMachineSession::Answer BoardMachineSession::handle(request::Home& home) {
   if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
-  if (home.axis) {
-    const MachineAbilities all = abilities();
-    const Sentence& why = *all.why_not(Ability::home_axis);
-    return Failure{Refusal{RefusalReason::board_cannot, {{"why", why.text}, {"why.code", why.code}}}};
-  }
+  if (home.axis) return Failure{refusal_of(abilities(), Ability::home_axis)};
   if (machine_.homing.empty()) {
     return refusal(RefusalReason::no_switches);
   }
@@ -276,6 +273,10 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Check& check) {
 }
 
 // A hold ends an activity that is not a program.
+BoardMachineSession::Answer BoardMachineSession::handle(request::RunBoardFile&) {
+  return Failure{refusal_of(abilities(), Ability::board_files)};
+}
+
 BoardMachineSession::Answer BoardMachineSession::handle(request::Hold& hold) {
   if (!busy() || state_ == MachineState::check) return refusal(RefusalReason::nothing_moves);
   const Ticket ticket = ++last_ticket_;

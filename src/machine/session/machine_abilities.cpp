@@ -8,9 +8,9 @@ namespace passo {
 namespace {
 
 constexpr std::array<std::string_view, ability_count> ability_names = {
-    "exact-resume", "step-counts", "pulses",      "adaptive-feed", "any-override",
-    "single-block", "door-hold",   "probe-state", "jog",           "home",
-    "home-axis",    "probe",       "sleep",       "set-position",  "thread"};
+    "exact-resume", "step-counts",  "pulses", "adaptive-feed", "any-override", "single-block",
+    "door-hold",    "probe-state",  "jog",    "home",          "home-axis",    "probe",
+    "sleep",        "set-position", "thread", "board-files"};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "passo/geometry/euclid.hpp"
 #include "passo/interpreter/tool_change_plan.hpp"
@@ -66,14 +67,21 @@ std::optional<Refusal> refusal_of(const request::Override& change) {
   return Refusal{RefusalReason::bad_rapid_override};
 }
 
+Refusal refused_because(std::string code, std::string why) {
+  return {RefusalReason::board_cannot, {{"why", std::move(why)}, {"why.code", std::move(code)}}};
+}
+
+Refusal refusal_of(const MachineAbilities& abilities, Ability ability) {
+  const Sentence* const why = abilities.why_not(ability);
+  return why != nullptr ? refused_because(why->code, why->text) : Refusal{RefusalReason::board_cannot};
+}
+
 std::optional<Refusal> refusal_of(const request::SwitchOutputs& wanted, const MachineDescription& machine) {
   const auto& plan = machine.tool_change;
   if (!plan || plan->way != ToolChangeWay::rack) return {};
   const bool opens = plan->rack.opens == ColletOutput::mist ? wanted.mist.has_value() : wanted.flood.has_value();
   if (!opens) return {};
-  return Refusal{
-      RefusalReason::board_cannot,
-      {{"why", "this output opens the collet: only a tool change switches it"}, {"why.code", "machine.collet-output"}}};
+  return refused_because("machine.collet-output", "this output opens the collet: only a tool change switches it");
 }
 
 }  // namespace passo

@@ -1,6 +1,7 @@
-// passo board files: lists, sends and runs the files on the card of a Grbl board.
+// passo board files: lists, sends, runs and deletes the files on the card of a Grbl board.
 #include "passo/sender/board_files.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -65,6 +66,27 @@ int list(const BoardFilesArguments& arguments, GrblConnection& opened, BoardFile
     if (!arguments.json) note(fmt::format("{}: {}", arguments.board, one));
   }
   return print_text(arguments.json ? json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n" : text);
+}
+
+// Only a file of the list: FluidNC would also delete a folder with all that is in it.
+int remove(const BoardFilesArguments& arguments, GrblConnection& opened, BoardFiles& files) {
+  int code = exit_done;
+  std::vector<std::string> missing;
+  if (!list_files(opened, files, missing, code)) return code;
+  const bool is_there = std::ranges::find(files.all(), arguments.remove, &StoredFile::path) != files.all().end();
+  const auto line = files.remove_line(arguments.remove);
+  if (!is_there || !line) {
+    const std::string why = line ? "the board has no such file" : line.error();
+    return fail(exit_bad_program, fmt::format("--delete {}: {} [board.files]", arguments.remove, why));
+  }
+  const auto answer = opened.ask(*line, longest_begin, code);
+  if (!answer) return code;
+  if (!answer->error.empty()) {
+    return fail(exit_failed,
+                fmt::format("{}: the board rejects {}: {} [board.files]", arguments.board, *line, answer->error));
+  }
+  const ordered_json json = {{"path", arguments.remove}};
+  return print_text(arguments.json ? json.dump(2) + "\n" : arguments.remove + " deleted\n");
 }
 
 int upload(const BoardFilesArguments& arguments, GrblConnection& opened, const BoardFiles& files, std::string content) {
@@ -149,6 +171,7 @@ int board_files(const BoardFilesArguments& arguments) {
   if (!files) return fail(exit_failed, fmt::format("{}: {} [board.no-files]", arguments.board, files.error()));
   if (!arguments.upload.empty()) return upload(arguments, *opened, *files, std::move(content));
   if (!arguments.run.empty()) return run_file(arguments, *opened, *files);
+  if (!arguments.remove.empty()) return remove(arguments, *opened, *files);
   return list(arguments, *opened, *files);
 }
 

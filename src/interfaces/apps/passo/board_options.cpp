@@ -137,6 +137,10 @@ void add_board_files_options(CLI::App& command, BoardFilesArguments& arguments) 
   command.add_option("--as", arguments.as, "its path on the board (default: the same name on the card)")
       ->type_name("PATH")
       ->needs(upload);
+  command.add_option("--delete", arguments.remove, "delete this file, by its path in the list")
+      ->type_name("PATH")
+      ->excludes(run)
+      ->excludes(upload);
   command.add_flag("--json", arguments.json, "print the result as JSON");
   command.footer(
       "Examples:\n"
@@ -144,6 +148,7 @@ void add_board_files_options(CLI::App& command, BoardFilesArguments& arguments) 
       "  passo board files grbl:/dev/ttyACM0 --upload part.nc           send one to its card\n"
       "  passo board files grbl:/dev/ttyACM0 --upload part.nc --as /sd/jobs/part.nc\n"
       "  passo board files grbl:/dev/ttyACM0 --run /part.nc             run one\n"
+      "  passo board files grbl:/dev/ttyACM0 --delete /part.nc\n"
       "grblHAL with a card, and FluidNC: docs/manual/grbl-machines.md#files-on-the-board");
 }
 
@@ -192,7 +197,7 @@ std::span<const Command> board_commands() {
         options_of<BoardMonitorArguments, add_board_monitor_options, board_monitor>},
        {"settings", "show, write, save, compare and restore the settings of a Grbl board",
         options_of<BoardSettingsArguments, add_board_settings_options, board_settings>},
-       {"files", "list, send and run the files on a Grbl board",
+       {"files", "list, send, run and delete the files on a Grbl board",
         options_of<BoardFilesArguments, add_board_files_options, board_files>},
        {"flash", "flash Passo's firmware onto a board",
         options_of<BoardFlashArguments, add_board_flash_options, board_flash>},

@@ -195,6 +195,7 @@ struct BoardFilesArguments {
   std::string run;     // the path of a file on the board
   std::string upload;  // a file of this computer
   std::string as;      // the path on the board; empty: the same name on its card
+  std::string remove;  // the path of a file on the board
   bool json = false;
 };
 int board_files(const BoardFilesArguments& arguments);

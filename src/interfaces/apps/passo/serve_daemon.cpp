@@ -44,6 +44,7 @@ void ServeDaemon::serve() {
 
 void ServeDaemon::stop() {
   if (web_ != nullptr) web_->leave();
+  if (BoardStorage* const storage = session_.storage()) storage->cancel();
   if (session_.busy()) try_request(session_, request::Stop{});
   while (session_.busy()) {
     session_.poll(machine_.has_board ? busy_look : Seconds(1));

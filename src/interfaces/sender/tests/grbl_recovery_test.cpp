@@ -79,5 +79,18 @@ TEST_F(GrblRecoveries, have_their_sender_back_after_a_restart_of_the_board) {
   run.session.take_sender_back();
 }
 
+// The chip takes no byte while it writes its EEPROM: at the rate of a line, what follows is lost.
+TEST_F(GrblRecoveries, store_offsets_at_the_rate_of_a_line) {
+  run.grbl.bytes_per_second = 11520;
+  ASSERT_TRUE(run.go_online());
+  SavedParameters wanted = run.session.offsets();
+  wanted[5221] = 7;  // X of G54
+  run.session.store_offsets(wanted);
+  ASSERT_TRUE(run.play([&] { return !run.session.works(); }, Seconds(10)));
+  EXPECT_EQ(run.session.state(), MachineState::idle) << run.session.trouble_words();
+  EXPECT_EQ(run.grbl.lost_bytes(), 0U);
+  EXPECT_NEAR(run.session.board().offsets.at("G54")[Axis::x], 7, 1e-9);
+}
+
 }  // namespace
 }  // namespace passo::test

@@ -11,6 +11,7 @@
 
 namespace passo {
 
+class BoardFilesApi;
 class CamApi;
 class JobsApi;
 class MachineApi;
@@ -26,9 +27,9 @@ struct WebAnswer;
 
 template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
-using ApiHandler = std::variant<AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>, AnswerOf<MachineFileApi>,
-                                AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>, AnswerOf<SettingsApi>,
-                                AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>>;
+using ApiHandler = std::variant<AnswerOf<BoardFilesApi>, AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>,
+                                AnswerOf<MachineFileApi>, AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>,
+                                AnswerOf<SettingsApi>, AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
@@ -37,7 +38,7 @@ enum class Needs : std::uint8_t { nothing, history, maker, ports, settings, stud
 
 struct ApiRoute {
   std::string_view method;
-  std::string_view path;       // below api_root, with {id} for a number
+  std::string_view path;       // below api_root, with {id} for a number, and {path} at its end for all that follows
   std::string_view operation;  // operationId in openapi.json
   bool moves;                  // whether only the client in control may send it
   BodyKind body;
@@ -53,6 +54,7 @@ std::span<const ApiRoute> api_routes();
 struct FoundRoute {
   const ApiRoute* route = nullptr;
   std::uint64_t id = 0;
+  std::string rest = {};  // in the place of {path}, not decoded
   std::string allowed = {};
 };
 FoundRoute find_route(std::string_view method, std::string_view path);

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,19 +14,12 @@
 
 #include "passo/base/result.hpp"
 #include "passo/sender/grbl_machine.hpp"
+#include "passo/session/board_storage.hpp"
 
 namespace passo {
 
 inline constexpr std::size_t most_board_files = 5000;
 inline constexpr std::size_t longest_board_path = 200;  // bytes
-
-struct StoredFile {
-  std::string path;         // "/sd/part.nc"
-  std::uint64_t bytes = 0;  // its size
-  bool can_run = true;      // grblHAL cannot open some names
-
-  bool operator==(const StoredFile&) const = default;
-};
 
 // What one firmware knows about files.
 class BoardFiles {
@@ -43,9 +35,13 @@ class BoardFiles {
 
   // Returns the line that runs a file. The error is a clause.
   Result<std::string, std::string> run_line(std::string_view path) const;
+  // Returns the line that deletes a file. It may also delete a folder: only for paths of the list. The error is a
+  // clause.
+  Result<std::string, std::string> remove_line(std::string_view path) const;
   // Returns the line that begins an upload, and the name by which the board stores the file; empty: none is needed.
   Result<std::string, std::string> upload_line(std::string_view path) const;
   bool is_fluidnc() const { return is_fluidnc_; }
+  std::string_view card_folder() const { return is_fluidnc_ ? "/sd/" : "/"; }
 
  private:
   explicit BoardFiles(bool is_fluidnc) : is_fluidnc_(is_fluidnc) {}

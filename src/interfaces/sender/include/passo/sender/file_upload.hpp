@@ -19,13 +19,14 @@
 
 #include "passo/base/result.hpp"
 #include "passo/sender/grbl_machine.hpp"
+#include "passo/session/board_storage.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
 
 class FileUpload {
  public:
-  static constexpr std::size_t most_bytes = 64 << 20;
+  static constexpr std::size_t most_bytes = BoardStorage::most_bytes;
 
   // `path`: where the board stores the file, as BoardFiles lists it. The error is a clause.
   static Result<FileUpload, std::string> begin(const GrblMachine& machine, const std::string& path,

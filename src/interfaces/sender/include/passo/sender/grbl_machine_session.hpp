@@ -33,6 +33,8 @@
 
 namespace passo {
 
+class GrblBoardStorage;
+
 class GrblMachineSession final : public MachineSession {
  public:
   // The longest time between two exchanges with a busy board: a released key takes effect that much later at most.
@@ -56,6 +58,7 @@ class GrblMachineSession final : public MachineSession {
   std::optional<Refusal> closed_limit() const override { return {}; }
   std::optional<Refusal> lost_place() const override;
   MachineAbilities abilities() const override;
+  BoardStorage* storage() override;
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
@@ -80,13 +83,15 @@ class GrblMachineSession final : public MachineSession {
   // Calls the listener when the board has others, e.g. because a zero was set at its panel.
   void watch_offsets(std::function<void()> listener) { connection_.offsets_listener = std::move(listener); }
 
-  // Lends the sender to a reader of the board's settings, which moves nothing. The owner goes on polling the session.
-  // Meanwhile every request is refused. Null: the machine is not at rest.
+  // Lends the sender to a reader of the board's settings or files, which moves nothing. The owner goes on polling the
+  // session. Meanwhile every request is refused. Null: the machine is not at rest.
   GrblSender* lend_sender();
   // False if it has not been lent, or if the connection or the board's state was lost in the meantime.
-  bool is_sender_lent() const { return lent_; }
+  bool is_sender_lent() const { return loan_.lent; }
   // The settings may be others now: the session takes over what the board has told.
   void take_sender_back();
+  // The same, and asks the board again what it is: it may have read lines that were none.
+  void take_sender_back_and_greet();
 
  private:
   struct Work;
@@ -116,6 +121,11 @@ class GrblMachineSession final : public MachineSession {
     bool asks_offsets = false;
     std::function<void()> offsets_listener = {};
   };
+  // Of the sender, for the settings or files of the board.
+  struct Loan {
+    bool lent = false;
+    std::unique_ptr<GrblBoardStorage> storage;
+  };
   struct Trouble {
     Sentence words;
     std::optional<GrblFault> fault;
@@ -138,6 +148,7 @@ class GrblMachineSession final : public MachineSession {
   Answer handle(request::Home& home);
   Answer handle(request::Probe& probe);
   Answer handle(request::Check& check);
+  Answer handle(request::RunBoardFile& run);
   Answer handle(request::Hold& hold);
   Answer handle(request::Resume& resume);
   Answer handle(request::Stop& stop);
@@ -184,6 +195,10 @@ class GrblMachineSession final : public MachineSession {
   void poll_jog();
   void send_jog_piece();
   void poll_home();
+  void begin_board_file();
+  void poll_board_file();
+  void hear_board_file(std::string_view line);
+  void tell_board_file(MachineStatus& status) const;
   bool knows_place_after(std::optional<Axis> homed);
   void resync();
   void end_resync();
@@ -211,7 +226,7 @@ class GrblMachineSession final : public MachineSession {
   Connection connection_;
   bool locked_ = false;  // the board is in an alarm that $X or $H ends
   Recovery recovery_;
-  bool lent_ = false;  // the sender, for the settings
+  Loan loan_;
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;

@@ -116,7 +116,8 @@ class GrblSender {
   std::uint64_t lines_answered() const { return window_.lines_answered(); }
   // Returns the number of reports received, so that news can be told from the last report.
   std::uint64_t reports_heard() const { return reports_heard_; }
-  // Sets a listener for the lines that are neither reports nor answers, e.g. [PRB:…] and [MSG:…].
+  // Sets a listener for the lines that are neither reports nor answers, e.g. [PRB:…], [MSG:…], and errors that belong
+  // to no line of ours.
   void listen(std::function<void(std::string_view)> listener) { listener_ = std::move(listener); }
   // Queries the position more often, e.g. during a jog.
   void look_often(bool often) { looks_often_ = often; }

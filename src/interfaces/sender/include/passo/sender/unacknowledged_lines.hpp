@@ -44,7 +44,8 @@ class UnacknowledgedLines {
   // Returns the lines that fit into the machine's receive buffer, and marks them as sent. `size`: as reported by the
   // machine.
   std::string send(Seconds now, std::size_t size);
-  // Returns the next line if it fits; null otherwise.
+  // Returns the next line if it fits; null otherwise. Nothing follows a line that writes the EEPROM before it is
+  // acknowledged.
   const Line* next_fitting(std::size_t size) const;
   // Marks the next line as sent, and returns it.
   std::string send_next(Seconds now);

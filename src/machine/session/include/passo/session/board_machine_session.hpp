@@ -106,6 +106,7 @@ class BoardMachineSession final : public MachineSession {
   Answer handle(request::Home& home);
   Answer handle(request::Probe& probe);
   Answer handle(request::Check& check);
+  Answer handle(request::RunBoardFile& run);
   Answer handle(request::Hold& hold);
   Answer handle(request::Resume& resume);
   Answer handle(request::Stop& stop);

@@ -1,7 +1,7 @@
 // MachineAbilities: what a machine cannot do, each with the reason as a sentence. What is not listed, it can do.
 //
-// A machine on a board of ours has all abilities but one: it homes all axes together. A board that plans its own motion
-// lacks some, and clients show the reason where the ability would be used.
+// A machine on a board of ours has all abilities but two: it homes all axes together, and stores no files. A board that
+// plans its own motion lacks some, and clients show the reason where the ability would be used.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,9 @@ enum class Ability : std::uint8_t {
   sleep,
   set_position,  // the operator states where the machine is
   thread,        // motion that follows the spindle
+  board_files,   // the board stores files, and runs them by itself
 };
-inline constexpr std::size_t ability_count = 15;
+inline constexpr std::size_t ability_count = 16;
 
 // Stable, e.g. "exact-resume".
 std::string_view name_of(Ability ability);

@@ -17,6 +17,7 @@
 
 #include "passo/base/result.hpp"
 #include "passo/interpreter/interpreter.hpp"
+#include "passo/session/board_storage.hpp"
 #include "passo/session/machine_abilities.hpp"
 #include "passo/session/machine_status.hpp"
 #include "passo/session/request.hpp"
@@ -61,6 +62,8 @@ class MachineSession {
   // The same for an unknown or lost position. Jogging is possible.
   virtual std::optional<Refusal> lost_place() const = 0;
   virtual MachineAbilities abilities() const { return {}; }
+  // The files of the board. Null: it stores none.
+  virtual BoardStorage* storage() { return nullptr; }
   // Returns the session if it has a board that executes our steps; otherwise null.
   virtual BoardMachineSession* as_board_session() { return nullptr; }
   virtual const BoardMachineSession* as_board_session() const { return nullptr; }

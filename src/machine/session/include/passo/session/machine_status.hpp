@@ -52,6 +52,8 @@ struct ExecutedLine : OperationSource {
 
   // The last line that may be executed instead, on a board that does not report lines; 0: the line is exact.
   std::uint32_t to = 0;
+  // The board runs this file of its own storage: its lines are not known here. Empty: there is none.
+  std::string board_file = {};
 };
 
 struct MachineStatus {

@@ -89,6 +89,11 @@ struct Check {
   InterpreterOptions options;
   Diagnostics* findings = nullptr;  // must outlive the check
 };
+// Has the board run a file of its own storage (Ability::board_files). Its lines do not come from here: nothing is known
+// of its path, and the board interprets it.
+struct RunBoardFile {
+  std::string path;  // as BoardStorage lists it
+};
 // Feed hold: stops on the path. Activities other than programs end there.
 struct Hold {
   // True: as for an open door. After the stop, spindle and coolant are switched off. Resuming switches them on again,
@@ -134,8 +139,8 @@ struct Wake {};
 
 using Request =
     std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewKeepAlive,
-                 request::Home, request::Probe, request::Check, request::Hold, request::Resume, request::Stop,
-                 request::Override, request::SwitchOutputs, request::ChooseStops, request::OperatorDone,
+                 request::Home, request::Probe, request::Check, request::RunBoardFile, request::Hold, request::Resume,
+                 request::Stop, request::Override, request::SwitchOutputs, request::ChooseStops, request::OperatorDone,
                  request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
