@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -85,6 +86,7 @@ struct GrblMachineSession::Work {
   StreamedProgram* lines = nullptr;
   std::unique_ptr<ProbeLine> probe;
   Watchers watchers;
+  std::deque<PathItem> unplayed;  // sent and not executed, for watchers.motion
   std::unique_ptr<GrblFeed> feed;
   Progress progress;
   Hold hold;

@@ -13,6 +13,8 @@
 #include "passo/api/studies.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
+#include "passo/job/tool_records.hpp"
+#include "passo/tooling/tool_library.hpp"
 #include "passo/web/web_server.hpp"
 
 namespace passo {
@@ -34,6 +36,10 @@ struct ApiOptions {
   std::function<std::optional<WebAnswer>(const WebRequest& request)> page = {};
   // Stores the job queue and the history; must outlive the API. Null: there is no queue and no history.
   JobHistory* history = nullptr;
+  // Stores what each tool has cut; must outlive the API. Null: it is not counted.
+  ToolRecords* tool_records = nullptr;
+  // The workshop's tools, with the limits of their lives; must outlive the API. Null: unknown.
+  const ToolLibrary* tool_library = nullptr;
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
   // Writes the journal of a job, in addition to the history; must outlive the API. Null: an interrupted job cannot be
   // resumed.

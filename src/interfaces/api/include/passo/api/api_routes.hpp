@@ -21,6 +21,7 @@ class ProgramsApi;
 class SettingsApi;
 class SmallJobsApi;
 class StudiesApi;
+class ToolsApi;
 struct ApiCall;
 struct WebAnswer;
 
@@ -28,7 +29,7 @@ template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
 using ApiHandler = std::variant<AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>, AnswerOf<MachineFileApi>,
                                 AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>, AnswerOf<SettingsApi>,
-                                AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>>;
+                                AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>, AnswerOf<ToolsApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
