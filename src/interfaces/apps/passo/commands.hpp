@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stock_options.hpp"
+#include "tool_life.hpp"
 
 namespace passo {
 
@@ -85,8 +86,9 @@ struct RunArguments {
   bool home = false;                 // homes the machine first; the program then starts from the position after
                                      // homing
   bool from_here = false;            // treats the current position as machine zero, whatever was known before
-  bool yes = false;                  // continues at M0, M1 and M6 without asking
-  bool json = false;                 // prints the summary as JSON
+  ToolLifeArguments tool_life;
+  bool yes = false;   // continues at M0, M1 and M6 without asking
+  bool json = false;  // prints the summary as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
@@ -122,6 +124,7 @@ struct CheckArguments {
   std::string report;     // .html; empty: none
   std::string loads;      // .csv: torque utilisation of each line; empty: none
   StockArguments stock;   // stock, tools and clamps
+  std::string tool_records;             // counts what tools cut; empty: that of `run`
   std::optional<double> cutting_force;  // N/mm², specific cutting force of the material; empty: no stock is cut
   std::optional<double> spindle_speed;  // rpm of a spindle that the program does not command
   bool json = false;
@@ -235,6 +238,7 @@ struct ServeArguments {
   std::string mqtt_login;               // file with USER:PASSWORD for the broker; empty: no login
   bool check = false;                   // only checks whether these options can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
+  std::string tool_library;             // TOML; empty: the tools have no limits
   std::string macros;                   // folder with macros and subroutines; empty: none
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
   std::string system;                   // a folder with system files, as for `board list`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,11 +17,14 @@
 #include "program_messages.hpp"
 #include "progress_display.hpp"
 #include "run_signals.hpp"
+#include "tool_life.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/placed_tool_change.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
+#include "passo/job/cut_recorder.hpp"
 #include "passo/job/job_end.hpp"
 #include "passo/link/await.hpp"
 #include "passo/session/confirmed_place.hpp"
@@ -123,7 +127,8 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
 
 // Runs a program that was checked. Returns the exit code.
 int stream(const RunArguments& arguments, GrblMachineConnection& opened, const MachineDescription& machine,
-           request::Start start, const ProgramCheck& check, GrblTimeLeft& time_left, ScheduledChanges& changes) {
+           request::Start start, const ProgramCheck& check, GrblTimeLeft& time_left, ScheduledChanges& changes,
+           CutRecorder* cuts) {
   GrblMachineSession& session = opened.session();
   Diagnostics late;
   start.findings = &late;
@@ -136,6 +141,7 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
     begun = session.now();
     changes.begin(*begun);
   };
+  if (cuts != nullptr) cuts->begin(start, "");
   OperatorPrompt prompt(arguments.program.program);
   Answered answered{.outcome = Outcome::failed};
   const auto ticket = session.request(std::move(start));
@@ -143,10 +149,12 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
   while (session.busy()) {
     const Seconds most = begun ? changes.act(session, [&] { return place_of(session, machine); }) : endless;
     opened.poll(std::min({most, GrblMachineSession::between_looks, prompt.poll(session)}));
+    if (cuts != nullptr) cuts->poll(session.now().value());
     const MachineStatus status = session.status();
     if (status.progress) progress.update(*status.progress, time_left.left(status));
   }
   if (ticket) answered = answer_of(session.take_changes(), *ticket);
+  if (cuts != nullptr && !cuts->end()) note("what the tools have cut was not counted: " + cuts->records().trouble());
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   progress.clear();
   if (answered.outcome == Outcome::done) {
@@ -199,12 +207,17 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   set_offsets(options, session.board());
   Diagnostics findings;
   bool has_unplaced_change = false;
+  auto lives = read_lives(arguments.tool_life, code);
+  if (!lives) return code;
+  CutForecast forecast(motion_limits(machine), std::move(*lives));
   const bool is_confirmed = is_place_confirmed(session);
-  const ProgramCheck check = check_for_grbl(program, machine, options, GrblTarget::of(session.board()), findings, {},
-                                            [&](const Operation& operation) {
-                                              if (!is_confirmed && is_placed_tool_change(operation, machine))
-                                                has_unplaced_change = true;
-                                            });
+  const ProgramCheck check = check_for_grbl(
+      program, machine, options, GrblTarget::of(session.board()), findings,
+      [&](const PathItem& item) { forecast.add(item); },
+      [&](const Operation& operation) {
+        if (!is_confirmed && is_placed_tool_change(operation, machine)) has_unplaced_change = true;
+      });
+  if (check.good) forecast.add_findings(arguments.program.program, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
   if (has_unplaced_change) {
@@ -227,7 +240,12 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
     start.from = way->at;
     start.lead_in = way->lead_in;
   }
-  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes);
+  std::optional<CutRecorder> cuts;
+  std::unique_ptr<ToolRecords> records;
+  const std::string file = tool_records_file(arguments.tool_life.records);
+  if (!file.empty() && !(records = open_tool_records(file, code))) return code;
+  if (records) cuts.emplace(*records, arguments.board);
+  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes, cuts ? &*cuts : nullptr);
 }
 
 int home_grbl(const HomeArguments& arguments, const MachineDescription& machine) {

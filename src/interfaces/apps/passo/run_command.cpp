@@ -26,6 +26,7 @@
 #include "run_signals.hpp"
 #include "scheduled_changes.hpp"
 #include "stop_words.hpp"
+#include "tool_life.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -34,6 +35,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/job/cut_recorder.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/link/await.hpp"
 #include "passo/report/link_peak_rate.hpp"
@@ -187,7 +189,13 @@ struct Run {
   LatestMotion& motion;
   PortRun* port = nullptr;                   // null: the run does not go through a parallel port
   std::optional<Seconds> without_line = {};  // the planned time
+  CutRecorder* cuts = nullptr;               // null: what tools cut is not counted
+  std::string journal_run = {};              // run_of() the journal; empty: there is none
 };
+
+void end_cuts(CutRecorder& cuts) {
+  if (!cuts.end()) note("what the tools have cut was not counted: " + cuts.records().trouble());
+}
 
 // Empty where the time over the line and the planned time are not of the same motion.
 std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, const ProgramReader& program,
@@ -226,6 +234,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     if (motors) motors->plan(item);
     if (run.port != nullptr) run.port->plan(item);
   };
+  if (run.cuts != nullptr) run.cuts->begin(start, run.journal_run);
   start.watchers.probe = [&, keep = start.watchers.probe](const ProbeOutcome& outcome) {
     if (keep) keep(outcome);
     count(outcome, machine, probes);
@@ -255,6 +264,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
       if (run.opened.is_on_a_line()) line.update(session.board());
       if (!run.opened.has_board()) tails.update(session, run.opened.machine(), machine);
       load.update(session.now(), run.opened.bytes_sent());
+      if (run.cuts != nullptr) run.cuts->poll(session.now().value());
       if (motors) motors->poll(turned_until(run));
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
@@ -262,6 +272,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   }
   progress.clear();
   run.opened.catch_up();
+  if (run.cuts != nullptr) end_cuts(*run.cuts);
   RunSummary summary = builder.summary();
   summary.program = run.arguments.program.program;
   summary.machine = machine.name;
@@ -378,7 +389,7 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
 int run_checked(const ResumableRun::Subject& subject, ProgramReader program, MachineConnection& opened,
-                ResumableRun* resumable, ScheduledChanges& changes, const ProgramStops& stops) {
+                ResumableRun* resumable, ScheduledChanges& changes, const ProgramStops& stops, CutRecorder* cuts) {
   const RunArguments& arguments = subject.arguments;
   const std::string tools =
       subject.check.tools_change ? tool_table_file(arguments.program, subject.options) : std::string();
@@ -408,7 +419,17 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Mac
   if (!start.waits_for_operator && !arguments.yes) tell_stops(stops, arguments);
   Answered answered;
   LatestMotion motion;
-  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion, port.get(), without_line};
+  const Run run{arguments,
+                subject.machine,
+                subject.check,
+                opened,
+                changes,
+                *outputs,
+                motion,
+                port.get(),
+                without_line,
+                cuts,
+                resumable != nullptr ? resumable->run() : std::string()};
   const RunSummary summary = play(run, std::move(start), answered);
   if (resumable != nullptr) resumable->end(opened.session(), answered);
   return end_run(run, answered, summary, late, subject.options.machine_units);
@@ -430,12 +451,17 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   Diagnostics findings;
   PathFingerprint path;
   ProgramStops stops;
+  auto lives = read_lives(arguments.tool_life, code);
+  if (!lives) return code;
+  CutForecast forecast(motion_limits(machine), std::move(*lives));
   const auto watch_path = [&](const PathItem& item) {
     if (resumable) path.add(item);
     stops.watch(item);
+    forecast.add(item);
   };
   const auto watch_operations = [&](const Operation& operation) { stops.watch(operation, options.tools); };
   const ProgramCheck check = check_program(program.again(), machine, options, findings, watch_path, watch_operations);
+  if (check.good) forecast.add_findings(arguments.program.program, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
   if (check.probes && is_on_port(arguments.board)) {
@@ -445,7 +471,15 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   if (arguments.start.line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
   const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};
   if (resumable && !resumable->suits(subject, code)) return code;
-  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops);
+  std::unique_ptr<ToolRecords> records;
+  std::optional<CutRecorder> cuts;
+  if (counts_tools(arguments)) {
+    const std::string file = tool_records_file(arguments.tool_life.records);
+    if (!file.empty() && !(records = open_tool_records(file, code))) return code;
+    if (records) cuts.emplace(*records, ResumableRun::journal_of(arguments));
+  }
+  if (resumable && cuts) resumable->count_into(*cuts);
+  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops, cuts ? &*cuts : nullptr);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ struct ServedServices {
   MotionTimer& timer;
 };
 
-ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
-                       const ServedServices& services, const std::string& macro_folder,
+ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedTools& tools,
+                       const ServedJobs& jobs, const ServedServices& services, const std::string& macro_folder,
                        std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
   options.history = history;
@@ -60,6 +60,8 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
     options.parameters = offsets->parameters();
     options.tools = offsets->tools();
   }
+  options.tool_records = tools.records();
+  options.tool_library = tools.library();
   options.keeper = jobs.journal;
   options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
@@ -105,18 +107,19 @@ WebLimits web_limits() {
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
                      MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
-                     const ServedJobs& jobs)
+                     std::unique_ptr<ServedTools> tools, const ServedJobs& jobs)
     : session_(session),
       owner_(owner),
       page_(arguments.page),
       has_page_(!arguments.page.empty()),
       history_(std::move(history)),
       offsets_(std::move(offsets)),
+      tools_(std::move(tools)),
       boards_(arguments),
       timer_(machine),
       api_(machine, session, owner,
            api_options(
-               arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
+               arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), *tools_, jobs,
                {boards_.contact, boards_.settings, maker_, studies_, timer_}, arguments.macros,
                [this](const SavedParameters& parameters, const ToolTable& tools) { return keep(parameters, tools); })) {
 }
@@ -144,8 +147,10 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
       return nullptr;
     }
   }
-  std::unique_ptr<ServedWeb> web(
-      new ServedWeb(arguments, machine, session, owner, std::move(history), std::move(offsets), jobs));
+  auto tools = ServedTools::open(arguments, code);
+  if (!tools) return nullptr;
+  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner, std::move(history),
+                                               std::move(offsets), std::move(tools), jobs));
   auto server = WebServer::listen(place->address.host, place->address.port, place->access, web->api_, web_limits());
   if (!server) {
     code = fail(exit_failed, server.error());

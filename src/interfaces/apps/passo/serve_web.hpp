@@ -17,6 +17,7 @@
 #include "served_settings.hpp"
 #include "served_studies.hpp"
 #include "served_timer.hpp"
+#include "served_tools.hpp"
 
 #include "passo/api/web_api.hpp"
 #include "passo/grbl/grbl_controller.hpp"
@@ -64,7 +65,7 @@ class ServedWeb {
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
             MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
-            const ServedJobs& jobs);
+            std::unique_ptr<ServedTools> tools, const ServedJobs& jobs);
   void publish();
   std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
@@ -74,8 +75,9 @@ class ServedWeb {
   bool has_page_ = false;
   std::unique_ptr<JobHistory> history_;     // may be null
   std::unique_ptr<ServedOffsets> offsets_;  // may be null
-  GrblController* grbl_ = nullptr;          // the controller for senders
-  GrblMachineSession* board_ = nullptr;     // a board that keeps the offsets
+  std::unique_ptr<ServedTools> tools_;
+  GrblController* grbl_ = nullptr;       // the controller for senders
+  GrblMachineSession* board_ = nullptr;  // a board that keeps the offsets
   std::string host_;
   ServedBoards boards_;
   ServedMaker maker_;
