@@ -73,8 +73,8 @@ WebAnswer ToolsApi::replace(const ApiCall& call) {
   if (!records->replace(static_cast<std::int32_t>(call.id), shared_.wall_time())) {
     return unwritten("the tool", "tool", records->trouble());
   }
-  // Checks have told what was left of the old tool.
-  shared_.programs.forget_checks();
+  // Checks have told what was left of the old tool. That of a running job has its path, for viewers.
+  if (!shared_.session.busy() && !shared_.programs.checks()) shared_.programs.forget_checks();
   return json_answer(200, {{"counts", true}, {"tools", tools()}});
 }
 

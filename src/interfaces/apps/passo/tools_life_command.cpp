@@ -1,4 +1,5 @@
 // passo tools life: what each tool has cut, what is left of its life, its length and its pocket.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
