@@ -130,7 +130,6 @@ export interface Program {
   deleted_lines: number; // how many begin with /
   small: boolean; // made on request, e.g. to frame a job
   height_map: boolean;
-  cuts: { tool: number; mm: number; s: number }[]; // what it cuts with each tool; empty before a check
   findings?: Finding[];
 }
 

@@ -302,18 +302,6 @@ Json as_json(const Diagnostics& findings) {
   return list;
 }
 
-namespace {
-
-Json cuts_json(const CutAmounts& cuts) {
-  Json list = Json::array();
-  for (const auto& [tool, cut] : cuts) {
-    list.push_back({{"tool", tool}, {"mm", rounded(cut.length.value())}, {"s", rounded(cut.time.value())}});
-  }
-  return list;
-}
-
-}  // namespace
-
 Json as_json(const StoredProgram& program, bool with_findings) {
   Json json = {{"id", program.id},
                {"name", program.name},
@@ -328,8 +316,7 @@ Json as_json(const StoredProgram& program, bool with_findings) {
                {"block_delete", program.block_delete},
                {"deleted_lines", program.deleted_lines},
                {"small", program.is_small},
-               {"height_map", program.height_map.has_value()},
-               {"cuts", cuts_json(program.cuts)}};
+               {"height_map", program.height_map.has_value()}};
   if (with_findings) json["findings"] = as_json(program.findings);
   return json;
 }

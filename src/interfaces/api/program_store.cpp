@@ -231,7 +231,6 @@ void ProgramStore::poll() {
   program.check = checker_->result();
   program.path_points.finish();
   program.path = path_.value();
-  program.cuts = cuts_->amounts();
   if (program.check.good) cuts_->add_findings(program.name, program.findings);
   program.state = program.check.good && !program.findings.any_error() ? UploadState::good : UploadState::bad;
   checker_.reset();

@@ -283,7 +283,8 @@ int check(const CheckArguments& arguments) {
 
   FirstLook first;
   int lives_code = exit_done;
-  auto lives = read_lives({.library = arguments.stock.tool_table, .records = arguments.tool_records}, lives_code);
+  auto lives =
+      read_lives({.library = arguments.stock.tool_table, .records = arguments.program.tool_life.records}, lives_code);
   if (!lives) return lives_code;
   first.lives = std::move(*lives);
   ProgressDisplay progress(program->name());

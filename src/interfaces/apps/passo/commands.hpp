@@ -41,6 +41,7 @@ struct ProgramArguments {
   bool files_of_settings = true;
   bool parameters_may_lack = false;  // the parameter file may be missing, because the run writes it at the end
   std::string dialect = "linuxcnc";  // or "grbl"
+  ToolLifeArguments tool_life;       // of `run` and `check`
 };
 
 struct SimulatedMotors {
@@ -86,9 +87,8 @@ struct RunArguments {
   bool home = false;                 // homes the machine first; the program then starts from the position after
                                      // homing
   bool from_here = false;            // treats the current position as machine zero, whatever was known before
-  ToolLifeArguments tool_life;
-  bool yes = false;   // continues at M0, M1 and M6 without asking
-  bool json = false;  // prints the summary as JSON
+  bool yes = false;                  // continues at M0, M1 and M6 without asking
+  bool json = false;                 // prints the summary as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
@@ -124,7 +124,6 @@ struct CheckArguments {
   std::string report;     // .html; empty: none
   std::string loads;      // .csv: torque utilisation of each line; empty: none
   StockArguments stock;   // stock, tools and clamps
-  std::string tool_records;             // counts what tools cut; empty: that of `run`
   std::optional<double> cutting_force;  // N/mm², specific cutting force of the material; empty: no stock is cut
   std::optional<double> spindle_speed;  // rpm of a spindle that the program does not command
   bool json = false;

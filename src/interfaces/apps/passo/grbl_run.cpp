@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,7 +23,6 @@
 #include "passo/activity/placed_tool_change.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
-#include "passo/job/cut_recorder.hpp"
 #include "passo/job/job_end.hpp"
 #include "passo/link/await.hpp"
 #include "passo/session/confirmed_place.hpp"
@@ -154,7 +152,7 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
     if (status.progress) progress.update(*status.progress, time_left.left(status));
   }
   if (ticket) answered = answer_of(session.take_changes(), *ticket);
-  if (cuts != nullptr && !cuts->end()) note("what the tools have cut was not counted: " + cuts->records().trouble());
+  end_cuts(cuts);
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   progress.clear();
   if (answered.outcome == Outcome::done) {
@@ -207,7 +205,7 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   set_offsets(options, session.board());
   Diagnostics findings;
   bool has_unplaced_change = false;
-  auto lives = read_lives(arguments.tool_life, code);
+  auto lives = read_lives(arguments.program.tool_life, code);
   if (!lives) return code;
   CutForecast forecast(motion_limits(machine), std::move(*lives));
   const bool is_confirmed = is_place_confirmed(session);
@@ -240,12 +238,9 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
     start.from = way->at;
     start.lead_in = way->lead_in;
   }
-  std::optional<CutRecorder> cuts;
-  std::unique_ptr<ToolRecords> records;
-  const std::string file = tool_records_file(arguments.tool_life.records);
-  if (!file.empty() && !(records = open_tool_records(file, code))) return code;
-  if (records) cuts.emplace(*records, arguments.board);
-  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes, cuts ? &*cuts : nullptr);
+  CountedCuts cuts;
+  if ((code = cuts.open(arguments.program.tool_life, arguments.board)) != exit_done) return code;
+  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes, cuts.recorder());
 }
 
 int home_grbl(const HomeArguments& arguments, const MachineDescription& machine) {

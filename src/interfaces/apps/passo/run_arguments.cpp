@@ -13,7 +13,7 @@ bool keeps_journal(const RunArguments& arguments) {
 }
 
 bool counts_tools(const RunArguments& arguments) {
-  return keeps_journal(arguments) || !arguments.tool_life.records.empty();
+  return keeps_journal(arguments) || !arguments.program.tool_life.records.empty();
 }
 
 bool names_are_good(const RunArguments& arguments) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "board_summary.hpp"
 #include "commands.hpp"
 #include "disturb_option.hpp"
 #include "from_line.hpp"
@@ -47,50 +48,6 @@ namespace {
 
 // The clock for the progress line is read once in so many turns.
 constexpr unsigned turns_between_looks = 1024;
-
-// What the machine and the line had done before the program began. If the machine was homed first, this is all up to
-// the end of homing. If not, this is nothing, so the hello counts as the program's.
-struct Before {
-  MachineCounts counts;
-  Ticks time;
-  std::uint64_t frames = 0;
-  std::uint64_t bytes = 0;
-};
-
-Before before_program(MachineConnection& machine) {
-  if (machine.session().homing() == nullptr) return {};
-  return {.counts = machine.machine().counts(),
-          .time = machine.machine().now(),
-          .frames = machine.frames_sent(),
-          .bytes = machine.bytes_sent()};
-}
-
-void add_board(RunSummary& summary, MachineConnection& opened, const MachineDescription& machine,
-               const Before& before) {
-  const MachineCounts counts = opened.machine().counts();
-  const BoardSession& link = opened.session().board();
-  BoardSummary board;
-  const Ticks time{opened.machine().now().count - before.time.count};
-  board.end = Seconds(static_cast<double>(time.count) / machine.board.clock.value());
-  board.events = static_cast<std::uint64_t>(counts.events - before.counts.events);
-  board.frames = opened.frames_sent() - before.frames;
-  board.bytes = opened.bytes_sent() - before.bytes;
-  if (const QueueUpdateLedger* ledger = opened.session().ledger(); ledger != nullptr && link.board()) {
-    board.held_items = link.board()->capacity;
-    board.rests = ledger->recoveries();
-  }
-  const Point place = kinematics_of(machine).axes(motors_of(counts));
-  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    const AxisDescription& axis = machine.axes[m];
-    const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;
-    const std::int64_t total = counts.motors[m].total - before.counts.motors[m].total;
-    summary.axes[m].net_steps = Steps{net};
-    summary.axes[m].total_steps = Steps{total};
-    summary.axes[m].position = place[axis.axis];
-    board.pulses += static_cast<std::uint64_t>(total);
-  }
-  summary.board = board;
-}
 
 void stop(BoardMachineSession& session) {
   try_request(session, request::Stop{});
@@ -193,10 +150,6 @@ struct Run {
   std::string journal_run = {};              // run_of() the journal; empty: there is none
 };
 
-void end_cuts(CutRecorder& cuts) {
-  if (!cuts.end()) note("what the tools have cut was not counted: " + cuts.records().trouble());
-}
-
 // Empty where the time over the line and the planned time are not of the same motion.
 std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, const ProgramReader& program,
                                          const MachineConnection& opened, const ScheduledChanges& changes) {
@@ -241,7 +194,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   };
   run.outputs.watch(run.opened.machine(), start.watchers);
   run.opened.follow(start.watchers, start.stands.value_or(session.status().position.place));
-  const Before before = before_program(run.opened);
+  const BoardBefore before = board_before(run.opened);
   const Seconds began = session.now();
   TailWatch tails;
   LinkPeakRate load;
@@ -272,7 +225,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   }
   progress.clear();
   run.opened.catch_up();
-  if (run.cuts != nullptr) end_cuts(*run.cuts);
+  end_cuts(run.cuts);
   RunSummary summary = builder.summary();
   summary.program = run.arguments.program.program;
   summary.machine = machine.name;
@@ -451,7 +404,7 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   Diagnostics findings;
   PathFingerprint path;
   ProgramStops stops;
-  auto lives = read_lives(arguments.tool_life, code);
+  auto lives = read_lives(arguments.program.tool_life, code);
   if (!lives) return code;
   CutForecast forecast(motion_limits(machine), std::move(*lives));
   const auto watch_path = [&](const PathItem& item) {
@@ -471,15 +424,11 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   if (arguments.start.line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
   const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};
   if (resumable && !resumable->suits(subject, code)) return code;
-  std::unique_ptr<ToolRecords> records;
-  std::optional<CutRecorder> cuts;
-  if (counts_tools(arguments)) {
-    const std::string file = tool_records_file(arguments.tool_life.records);
-    if (!file.empty() && !(records = open_tool_records(file, code))) return code;
-    if (records) cuts.emplace(*records, ResumableRun::journal_of(arguments));
-  }
-  if (resumable && cuts) resumable->count_into(*cuts);
-  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops, cuts ? &*cuts : nullptr);
+  CountedCuts cuts;
+  if (counts_tools(arguments)) code = cuts.open(arguments.program.tool_life, ResumableRun::journal_of(arguments));
+  if (code != exit_done) return code;
+  if (resumable && cuts.recorder()) resumable->count_into(*cuts.recorder());
+  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops, cuts.recorder());
 }
 
 }  // namespace

@@ -37,6 +37,13 @@ struct ServedJobs {
   std::function<PathJudge()> path_judge = {};  // see ApiOptions
 };
 
+// What is stored in the folder of --data.
+struct ServedData {
+  std::unique_ptr<JobHistory> history = {};     // may be null
+  std::unique_ptr<ServedOffsets> offsets = {};  // may be null
+  std::unique_ptr<ServedTools> tools = {};
+};
+
 class ServedWeb {
  public:
   // Null, with a message and `code`, if the address or the token is invalid.
@@ -64,8 +71,7 @@ class ServedWeb {
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-            MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
-            std::unique_ptr<ServedTools> tools, const ServedJobs& jobs);
+            MachineControl& owner, ServedData data, const ServedJobs& jobs);
   void publish();
   std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
@@ -73,9 +79,7 @@ class ServedWeb {
   MachineControl& owner_;
   PageFolder page_;
   bool has_page_ = false;
-  std::unique_ptr<JobHistory> history_;     // may be null
-  std::unique_ptr<ServedOffsets> offsets_;  // may be null
-  std::unique_ptr<ServedTools> tools_;
+  ServedData data_;
   GrblController* grbl_ = nullptr;       // the controller for senders
   GrblMachineSession* board_ = nullptr;  // a board that keeps the offsets
   std::string host_;

@@ -28,6 +28,20 @@ std::unique_ptr<ToolRecords> open_tool_records(const std::string& file, int& cod
   return nullptr;
 }
 
+int CountedCuts::open(const ToolLifeArguments& arguments, const std::string& machine) {
+  const std::string file = tool_records_file(arguments.records);
+  if (file.empty()) return exit_done;
+  int code = exit_done;
+  records_ = open_tool_records(file, code);
+  if (records_) recorder_.emplace(*records_, machine);
+  return code;
+}
+
+void end_cuts(CutRecorder* cuts) {
+  if (cuts == nullptr || cuts->end()) return;
+  note("what the tools have cut was not counted: " + cuts->records().trouble());
+}
+
 std::optional<LivesLeft> read_lives(const ToolLifeArguments& arguments, int& code) {
   if (arguments.library.empty()) return LivesLeft();
   Diagnostics findings;

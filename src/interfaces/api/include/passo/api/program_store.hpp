@@ -46,7 +46,6 @@ struct StoredProgram {
   std::uint64_t checks = 0;  // number of checks started
   Point checked_from = {};   // machine position at the last check
   ProgramCheck check;
-  CutAmounts cuts = {};                 // what it cuts with each tool, after a successful check
   bool changes_tools_by_moves = false;  // at the last check: M6, on a machine with [tool_change]
   std::optional<Seconds> planned_time;  // duration of its motion, including ramps, at overrides of 100 %
   std::uint64_t path = 0;               // fingerprint of its path, after a successful check
