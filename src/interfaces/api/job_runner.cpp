@@ -63,13 +63,13 @@ std::string_view name_of(JobState state) {
 
 JobRunner::JobRunner(const ApiShared& shared, MdiLines& mdi) : shared_(shared), mdi_(mdi) {
   const ApiOptions& options = shared.options;
-  if (options.tool_records != nullptr) cuts_ = std::make_unique<CutRecorder>(*options.tool_records, "passo serve");
+  if (options.workshop.records != nullptr) cuts_ = std::make_unique<CutRecorder>(*options.workshop.records, "passo serve");
   BoardMachineSession* const own = shared.session.as_board_session();
   if (own == nullptr || options.keeper == nullptr || options.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(
       shared.machine, *own, *options.keeper, *options.history,
       [&programs = shared.programs](Dialect dialect) { return programs.options_of(dialect); },
-      KeptJob::Names{.made_by = options.version, .machine = options.machine_file});
+      KeptJob::Names{.made_by = options.version, .machine = options.machine_access.stamp});
   own->listen_before_hello(
       [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
   if (options.broken_off) kept_->find(*options.broken_off);

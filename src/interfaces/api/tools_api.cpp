@@ -25,8 +25,8 @@ Json ToolsApi::tools() const {
   const ToolTable& table = shared_.programs.tools();
   std::map<std::int32_t, ToolRecord> records;
   std::set<std::int32_t> numbers;
-  if (options.tool_records != nullptr) {
-    for (const ToolRecord& record : options.tool_records->all()) records[record.tool] = record;
+  if (options.workshop.records != nullptr) {
+    for (const ToolRecord& record : options.workshop.records->all()) records[record.tool] = record;
   }
   for (const auto& [number, record] : records) numbers.insert(number);
   // Without a table, the interpreter has example tools, which nobody owns.
@@ -34,12 +34,12 @@ Json ToolsApi::tools() const {
   if (has_table) {
     for (const auto& [number, tool] : table.all()) numbers.insert(number);
   }
-  if (options.tool_library != nullptr) {
-    for (const CuttingTool& tool : options.tool_library->tools()) numbers.insert(tool.number);
+  if (options.workshop.library != nullptr) {
+    for (const CuttingTool& tool : options.workshop.library->tools()) numbers.insert(tool.number);
   }
   Json all = Json::array();
   for (const std::int32_t number : numbers) {
-    const CuttingTool* const tool = options.tool_library != nullptr ? options.tool_library->find(number) : nullptr;
+    const CuttingTool* const tool = options.workshop.library != nullptr ? options.workshop.library->find(number) : nullptr;
     const Tool* const entry = has_table ? table.find(number) : nullptr;
     const ToolRecord record = records.contains(number) ? records.at(number) : ToolRecord();
     const auto remark = table.remarks.find(number);
@@ -60,12 +60,12 @@ Json ToolsApi::tools() const {
 }
 
 WebAnswer ToolsApi::list(const ApiCall& /*call*/) {
-  const bool counts = shared_.options.tool_records != nullptr;
+  const bool counts = shared_.options.workshop.records != nullptr;
   return json_answer(200, {{"counts", counts}, {"tools", tools()}});
 }
 
 WebAnswer ToolsApi::replace(const ApiCall& call) {
-  ToolRecords* const records = shared_.options.tool_records;
+  ToolRecords* const records = shared_.options.workshop.records;
   if (records == nullptr) {
     return error_answer(404, "tools.not-counted", "what tools cut is not counted: start passo serve with --data");
   }

@@ -74,10 +74,10 @@ class WebApi::Parts {
                                                                                                              programs,
                                                                                                              offsets} {
     programs.judge_paths(options.path_judge);
-    if (options.tool_library != nullptr) {
+    if (options.workshop.library != nullptr) {
       programs.set_lives([this] {
-        const ToolRecords* const records = options.tool_records;
-        return lives_left(*options.tool_library, records != nullptr ? records->all() : std::vector<ToolRecord>());
+        const ToolRecords* const records = options.workshop.records;
+        return lives_left(*options.workshop.library, records != nullptr ? records->all() : std::vector<ToolRecord>());
       });
     }
     if (!options.macro_folder.empty()) programs.set_sub_folders({options.macro_folder});
@@ -104,7 +104,7 @@ class WebApi::Parts {
     if (shared.session.now() < keeps_again_) return;
     const bool is_kept = options.history == nullptr || options.history->keep();
     const bool are_offsets_kept = offsets.write_again();
-    const bool are_tools_kept = options.tool_records == nullptr || options.tool_records->keep();
+    const bool are_tools_kept = options.workshop.records == nullptr || options.workshop.records->keep();
     if (!is_kept || !are_offsets_kept || !are_tools_kept) keeps_again_ = shared.session.now() + between_attempts;
   }
 

@@ -64,7 +64,7 @@ void GrblMachineSession::make_feed() {
     work.progress.executed.watch_passed([this, &work, limits] { play_executed(work, limits); });
   }
   work.feed->watch([&work, limits](const PathItem& item) {
-    if (work.watchers.motion) work.unplayed.push_back(item);
+    if (work.watchers.motion) work.progress.unplayed.push_back(item);
     // The way to the point where the program begins is no part of it.
     const Seconds time = work.feed->leads_in() ? Seconds(0) : nominal_time_of(item, limits);
     if (const auto* segment = std::get_if<Segment>(&item)) {
@@ -84,9 +84,9 @@ void GrblMachineSession::make_feed() {
 
 // A board that plans by itself does not report its speeds: the time is that at the commanded feed.
 void GrblMachineSession::play_executed(Work& work, const MotionLimits& limits) const {
-  while (!work.unplayed.empty()) {
-    const PathItem item = std::move(work.unplayed.front());
-    work.unplayed.pop_front();
+  while (!work.progress.unplayed.empty()) {
+    const PathItem item = std::move(work.progress.unplayed.front());
+    work.progress.unplayed.pop_front();
     if (const auto* const action = std::get_if<Action>(&item)) {
       work.watchers.motion(*action);
       continue;

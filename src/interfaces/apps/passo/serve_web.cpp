@@ -60,11 +60,11 @@ ApiOptions api_options(const PageFolder* page, const ServedData& data, const Ser
     options.parameters = data.offsets->parameters();
     options.tools = data.offsets->tools();
   }
-  options.tool_records = data.tools->records();
-  options.tool_library = data.tools->library();
+  options.workshop.records = data.tools->records();
+  options.workshop.library = data.tools->library();
   options.keeper = jobs.journal;
-  options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
+  options.machine_access.stamp = jobs.machine_file;
   options.path_judge = jobs.path_judge;
   options.contact = &services.contact;
   options.settings = &services.settings;
