@@ -269,4 +269,63 @@ TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
   }
 }
 
+const std::string examples = checkout + "/examples/tools/";
+
+TEST_F(Tools, of_other_programs_are_imported_with_a_list_of_what_was_not) {
+  const std::string made = path("made.toml");
+  const json fusion = json_of("tools import " + examples + "fusion-export.json --json -o " + made);
+  EXPECT_EQ(fusion["format"], "fusion");
+  EXPECT_EQ(fusion["tools"].size(), 5U);
+  EXPECT_EQ(fusion["left_out"][0]["place"], "/data/5");
+  EXPECT_EQ(json_of("tools list --json " + made)["tools"][1]["diameter_mm"], 3.175);
+  const Outcome twice = passo("tools import " + examples + "fusion-export.json -o " + made);
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("[tools.exists]"));
+  const Outcome library = passo("tools import --force " + examples + "freecad/Library/Router.fctl -o " + made);
+  EXPECT_EQ(library.code, 0) << library.err;
+  EXPECT_THAT(library.out, HasSubstr("2 tools of "));
+  EXPECT_THAT(library.out, HasSubstr("missing.fctb is missing next to the library"));
+  const Outcome shapeless = passo("tools import " + examples + "linuxcnc.tbl --units mm -o " + path("none.toml"));
+  EXPECT_EQ(shapeless.code, 2);
+  EXPECT_THAT(shapeless.err, HasSubstr("[tool-import.none]"));
+  EXPECT_FALSE(std::filesystem::exists(path("none.toml")));
+  EXPECT_EQ(passo("tools import " + examples + "linuxcnc.tbl --units mm --shape flat -o " + path("mill.toml")).code, 0);
+}
+
+TEST_F(Tools, are_exported_to_linuxcnc_and_json_and_read_again) {
+  EXPECT_EQ(passo("tools export " + tool_library + " -o " + path("tools.json")).code, 0);
+  EXPECT_EQ(passo("tools import " + path("tools.json") + " -o " + path("again.toml")).code, 0);
+  EXPECT_EQ(json_of("tools list --json " + path("again.toml"))["tools"],
+            json_of("tools list --json " + tool_library)["tools"]);
+  EXPECT_EQ(passo("tools export " + tool_library + " -o " + path("tool.tbl")).code, 2) << "units";
+  EXPECT_EQ(passo("tools export " + tool_library + " --units inch -o " + path("tool.tbl")).code, 0);
+  EXPECT_THAT(read(path("tool.tbl")), HasSubstr("T1 P1 D0.23622 ; "));
+  EXPECT_EQ(passo("tools export " + tool_library + " -o " + path("tools.xyz")).code, 2);
+}
+
+TEST_F(Tools, wear_and_a_check_warns_where_a_life_ends) {
+  const std::string library = write("life.toml",
+                                    "[tool.1]\nshape = \"flat\"\ndiameter_mm = 6\nlife_m = 0.25\n"
+                                    "[tool.2]\nshape = \"flat\"\ndiameter_mm = 3\nlife_min = 600\n");
+  const std::string job = write("job.ngc", "G21\nT1 M6\nM3 S1000\nG1 X100 F600\nX0\nX100\nT2 M6\nM3\nG1 X0\nM5\nM2\n");
+  const std::string machine = " -m " + checkout + "/examples/machines/router.toml ";
+  const std::string records = " --tool-records " + path("tools.sqlite");
+  const Outcome fresh = passo("check " + job + machine + "--tool-table " + library + records);
+  EXPECT_THAT(fresh.err, HasSubstr("job.ngc:6: warning: the life of T1 ends here: the program cuts 0.3 m with it"));
+  EXPECT_THAT(fresh.err, Not(HasSubstr("T2")));
+  const Outcome run = passo("run " + job + machine + "--yes -q --tool-table " + library + records);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const json tools = json_of("tools life " + library + records + " --json")["tools"];
+  EXPECT_NEAR(tools[0]["cut_m"], 0.3, 1e-6);
+  EXPECT_NEAR(tools[1]["cut_m"], 0.1, 1e-6);
+  EXPECT_GE(tools[1]["cut_min"], 100.0 / 600);
+  EXPECT_LT(tools[1]["cut_min"], 100.0 / 600 + 0.05) << "with its ramps";
+  EXPECT_EQ(passo("tools life --replaced T1" + records).code, 0);
+  const json anew = json_of("tools life " + library + records + " --json")["tools"];
+  EXPECT_EQ(anew[0]["cut_m"], 0);
+  EXPECT_GT(anew[0]["replaced_at"], 1e9);
+  EXPECT_NEAR(anew[1]["cut_m"], 0.1, 1e-6);
+  EXPECT_EQ(passo("tools life --replaced T0" + records).code, 2);
+}
+
 }  // namespace

@@ -29,6 +29,7 @@ const std::map<std::string, Exception> exceptions = {
     {"EventStream", {24, "the state of one motor's events, in registers in its inner loop"}},
     {"RunSummary", {23, "the lines of one summary"}},
     {"MachineStatus", {23, "what a status says of a machine"}},
+    {"CuttingTool", {21, "the keys of a tool"}},
     {"DrillingPlan", {22, "the words of a drilling cycle"}},
     {"ProgramState", {21, "the modal state of a program"}},
     {"BlockExecutor", {21, "one family of codes each"}},

@@ -175,7 +175,7 @@ class JobServer final : public JobKeeper {
     options.history = history_.get();
     options.wall_time = [this] { return session_.now().value(); };
     options.keeper = this;
-    options.machine_file = {.name = "m.toml", .size = 1, .fingerprint = 2};
+    options.machine_access.stamp = {.name = "m.toml", .size = 1, .fingerprint = 2};
     options.broken_off = found;
     options.parameters = bench_.parameters;
     options.tools = bench_.tools;

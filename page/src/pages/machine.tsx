@@ -8,6 +8,7 @@ import { RowHead } from '../parts/row_head';
 import { Tuning } from '../parts/tuning';
 import { BoardPart } from './board';
 import { MachineEditor } from './machine_editor';
+import { ToolsPart } from './machine_tools';
 
 const columns: readonly [Key, (axis: MachineAxis) => string, (() => string)?][] = [
   ['machine.from', (axis) => placeText(axis.axis, axis.low), lengthUnit],
@@ -29,20 +30,21 @@ const stepText = ({ axis, steps_per_unit: steps }: MachineAxis): string =>
 const parts: readonly [string, Key][] = [
   ['machine', 'page.machine'],
   ['machine?part=board', 'board.title'],
+  ['machine?part=tools', 'toollife.title'],
 ];
 
 export function MachinePage() {
-  const isBoard = query.value.get('part') === 'board';
+  const shown = parts.findIndex(([path]) => path === `machine?part=${query.value.get('part')}`);
   return (
     <div class="machine">
       <nav class="machine-parts" aria-label={say('page.machine')}>
         {parts.map(([path, title], i) => (
-          <a key={path} href={`#/${path}`} aria-current={isBoard === (i === 1) ? 'page' : undefined}>
+          <a key={path} href={`#/${path}`} aria-current={Math.max(0, shown) === i ? 'page' : undefined}>
             {say(title)}
           </a>
         ))}
       </nav>
-      {isBoard ? <BoardPart /> : <MachinePart />}
+      {shown === 1 ? <BoardPart /> : shown === 2 ? <ToolsPart /> : <MachinePart />}
     </div>
   );
 }

@@ -33,6 +33,8 @@ constexpr NumberKey holder_key{"holder_diameter_mm", 0, 1000, "30"};
 constexpr NumberKey stick_out_key{"stick_out_mm", 1e-3, 1000, "25"};
 constexpr NumberKey holder_from_key{"holder_from_mm", 1e-3, 1000, "25"};
 constexpr NumberKey rpm_key{"max_rpm", 1, 1e6, "24000"};
+constexpr NumberKey life_length_key{"life_m", 0.001, 1e6, "300"};
+constexpr NumberKey life_time_key{"life_min", 0.01, 1e6, "120"};
 constexpr std::string_view shape_key = "shape";
 constexpr std::string_view name_key = "name";
 constexpr std::string_view loads_key = "chip_load_mm";
@@ -151,6 +153,8 @@ CuttingTool read_tool(TableReader& reader, const TomlReporter& reporter, bool is
   const auto is_hss = reader.is_second_of("machine.material", "material", "carbide", "hss", Need::optional);
   tool.material = is_hss.value_or(false) ? ToolMaterial::hss : ToolMaterial::carbide;
   tool.most_rpm = reader.number(rpm_key, Need::optional);
+  tool.life.length = Mm(reader.number(life_length_key, Need::optional).value_or(0) * mm_in_metre);
+  tool.life.time = Seconds(reader.number(life_time_key, Need::optional).value_or(0) * seconds_per_minute);
   read_chip_loads(reader, reporter, is_complete, tool);
   return tool;
 }

@@ -14,6 +14,7 @@
 #include "settings_api.hpp"
 #include "small_jobs_api.hpp"
 #include "studies_api.hpp"
+#include "tools_api.hpp"
 
 namespace passo {
 namespace {
@@ -125,7 +126,9 @@ constexpr ApiRoute routes[] = {
     {"GET", "/study/options", "getStudyOptions", anybody, none, &StudiesApi::options},
     {"GET", "/study/picture", "getStudyPicture", anybody, none, &StudiesApi::picture, Needs::studies},
 
+    {"GET", "/tools", "listTools", anybody, none, &ToolsApi::list},
     {"POST", "/tools", "readToolLibrary", anybody, bytes, &CamApi::tools},
+    {"POST", "/tools/{id}/replaced", "replaceTool", owner, none, &ToolsApi::replace},
 
     {"GET", "/uploads", "listUploads", anybody, none, &ProgramsApi::list_uploads},
     {"POST", "/uploads", "beginUpload", anybody, none, &ProgramsApi::begin_upload},

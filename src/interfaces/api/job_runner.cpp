@@ -63,15 +63,17 @@ std::string_view name_of(JobState state) {
 
 JobRunner::JobRunner(const ApiShared& shared, MdiLines& mdi) : shared_(shared), mdi_(mdi) {
   const ApiOptions& options = shared.options;
+  if (options.workshop.records != nullptr) cuts_ = std::make_unique<CutRecorder>(*options.workshop.records, "passo serve");
   BoardMachineSession* const own = shared.session.as_board_session();
   if (own == nullptr || options.keeper == nullptr || options.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(
       shared.machine, *own, *options.keeper, *options.history,
       [&programs = shared.programs](Dialect dialect) { return programs.options_of(dialect); },
-      KeptJob::Names{.made_by = options.version, .machine = options.machine_file});
+      KeptJob::Names{.made_by = options.version, .machine = options.machine_access.stamp});
   own->listen_before_hello(
       [this](const BoardStatus& status, const Greeting& greeting) { kept_->hear(status, greeting); });
   if (options.broken_off) kept_->find(*options.broken_off);
+  if (cuts_) kept_->recover_cuts(*cuts_);
 }
 
 bool JobRunner::runs(const StoredProgram& program) const {
@@ -197,6 +199,7 @@ bool JobRunner::call_off() {
 
 void JobRunner::poll() {
   if (kept_) kept_->poll();
+  if (cuts_) cuts_->poll(shared_.wall_time());
   if (is_checking() && !shared_.programs.checks()) begin_checked_job();
 }
 
@@ -282,6 +285,7 @@ void JobRunner::start_job() {
   }
   if (goes_on_) start.known_probes = parked_->probes;
   if (named_) kept_->add_to(start);
+  if (cuts_) cuts_->begin(start, named_ ? kept_->run() : std::string());
   const Point begins_at = start.options.start;
   std::vector<ProbeOutcome> probes = start.known_probes;
   const auto ticket = shared_.session.request(std::move(start));
@@ -304,6 +308,7 @@ void JobRunner::end_job(JobState state, Sentence why) {
     job_.why = std::move(why);
     return;
   }
+  if (cuts_) cuts_->end();
   if (parked_ && parked_->job.id == job_.id) parked_.reset();
   if (begins_.resumes && kept_->interrupted() != nullptr) state = JobState::interrupted;
   if (job_.state == JobState::running) mdi_.begin_anew();
@@ -406,6 +411,7 @@ void JobRunner::step_aside() {
   if (std::exchange(named_, false)) kept_->end(false);
   static_cast<void>(session.request(request::Stop{}).has_value());
   for (int turns = 0; session.busy() && turns < most_turns; ++turns) session.poll(a_turn);
+  if (cuts_) cuts_->end();
   mdi_.begin_anew();
 }
 

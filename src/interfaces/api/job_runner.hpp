@@ -95,7 +95,8 @@ class JobRunner {
 
   const ApiShared& shared_;
   MdiLines& mdi_;
-  std::unique_ptr<KeptJob> kept_;  // null: no journal is kept
+  std::unique_ptr<KeptJob> kept_;      // null: no journal is kept
+  std::unique_ptr<CutRecorder> cuts_;  // null: not counted
   ApiJob job_;
   // The parameters of the start of the job.
   struct Beginning {

@@ -90,7 +90,7 @@ std::optional<WebAnswer> MachineFileApi::refuse_while_moving() const {
 
 WebAnswer MachineFileApi::get(const ApiCall&) {
   const MachineFileAccess& file = shared_.options.machine_access;
-  const FileStamp& in_force = shared_.options.machine_file;
+  const FileStamp& in_force = shared_.options.machine_access.stamp;
   const auto text = file.read ? file.read() : std::nullopt;
   if (!text) return error_answer(404, "machine-file.none", "the machine file cannot be read");
   Json json = draft_json(*text, file.name);

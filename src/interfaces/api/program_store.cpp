@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "passo/activity/placed_tool_change.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/api/deleted_lines.hpp"
 #include "passo/interpreter/saved_offsets.hpp"
 
@@ -155,6 +156,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
                                               program.findings);
   path_ = PathFingerprint();
   judge_ = new_judge_ ? new_judge_() : nullptr;
+  cuts_.emplace(motion_limits(machine), lives_ ? lives_() : LivesLeft());
   told_.clear();
   checker_->watch_operations([stored = &program, &machine](const Operation& operation) {
     stored->changes_tools_by_moves = stored->changes_tools_by_moves || is_placed_tool_change(operation, machine);
@@ -163,6 +165,7 @@ void ProgramStore::check(std::uint64_t id, const MachineDescription& machine, co
     stored->path_points.add(item, checker_->frame());
     stored->outline.add(item);
     path_.add(item);
+    cuts_->add(item);
     if (judge_) judge(item, *stored);
   });
 }
@@ -228,6 +231,7 @@ void ProgramStore::poll() {
   program.check = checker_->result();
   program.path_points.finish();
   program.path = path_.value();
+  if (program.check.good) cuts_->add_findings(program.name, program.findings);
   program.state = program.check.good && !program.findings.any_error() ? UploadState::good : UploadState::bad;
   checker_.reset();
 }

@@ -15,9 +15,11 @@
 #include "settings_api.hpp"
 #include "small_jobs_api.hpp"
 #include "studies_api.hpp"
+#include "tools_api.hpp"
 #include <fmt/format.h>
 
 #include "passo/api/api_routes.hpp"
+#include "passo/api/tool_lives.hpp"
 #include "passo/session/board_machine_session.hpp"
 
 namespace passo {
@@ -73,6 +75,12 @@ class WebApi::Parts {
                                                                                                              programs,
                                                                                                              offsets} {
     programs.judge_paths(options.path_judge);
+    if (options.workshop.library != nullptr) {
+      programs.set_lives([this] {
+        const ToolRecords* const records = options.workshop.records;
+        return lives_left(*options.workshop.library, records != nullptr ? records->all() : std::vector<ToolRecord>());
+      });
+    }
     if (!options.macro_folder.empty()) programs.set_sub_folders({options.macro_folder});
     mdi.begin_anew();
     if (BoardMachineSession* const own = session.as_board_session()) {
@@ -97,7 +105,8 @@ class WebApi::Parts {
     if (shared.session.now() < keeps_again_) return;
     const bool is_kept = options.history == nullptr || options.history->keep();
     const bool are_offsets_kept = offsets.write_again();
-    if (!is_kept || !are_offsets_kept) keeps_again_ = shared.session.now() + between_attempts;
+    const bool are_tools_kept = options.workshop.records == nullptr || options.workshop.records->keep();
+    if (!is_kept || !are_offsets_kept || !are_tools_kept) keeps_again_ = shared.session.now() + between_attempts;
   }
 
   const ApiOptions options;
@@ -118,6 +127,7 @@ class WebApi::Parts {
   SettingsApi settings_api{shared, jobs};
   SmallJobsApi small_jobs_api{shared, jobs};
   StudiesApi studies_api{shared};
+  ToolsApi tools_api{shared};
 
  private:
   // Another method, or a path of the page's.
@@ -145,6 +155,7 @@ class WebApi::Parts {
   WebAnswer ask(AnswerOf<ProgramsApi> handler, const ApiCall& call) { return (programs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<SettingsApi> handler, const ApiCall& call) { return (settings_api.*handler)(call); }
   WebAnswer ask(AnswerOf<SmallJobsApi> handler, const ApiCall& call) { return (small_jobs_api.*handler)(call); }
+  WebAnswer ask(AnswerOf<ToolsApi> handler, const ApiCall& call) { return (tools_api.*handler)(call); }
   WebAnswer ask(AnswerOf<StudiesApi> handler, const ApiCall& call) { return (studies_api.*handler)(call); }
 
   Seconds keeps_again_{0};  // what could not be written is tried again then

@@ -75,6 +75,7 @@ void GrblExecuted::pass() {
   time_ += pieces_.front().dwell + pieces_.front().time;
   pieces_.pop_front();
   share_ = 0;
+  if (passed_) passed_();
 }
 
 Seconds GrblExecuted::time(std::optional<Seconds> dwell_left) const {

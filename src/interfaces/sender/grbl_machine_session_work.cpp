@@ -62,7 +62,11 @@ void GrblMachineSession::make_feed() {
   sender_.follow(first_work_zero(board_), connection_.ahead);
   work.progress.lines_before = sender_.lines_sent();
   const MotionLimits limits = motion_limits(machine_);
+  if (work.watchers.motion) {
+    work.progress.executed.watch_passed([this, &work, limits] { play_executed(work, limits); });
+  }
   work.feed->watch([&work, limits](const PathItem& item) {
+    if (work.watchers.motion) work.progress.unplayed.push_back(item);
     // The way to the point where the program begins is no part of it.
     const Seconds time = work.feed->leads_in() ? Seconds(0) : nominal_time_of(item, limits);
     if (const auto* segment = std::get_if<Segment>(&item)) {
@@ -78,6 +82,24 @@ void GrblMachineSession::make_feed() {
   if (work.start && work.start->from) work.feed->begin_at(*work.start->from, work.start->lead_in);
   if (work.is_program() && overrides_ != Overrides()) send_overrides();
   work.stage = Work::Stage::moves;
+}
+
+// A board that plans by itself does not report its speeds: the time is that at the commanded feed.
+void GrblMachineSession::play_executed(Work& work, const MotionLimits& limits) const {
+  while (!work.progress.unplayed.empty()) {
+    const PathItem item = std::move(work.progress.unplayed.front());
+    work.progress.unplayed.pop_front();
+    if (const auto* const action = std::get_if<Action>(&item)) {
+      work.watchers.motion(*action);
+      continue;
+    }
+    PlannedMove move;
+    move.begin_on(std::get<Segment>(item));
+    const double factor = move.segment.rapid ? overrides_.rapids : overrides_.feed;
+    move.add({.duration = nominal_time_of(item, limits) / (factor > 0 ? factor : 1)});
+    move.to = move.segment.curve.length();
+    return work.watchers.motion(move);
+  }
 }
 
 void GrblMachineSession::poll_feed() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -27,6 +28,7 @@ struct GrblMachineSession::Work {
 
   struct Progress {
     GrblExecuted executed;
+    std::deque<PathItem> unplayed;   // sent and not executed, for watchers.motion
     Seconds skipped{0};              // nominal time of what comes before the point where the program begins
     Seconds reached{0};              // nominal time from the beginning of the program
     std::uint64_t lines_before = 0;  // lines sent before this work

@@ -84,11 +84,13 @@ void ToolChangeCycle::go_on_after_macro() {
   stage_ = plan_.measures && start_.to != 0 ? after_load() : Stage::go_back;
 }
 
-// Asks for the next tool, or to go on with the one that is in the spindle.
+// Asks for the next tool. If the first one is said to be in the spindle, the operator confirms it: a wrong tool there
+// would be measured, or trusted, like the right one.
 void ToolChangeCycle::ask() {
   const bool is_first = !known_.any_change && reason_.empty();
   if (is_first && plan_.first != FirstTool::change && start_.to != 0) {
-    emit(operation::ChangeTool{start_.to, true});
+    say(fmt::format("check that tool {} is in the spindle{}, then continue", start_.to, remark()));
+    emit(operation::ChangeTool{start_.to});
     stage_ = plan_.first == FirstTool::trusted || !plan_.measures ? Stage::go_back : after_load();
     return;
   }
@@ -98,11 +100,14 @@ void ToolChangeCycle::ask() {
   if (start_.to == 0) {
     say("take the tool out of the spindle, then continue");
   } else {
-    say(fmt::format("put tool {} into the spindle{}, then continue", start_.to,
-                    start_.remark.empty() ? "" : fmt::format(" ({})", start_.remark)));
+    say(fmt::format("put tool {} into the spindle{}, then continue", start_.to, remark()));
   }
   emit(operation::ChangeTool{start_.to});
   stage_ = start_.to == 0 || !plan_.measures ? Stage::go_back : after_load();
+}
+
+std::string ToolChangeCycle::remark() const {
+  return start_.remark.empty() ? std::string() : fmt::format(" ({})", start_.remark);
 }
 
 ToolChangeCycle::Stage ToolChangeCycle::after_load() const {

@@ -75,6 +75,7 @@ class ToolChangeCycle final : public Cycle {
   void go_on_after_macro();
   void ask();
   Stage after_load() const;
+  std::string remark() const;
   void place_plate();
   void go_to_setter();
   void seek();

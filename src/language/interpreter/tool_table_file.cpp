@@ -140,8 +140,14 @@ bool read_tool_table(const std::string& path, LengthUnits units, ToolTable& tabl
     diagnostics.add(std::move(problem));
     return false;
   }
+  return read_tool_table(std::move(*reader), units, table, diagnostics);
+}
+
+bool read_tool_table(ProgramReader reader, LengthUnits units, ToolTable& table, Diagnostics& diagnostics) {
+  table = {};
+  table.name = reader.name();
   const std::size_t before = diagnostics.errors();
-  TableReader(std::move(*reader), units, table, diagnostics).read();
+  TableReader(std::move(reader), units, table, diagnostics).read();
   return diagnostics.errors() == before;
 }
 

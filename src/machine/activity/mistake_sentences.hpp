@@ -24,6 +24,9 @@ inline constexpr SentenceRow speed_in_machine_file{
     "expected.speed-in-machine-file", "tool.max_rpm in the machine file, if the machine sets the spindle's speed"};
 inline constexpr SentenceRow idle_tool{"path.idle-tool", "T{tool} has no effect: the program has no tool change (M6)"};
 inline constexpr SentenceRow tool_change{"expected.tool-change", "M6 after the T word"};
+inline constexpr SentenceRow life_ends{
+    "tool.life-ends", "the life of T{tool} ends here: the program cuts {cuts} with it, and {left} are left"};
+inline constexpr SentenceRow new_tool{"expected.new-tool", "a new T{tool}, recorded as replaced"};
 inline constexpr SentenceRow long_dwell{"path.long-dwell",
                                         "this dwell takes {time} seconds; were {time} milliseconds meant?"};
 inline constexpr SentenceRow dwell_in_seconds{"expected.dwell-in-seconds",

@@ -1,12 +1,16 @@
 #include "passo/job/interrupted_job.hpp"
 
+#include "passo/journal/cut_between.hpp"
+
 namespace passo {
 
 BrokenOff broken_off(const Journal& journal, const BoardStatus& status, const Greeting& greeting) {
   BrokenOff found{.head = journal.head(),
                   .refused = refuse_rest(journal, status),
                   .done = journal.done(),
-                  .farthest = journal.farthest()};
+                  .farthest = journal.farthest(),
+                  .began = journal.head().place,
+                  .run = run_of(journal.head())};
   if (!found.refused && (status.state & board_moves) != 0) found.refused = ResumeRefusal::rest_unknown;
   if (found.refused) return found;
   found.head.place = found.done = found.farthest = *journal.place_of(status);

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "sqlite_statement.hpp"
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 namespace passo {
 namespace {
@@ -35,55 +35,6 @@ constexpr std::int64_t number_of(HistoryState state) {
   return static_cast<std::int64_t>(state);
 }
 
-// One statement. Values are bound in order, and columns read in order.
-class Statement {
- public:
-  Statement(sqlite3* database, const char* sql) { sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-  ~Statement() { sqlite3_finalize(statement_); }
-
-  Statement& with(std::int64_t value) {
-    sqlite3_bind_int64(statement_, ++bound_, value);
-    return *this;
-  }
-  Statement& with(double value) {
-    sqlite3_bind_double(statement_, ++bound_, value);
-    return *this;
-  }
-  // The text outlives the statement.
-  Statement& with(std::string_view value) {
-    sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8);
-    return *this;
-  }
-  Statement& with_bytes(std::string_view value) {
-    sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC);
-    return *this;
-  }
-
-  // False: the database has no such tables or columns.
-  bool is_good() const { return statement_ != nullptr; }
-  // True: there is a row.
-  bool step() {
-    read_ = -1;
-    return statement_ != nullptr && sqlite3_step(statement_) == SQLITE_ROW;
-  }
-  bool run() { return statement_ != nullptr && sqlite3_step(statement_) == SQLITE_DONE; }
-
-  std::int64_t number() { return sqlite3_column_int64(statement_, ++read_); }
-  double real() { return sqlite3_column_double(statement_, ++read_); }
-  std::string text() {
-    const void* const bytes = sqlite3_column_blob(statement_, ++read_);
-    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, read_));
-    return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
-  }
-
- private:
-  sqlite3_stmt* statement_ = nullptr;
-  int bound_ = 0;
-  int read_ = -1;
-};
-
 }  // namespace
 
 std::string_view name_of(HistoryState state) {
@@ -106,24 +57,24 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
     return failed(reason());
   }
   {
-    Statement check(database, "PRAGMA quick_check(1)");
+    SqliteStatement check(database, "PRAGMA quick_check(1)");
     if (!check.step()) return failed(reason());
     if (const std::string found = check.text(); found != "ok") return failed("it is damaged: " + found);
   }
   std::int64_t known = 0;
   {
-    Statement of(database, "PRAGMA user_version");
+    SqliteStatement of(database, "PRAGMA user_version");
     if (of.step()) known = of.number();
   }
   if (known > version) return failed(fmt::format("its version is {}, but this program supports {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
   if (!history->run(table_of_waits)) return failed(reason());
   for (const char* const table : {"jobs", "alarms"}) {
-    Statement column(database, fmt::format("SELECT sentence FROM {} LIMIT 0", table).c_str());
+    SqliteStatement column(database, fmt::format("SELECT sentence FROM {} LIMIT 0", table).c_str());
     if (column.is_good()) continue;
     if (!history->run(fmt::format(fmt::runtime(column_of_sentence), table).c_str())) return failed(reason());
   }
-  Statement interrupt(database, "UPDATE jobs SET state = ?, why = ?, sentence = ? WHERE state = ?");
+  SqliteStatement interrupt(database, "UPDATE jobs SET state = ?, why = ?, sentence = ? WHERE state = ?");
   interrupt.with(number_of(HistoryState::interrupted)).with(killed).with(killed_sentence);
   interrupt.with(number_of(HistoryState::running));
   if (!interrupt.run()) return failed(reason());
@@ -146,9 +97,9 @@ bool JobHistory::judge(bool done) {
 
 std::optional<std::int64_t> JobHistory::insert(HistoryState state, std::string_view name, std::string_view dialect,
                                                std::string_view program, double now) {
-  Statement insert(database_,
-                   "INSERT INTO jobs (name, dialect, bytes, state, queued_at, begun_at, program)"
-                   " VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(database_,
+                         "INSERT INTO jobs (name, dialect, bytes, state, queued_at, begun_at, program)"
+                         " VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.with(name).with(dialect).with(static_cast<std::int64_t>(program.size())).with(number_of(state)).with(now);
   insert.with(state == HistoryState::running ? now : 0.0).with_bytes(program);
   is_kept_ = false;
@@ -158,7 +109,7 @@ std::optional<std::int64_t> JobHistory::insert(HistoryState state, std::string_v
 
 std::optional<std::int64_t> JobHistory::add(std::string_view name, std::string_view dialect, std::string_view program,
                                             double now) {
-  Statement count(database_, "SELECT count(*) FROM jobs WHERE state = ?");
+  SqliteStatement count(database_, "SELECT count(*) FROM jobs WHERE state = ?");
   count.with(number_of(HistoryState::queued));
   if (!judge(count.step()) || count.number() >= static_cast<std::int64_t>(most_queued)) return {};
   return insert(HistoryState::queued, name, dialect, program, now);
@@ -172,7 +123,7 @@ std::optional<std::int64_t> JobHistory::add_running(std::string_view name, std::
 std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) const {
   const std::string sql = fmt::format(
       "SELECT id, name, dialect, bytes, state, why, sentence, queued_at, begun_at, ended_at FROM jobs {}", where);
-  Statement select(database_, sql.c_str());
+  SqliteStatement select(database_, sql.c_str());
   select.with(value);
   std::vector<HistoryJob> found;
   while (select.step()) {
@@ -207,7 +158,7 @@ void JobHistory::add_waits(std::vector<HistoryJob>& jobs, const char* where, std
   const std::string sql = fmt::format(
       "SELECT job, at, code, line, tool, words FROM waits WHERE job IN (SELECT id FROM jobs {}) ORDER BY job, number",
       where);
-  Statement select(database_, sql.c_str());
+  SqliteStatement select(database_, sql.c_str());
   select.with(value);
   while (select.step()) {
     const auto job = by_id.find(select.number());
@@ -228,15 +179,15 @@ std::optional<HistoryJob> JobHistory::find(std::int64_t id) const {
 }
 
 std::optional<std::string> JobHistory::program_of(std::int64_t id) const {
-  Statement select(database_, "SELECT program FROM jobs WHERE id = ? AND program IS NOT NULL");
+  SqliteStatement select(database_, "SELECT program FROM jobs WHERE id = ? AND program IS NOT NULL");
   select.with(id);
   return select.step() ? std::optional(select.text()) : std::nullopt;
 }
 
 bool JobHistory::begin(std::int64_t id, double now) {
   is_kept_ = false;
-  Statement update(database_,
-                   "UPDATE jobs SET state = ?, begun_at = ?, why = '', sentence = '', ended_at = 0 WHERE id = ?");
+  SqliteStatement update(database_,
+                         "UPDATE jobs SET state = ?, begun_at = ?, why = '', sentence = '', ended_at = 0 WHERE id = ?");
   update.with(number_of(HistoryState::running)).with(now).with(id);
   if (!judge(update.run())) return false;
   std::erase_if(unwritten_, [id](const End& one) { return one.id == id; });
@@ -254,33 +205,33 @@ bool JobHistory::end(std::int64_t id, HistoryState state, std::string_view why, 
 
 bool JobHistory::write(const End& end) {
   is_kept_ = false;
-  Statement update(database_,
-                   "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3, sentence = ?6,"
-                   " program = CASE WHEN ?1 = ?4 THEN NULL ELSE program END WHERE id = ?5");
+  SqliteStatement update(database_,
+                         "UPDATE jobs SET state = ?1, why = ?2, ended_at = ?3, sentence = ?6,"
+                         " program = CASE WHEN ?1 = ?4 THEN NULL ELSE program END WHERE id = ?5");
   update.with(number_of(end.state)).with(end.why).with(end.at).with(number_of(HistoryState::done)).with(end.id);
   update.with(end.why_sentence);
   if (!judge(update.run())) return false;
   // What is too old is forgotten the next time, if not now.
-  Statement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
-  Statement forget_waits(database_, "DELETE FROM waits WHERE job < (SELECT min(id) FROM jobs)");
+  SqliteStatement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
+  SqliteStatement forget_waits(database_, "DELETE FROM waits WHERE job < (SELECT min(id) FROM jobs)");
   static_cast<void>(forget.with(most_ended).run() && forget_waits.run());
   return true;
 }
 
 bool JobHistory::record_wait(std::int64_t id, const HistoryWait& wait) {
   is_kept_ = false;
-  Statement count(database_, "SELECT count(*) FROM waits WHERE job = ?");
+  SqliteStatement count(database_, "SELECT count(*) FROM waits WHERE job = ?");
   const std::int64_t noted = count.with(id).step() ? count.number() : most_waits;
   if (noted >= most_waits) return false;
-  Statement insert(database_,
-                   "INSERT INTO waits (job, number, at, code, line, tool, words) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(database_,
+                         "INSERT INTO waits (job, number, at, code, line, tool, words) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.with(id).with(noted).with(wait.at).with(wait.code).with(std::int64_t{wait.line});
   return judge(insert.with(std::int64_t{wait.tool.value_or(no_tool)}).with(wait.words).run());
 }
 
 bool JobHistory::remove(std::int64_t id) {
   is_kept_ = false;
-  Statement gone(database_, "DELETE FROM jobs WHERE id = ? AND state = ?");
+  SqliteStatement gone(database_, "DELETE FROM jobs WHERE id = ? AND state = ?");
   gone.with(id).with(number_of(HistoryState::queued));
   return judge(gone.run()) && sqlite3_changes(database_) == 1;
 }
@@ -295,9 +246,9 @@ bool JobHistory::record_alarm(std::string_view words, double now, std::string_vi
 
 bool JobHistory::write(const HistoryAlarm& alarm) {
   is_kept_ = false;
-  Statement insert(database_, "INSERT INTO alarms (at, words, sentence) VALUES (?, ?, ?)");
+  SqliteStatement insert(database_, "INSERT INTO alarms (at, words, sentence) VALUES (?, ?, ?)");
   if (!judge(insert.with(alarm.at).with(alarm.words).with(alarm.sentence).run())) return false;
-  Statement forget(database_, "DELETE FROM alarms WHERE id <= (SELECT max(id) FROM alarms) - ?");
+  SqliteStatement forget(database_, "DELETE FROM alarms WHERE id <= (SELECT max(id) FROM alarms) - ?");
   static_cast<void>(forget.with(most_alarms).run());
   return true;
 }
@@ -317,7 +268,7 @@ std::vector<HistoryJob> JobHistory::ended(std::int64_t most) const {
 }
 
 std::vector<HistoryAlarm> JobHistory::alarms(std::int64_t most) const {
-  Statement select(database_, "SELECT at, words, sentence FROM alarms ORDER BY id DESC LIMIT ?");
+  SqliteStatement select(database_, "SELECT at, words, sentence FROM alarms ORDER BY id DESC LIMIT ?");
   select.with(most);
   // Newest first, also those that are not written yet.
   std::vector<HistoryAlarm> found(unwritten_alarms_.rbegin(), unwritten_alarms_.rend());

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <utility>
 
+#include "passo/journal/cut_between.hpp"
+
 namespace passo {
 namespace {
 
@@ -141,6 +143,14 @@ InterpreterOptions KeptJob::options() const {
   return options;
 }
 
+// The path up to there was found by find_way_back(), so it is that of the job.
+void KeptJob::recover_cuts(CutRecorder& cuts) const {
+  if (!interrupted_ || !interrupted_->back_at) return;
+  const BrokenOff& found = interrupted_->journal;
+  const auto text = ProgramReader::from_text(interrupted_->job.name, program());
+  cuts.recover(found.run, cut_between(text.again(), machine_, options(), found.began, found.done, found.head.probes));
+}
+
 void KeptJob::drop() {
   interrupted_.reset();
   keeper_.remove();
@@ -148,6 +158,7 @@ void KeptJob::drop() {
 
 bool KeptJob::write(const JournalHead& head, std::optional<JobEntry> entry) {
   if (!run_.begin(head, std::move(entry))) return false;
+  begun_run_ = run_of(head);
   keeper_.name_session(head.numbers.session);
   return true;
 }

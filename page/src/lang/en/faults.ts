@@ -93,6 +93,7 @@ export const faults = {
   'mdi.unsupported.board-setting': 'the board has its own settings: read them in the Machine tab, part Board',
   'jobs.interrupted': 'a job was interrupted: resume or discard it first',
   'jobs.interrupted.zero': 'an interrupted job needs its work zero: resume or discard it first',
+  'tools.not-counted': 'what tools cut is not counted: start passo serve with --data',
   'jobs.waits': '{name} is waiting at line {line}: continue or stop it first',
   'framing.unchecked': 'the program has not been checked from here, or has errors: check it first',
   'framing.no-zero': 'the work zero is not set, so the job lies at machine zero: set the work zero first',

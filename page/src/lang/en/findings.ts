@@ -134,6 +134,8 @@ export const findings = {
   'expected.speed-in-machine-file': 'tool.max_rpm in the machine file, if the machine sets the spindle’s speed',
   'path.idle-tool': 'T{tool} has no effect: the program has no tool change (M6)',
   'expected.tool-change': 'M6 after the T word',
+  'tool.life-ends': 'the life of T{tool} ends here: the program cuts {cuts} with it, and {left} are left',
+  'expected.new-tool': 'a new T{tool}, recorded as replaced',
   'path.long-dwell': 'this dwell takes {time} seconds; were {time} milliseconds meant?',
   'expected.dwell-in-seconds': 'P in seconds: P{short} for {time} milliseconds',
   'path.spindle-left-on': 'the spindle is still on where ’%’ ends the program',

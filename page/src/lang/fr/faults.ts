@@ -95,6 +95,7 @@ export const faults: Same<typeof en> = {
   'mdi.unsupported.board-setting': 'la carte a ses propres réglages : lisez-les dans l’onglet Machine, partie Carte',
   'jobs.interrupted': 'un usinage a été interrompu : reprenez-le ou abandonnez-le d’abord',
   'jobs.interrupted.zero': 'un usinage interrompu dépend de son origine pièce : reprenez-le ou abandonnez-le d’abord',
+  'tools.not-counted': 'la coupe des outils n’est pas comptée : lancez passo serve avec --data',
   'jobs.waits': '{name} attend à la ligne {line} : continuez-le ou arrêtez-le d’abord',
   'framing.unchecked': 'le programme n’a pas été vérifié d’ici, ou a des erreurs : vérifiez-le d’abord',
   'framing.no-zero': 'l’origine pièce n’est pas définie, l’usinage part du zéro machine : définissez-la d’abord',

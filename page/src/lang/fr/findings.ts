@@ -135,6 +135,8 @@ export const findings: Same<typeof en> = {
   'expected.speed-in-machine-file': 'tool.max_rpm dans le fichier machine, si la machine règle la vitesse de broche',
   'path.idle-tool': 'T{tool} est sans effet : le programme n’a pas de changement d’outil (M6)',
   'expected.tool-change': 'M6 après le mot T',
+  'tool.life-ends': 'la durée de vie de T{tool} se termine ici : le programme coupe {cuts} avec cet outil, et il en reste {left}',
+  'expected.new-tool': 'un nouvel outil T{tool}, enregistré comme remplacé',
   'path.long-dwell': 'cette temporisation dure {time} secondes ; vouliez-vous {time} millisecondes ?',
   'expected.dwell-in-seconds': 'P en secondes : P{short} pour {time} millisecondes',
   'path.spindle-left-on': 'la broche tourne encore quand « % » termine le programme',

@@ -95,6 +95,7 @@ export const faults: Same<typeof en> = {
   'mdi.unsupported.board-setting': 'la scheda ha impostazioni proprie: leggile nella pagina Macchina, parte Scheda',
   'jobs.interrupted': 'un lavoro è stato interrotto: prima riprendilo o abbandonalo',
   'jobs.interrupted.zero': 'un lavoro interrotto ha bisogno del suo zero pezzo: prima riprendilo o abbandonalo',
+  'tools.not-counted': 'il taglio degli utensili non viene contato: avvia passo serve con --data',
   'jobs.waits': '{name} attende alla riga {line}: prima continualo o fermalo',
   'framing.unchecked': 'il programma non è stato verificato da qui, o ha errori: verificalo prima',
   'framing.no-zero': 'lo zero pezzo non è impostato, il lavoro parte dallo zero macchina: impostalo prima',

@@ -135,6 +135,8 @@ export const findings: Same<typeof en> = {
   'expected.speed-in-machine-file': 'tool.max_rpm nel file macchina, se la macchina regola la velocità del mandrino',
   'path.idle-tool': 'T{tool} non ha effetto: il programma non ha cambi utensile (M6)',
   'expected.tool-change': 'M6 dopo la parola T',
+  'tool.life-ends': 'la vita di T{tool} finisce qui: il programma taglia {cuts} con questo utensile, e ne restano {left}',
+  'expected.new-tool': 'un nuovo T{tool}, registrato come sostituito',
   'path.long-dwell': 'questa sosta dura {time} secondi; intendevi {time} millisecondi?',
   'expected.dwell-in-seconds': 'P in secondi: P{short} per {time} millisecondi',
   'path.spindle-left-on': 'il mandrino gira ancora quando ’%’ termina il programma',

@@ -95,6 +95,7 @@ export const faults: Same<typeof en> = {
   'mdi.unsupported.board-setting': '控制板有自己的设置：请在“机床”页的“控制板”部分读取',
   'jobs.interrupted': '有作业被中断：请先续加工或放弃',
   'jobs.interrupted.zero': '中断的作业仍需要原来的工件零点：请先续加工或放弃该作业',
+  'tools.not-counted': '未统计刀具的切削量：请用 --data 启动 passo serve',
   'jobs.waits': '{name} 在第 {line} 行等待：请先继续或停止',
   'framing.unchecked': '程序尚未从此处检查，或有错误：请先检查',
   'framing.no-zero': '尚未设置工件零点，加工位于机床零点：请先设置工件零点',

@@ -135,6 +135,8 @@ export const findings: Same<typeof en> = {
   'expected.speed-in-machine-file': '若机床可调主轴转速，请在机床文件写 tool.max_rpm',
   'path.idle-tool': 'T{tool} 无效：程序中没有换刀（M6）',
   'expected.tool-change': 'T 之后写 M6',
+  'tool.life-ends': 'T{tool} 的寿命在此处用尽：程序用它切削 {cuts}，仅剩 {left}',
+  'expected.new-tool': '换上新的 T{tool}，并登记为已更换',
   'path.long-dwell': '此处延时 {time} 秒；是否想写 {time} 毫秒？',
   'expected.dwell-in-seconds': 'P 以秒计：{time} 毫秒写 P{short}',
   'path.spindle-left-on': '“%”结束程序时主轴仍在转',

@@ -112,8 +112,8 @@ std::string refusal_of(const CheckArguments& arguments) {
     return "--colour-by margin needs --picture, and cannot be combined with --motion";
   }
   const StockArguments& stock = arguments.stock;
-  const bool cuts = !stock.block.empty() || stock.cell || !stock.tools.empty() || !stock.tool_table.empty() ||
-                    !stock.clamps.empty() || arguments.spindle_speed;
+  const bool cuts =
+      !stock.block.empty() || stock.cell || !stock.tools.empty() || !stock.clamps.empty() || arguments.spindle_speed;
   if (cuts && !arguments.cutting_force) {
     return "--cutting-force is missing: the specific cutting force of the material, e.g. 700 N/mm\u00B2 for aluminium";
   }
@@ -149,6 +149,7 @@ class ReadShare {
 };
 
 struct FirstLook {
+  LivesLeft lives;  // of the tools of --tool-table
   Diagnostics findings;
   ProgramStops stops;
   ProgramCheck result;
@@ -162,8 +163,10 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
   FindingsDisplay display(first.findings);
   ReadShare read(program.size());
   unsigned items = 0;
+  CutForecast cuts(motion_limits(machine), first.lives);
   const auto watch_path = [&](const PathItem& item) {
     first.stops.watch(item);
+    cuts.add(item);
     if (!arguments.json && display.has_news()) {
       progress.clear();
       display.update();
@@ -178,6 +181,7 @@ void look(const CheckArguments& arguments, const MachineDescription& machine, co
   first.result =
       board ? check_for_grbl(program, machine, options, board->target, first.findings, watch_path, watch_operations)
             : check_program(program.again(), machine, options, first.findings, watch_path, watch_operations);
+  if (first.result.good) cuts.add_findings(arguments.program.program, first.findings);
   progress.clear();
   if (!arguments.json || (first.result.good && measures_motion(arguments))) display.finish();
 }
@@ -278,6 +282,11 @@ int check(const CheckArguments& arguments) {
   }
 
   FirstLook first;
+  int lives_code = exit_done;
+  auto lives =
+      read_lives({.library = arguments.stock.tool_table, .records = arguments.program.tool_life.records}, lives_code);
+  if (!lives) return lives_code;
+  first.lives = std::move(*lives);
   ProgressDisplay progress(program->name());
   look(arguments, *machine, *program, *options, board, progress, first);
   if (first.result.good && measures_motion(arguments)) {

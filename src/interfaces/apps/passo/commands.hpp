@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stock_options.hpp"
+#include "tool_life.hpp"
 
 namespace passo {
 
@@ -40,6 +41,7 @@ struct ProgramArguments {
   bool files_of_settings = true;
   bool parameters_may_lack = false;  // the parameter file may be missing, because the run writes it at the end
   std::string dialect = "linuxcnc";  // or "grbl"
+  ToolLifeArguments tool_life;       // of `run` and `check`
 };
 
 struct SimulatedMotors {
@@ -236,6 +238,7 @@ struct ServeArguments {
   std::string mqtt_login;               // file with USER:PASSWORD for the broker; empty: no login
   bool check = false;                   // only checks whether these options can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
+  std::string tool_library;             // TOML; empty: the tools have no limits
   std::string macros;                   // folder with macros and subroutines; empty: none
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
   std::string system;                   // a folder with system files, as for `board list`

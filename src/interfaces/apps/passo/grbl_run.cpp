@@ -16,10 +16,12 @@
 #include "program_messages.hpp"
 #include "progress_display.hpp"
 #include "run_signals.hpp"
+#include "tool_life.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/placed_tool_change.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/base/counted.hpp"
 #include "passo/job/job_end.hpp"
 #include "passo/link/await.hpp"
@@ -123,7 +125,8 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
 
 // Runs a program that was checked. Returns the exit code.
 int stream(const RunArguments& arguments, GrblMachineConnection& opened, const MachineDescription& machine,
-           request::Start start, const ProgramCheck& check, GrblTimeLeft& time_left, ScheduledChanges& changes) {
+           request::Start start, const ProgramCheck& check, GrblTimeLeft& time_left, ScheduledChanges& changes,
+           CutRecorder* cuts) {
   GrblMachineSession& session = opened.session();
   Diagnostics late;
   start.findings = &late;
@@ -136,6 +139,7 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
     begun = session.now();
     changes.begin(*begun);
   };
+  if (cuts != nullptr) cuts->begin(start, "");
   OperatorPrompt prompt(arguments.program.program);
   Answered answered{.outcome = Outcome::failed};
   const auto ticket = session.request(std::move(start));
@@ -143,10 +147,12 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
   while (session.busy()) {
     const Seconds most = begun ? changes.act(session, [&] { return place_of(session, machine); }) : endless;
     opened.poll(std::min({most, GrblMachineSession::between_looks, prompt.poll(session)}));
+    if (cuts != nullptr) cuts->poll(session.now().value());
     const MachineStatus status = session.status();
     if (status.progress) progress.update(*status.progress, time_left.left(status));
   }
   if (ticket) answered = answer_of(session.take_changes(), *ticket);
+  end_cuts(cuts);
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   progress.clear();
   if (answered.outcome == Outcome::done) {
@@ -199,12 +205,17 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
   set_offsets(options, session.board());
   Diagnostics findings;
   bool has_unplaced_change = false;
+  auto lives = read_lives(arguments.program.tool_life, code);
+  if (!lives) return code;
+  CutForecast forecast(motion_limits(machine), std::move(*lives));
   const bool is_confirmed = is_place_confirmed(session);
-  const ProgramCheck check = check_for_grbl(program, machine, options, GrblTarget::of(session.board()), findings, {},
-                                            [&](const Operation& operation) {
-                                              if (!is_confirmed && is_placed_tool_change(operation, machine))
-                                                has_unplaced_change = true;
-                                            });
+  const ProgramCheck check = check_for_grbl(
+      program, machine, options, GrblTarget::of(session.board()), findings,
+      [&](const PathItem& item) { forecast.add(item); },
+      [&](const Operation& operation) {
+        if (!is_confirmed && is_placed_tool_change(operation, machine)) has_unplaced_change = true;
+      });
+  if (check.good) forecast.add_findings(arguments.program.program, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
   if (has_unplaced_change) {
@@ -227,7 +238,9 @@ int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine
     start.from = way->at;
     start.lead_in = way->lead_in;
   }
-  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes);
+  CountedCuts cuts;
+  if ((code = cuts.open(arguments.program.tool_life, arguments.board)) != exit_done) return code;
+  return stream(arguments, *opened, machine, std::move(start), check, time_left, changes, cuts.recorder());
 }
 
 int home_grbl(const HomeArguments& arguments, const MachineDescription& machine) {

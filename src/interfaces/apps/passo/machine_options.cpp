@@ -103,7 +103,11 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
                      "host name under which browsers reach this server, e.g. through a proxy; can be repeated");
   command.add_option("--macros", arguments.macros,
                      "folder with macros (.ngc) for buttons and keys, and with subroutines for all programs");
-  command.add_option("--data", arguments.data, "folder for the job queue, the job history and the alarms");
+  command.add_option("--data", arguments.data,
+                     "folder for the job queue, the job history, the alarms and what each tool has cut");
+  command.add_option(
+      "--tool-table", arguments.tool_library,
+      "tool library (TOML) with the names and lives of tools; a check warns where a program exceeds one");
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");
   command.add_option("--page", arguments.page, "folder with the web interface (default: next to the program passo)");

@@ -57,6 +57,22 @@ void add_files(CLI::App& command, ProgramArguments& arguments, bool letters) {
       ->check(CLI::IsMember({"mm", "inch"}));
 }
 
+namespace {
+
+void add_tool_records(CLI::App& command, std::string& records) {
+  command.add_option("--tool-records", records,
+                     "file that counts what each tool cuts (default: $XDG_STATE_HOME/passo/tools.sqlite or "
+                     "~/.local/state/passo/tools.sqlite)");
+}
+
+void add_tool_life(CLI::App& command, std::string& library, std::string& records) {
+  command.add_option("--tool-table", library,
+                     "tool library (TOML) with the lives of tools; warns where the program exceeds one");
+  add_tool_records(command, records);
+}
+
+}  // namespace
+
 void add_run_options(CLI::App& command, RunArguments& arguments) {
   add_program(command, arguments.program);
   add_machine(command, arguments.machine);
@@ -124,6 +140,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                      "sim:first_board: file for the way that the motors really took, as a program for passo simulate");
   command.add_flag("--anyway", arguments.motors.anyway,
                    "sim:first_board: run even if the pulses are too short for its loop, and show which are lost");
+  add_tool_life(command, arguments.program.tool_life.library, arguments.program.tool_life.records);
   command.add_flag("-y,--yes", arguments.yes, "skip the operator prompts at M0, M1 and M6");
   command.add_flag("--json", arguments.json, "print the summary as JSON");
   command.add_flag("-q,--quiet", arguments.quiet, "print neither progress nor summary");
@@ -156,6 +173,7 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
   command.add_option("--loads", arguments.loads,
                      "file for the motor load of each line: line,load; 1 is the guaranteed torque");
   add_cut(command, arguments);
+  add_tool_records(command, arguments.program.tool_life.records);
   command.add_flag("--json", arguments.json, "print the findings as JSON");
   command.footer(
       "Examples:\n  passo check part.ngc -m router.toml             all errors and warnings\n"

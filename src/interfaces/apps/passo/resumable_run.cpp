@@ -134,6 +134,11 @@ std::optional<JobEntry> ResumableRun::find_place(MachineConnection& machine, con
     }
     return {};
   }
+  if (cuts_ != nullptr) {
+    const JournalHead& old = before_->head();
+    cuts_->recover(run_of(old),
+                   cut_between(program.again(), subject.machine, subject.options, old.place, found->place, old.probes));
+  }
   head_ = head_of_resumption(before_->head(), status, *found);
   JobEntry entry = entry_at_rest(before_->head(), *found, status, subject.machine);
   const auto known = machine.place();

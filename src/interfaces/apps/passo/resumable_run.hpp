@@ -11,9 +11,11 @@
 #include "machine_connection.hpp"
 
 #include "passo/activity/program.hpp"
+#include "passo/job/cut_recorder.hpp"
 #include "passo/job/job_identity.hpp"
 #include "passo/job/journal_file.hpp"
 #include "passo/job/journaled_run.hpp"
+#include "passo/journal/cut_between.hpp"
 
 namespace passo {
 
@@ -43,6 +45,10 @@ class ResumableRun {
   // journal. Then performs the handshake with the head's numbers; if the machine is already ready, only sets the
   // session number. If the program cannot begin, shows a message and returns false. Must be called after suits().
   [[nodiscard]] bool begin(MachineConnection& machine, const ProgramReader& program, const Subject& subject, int& code);
+  // With --resume, begin() also records what the interrupted run has cut, if it was killed. `cuts` must outlive this.
+  void count_into(CutRecorder& cuts) { cuts_ = &cuts; }
+  // run_of() the journal of the run that is about to start.
+  std::string run() const { return run_of(head_); }
   void add_to(request::Start& start) { run_.add_to(start); }
   // Must be called after the run. Removes the journal if the program has reached its end, is invalid, or did not begin
   // and was not to be resumed. Otherwise the journal stays.
@@ -63,6 +69,7 @@ class ResumableRun {
   std::optional<Journal> before_;
   JournalHead head_;
   bool resumes_ = false;
+  CutRecorder* cuts_ = nullptr;  // null: not counted
 };
 
 }  // namespace passo

@@ -12,6 +12,10 @@ bool keeps_journal(const RunArguments& arguments) {
   return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
 }
 
+bool counts_tools(const RunArguments& arguments) {
+  return keeps_journal(arguments) || !arguments.program.tool_life.records.empty();
+}
+
 bool names_are_good(const RunArguments& arguments) {
   for (const std::string& path : arguments.pictures) {
     const std::string why = refuse_picture(path);

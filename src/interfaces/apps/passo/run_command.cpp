@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "board_summary.hpp"
 #include "commands.hpp"
 #include "disturb_option.hpp"
 #include "from_line.hpp"
@@ -26,6 +27,7 @@
 #include "run_signals.hpp"
 #include "scheduled_changes.hpp"
 #include "stop_words.hpp"
+#include "tool_life.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -34,6 +36,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/job/cut_recorder.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/link/await.hpp"
 #include "passo/report/link_peak_rate.hpp"
@@ -45,50 +48,6 @@ namespace {
 
 // The clock for the progress line is read once in so many turns.
 constexpr unsigned turns_between_looks = 1024;
-
-// What the machine and the line had done before the program began. If the machine was homed first, this is all up to
-// the end of homing. If not, this is nothing, so the hello counts as the program's.
-struct Before {
-  MachineCounts counts;
-  Ticks time;
-  std::uint64_t frames = 0;
-  std::uint64_t bytes = 0;
-};
-
-Before before_program(MachineConnection& machine) {
-  if (machine.session().homing() == nullptr) return {};
-  return {.counts = machine.machine().counts(),
-          .time = machine.machine().now(),
-          .frames = machine.frames_sent(),
-          .bytes = machine.bytes_sent()};
-}
-
-void add_board(RunSummary& summary, MachineConnection& opened, const MachineDescription& machine,
-               const Before& before) {
-  const MachineCounts counts = opened.machine().counts();
-  const BoardSession& link = opened.session().board();
-  BoardSummary board;
-  const Ticks time{opened.machine().now().count - before.time.count};
-  board.end = Seconds(static_cast<double>(time.count) / machine.board.clock.value());
-  board.events = static_cast<std::uint64_t>(counts.events - before.counts.events);
-  board.frames = opened.frames_sent() - before.frames;
-  board.bytes = opened.bytes_sent() - before.bytes;
-  if (const QueueUpdateLedger* ledger = opened.session().ledger(); ledger != nullptr && link.board()) {
-    board.held_items = link.board()->capacity;
-    board.rests = ledger->recoveries();
-  }
-  const Point place = kinematics_of(machine).axes(motors_of(counts));
-  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    const AxisDescription& axis = machine.axes[m];
-    const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;
-    const std::int64_t total = counts.motors[m].total - before.counts.motors[m].total;
-    summary.axes[m].net_steps = Steps{net};
-    summary.axes[m].total_steps = Steps{total};
-    summary.axes[m].position = place[axis.axis];
-    board.pulses += static_cast<std::uint64_t>(total);
-  }
-  summary.board = board;
-}
 
 void stop(BoardMachineSession& session) {
   try_request(session, request::Stop{});
@@ -187,6 +146,8 @@ struct Run {
   LatestMotion& motion;
   PortRun* port = nullptr;                   // null: the run does not go through a parallel port
   std::optional<Seconds> without_line = {};  // the planned time
+  CutRecorder* cuts = nullptr;               // null: what tools cut is not counted
+  std::string journal_run = {};              // run_of() the journal; empty: there is none
 };
 
 // Empty where the time over the line and the planned time are not of the same motion.
@@ -226,13 +187,14 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     if (motors) motors->plan(item);
     if (run.port != nullptr) run.port->plan(item);
   };
+  if (run.cuts != nullptr) run.cuts->begin(start, run.journal_run);
   start.watchers.probe = [&, keep = start.watchers.probe](const ProbeOutcome& outcome) {
     if (keep) keep(outcome);
     count(outcome, machine, probes);
   };
   run.outputs.watch(run.opened.machine(), start.watchers);
   run.opened.follow(start.watchers, start.stands.value_or(session.status().position.place));
-  const Before before = before_program(run.opened);
+  const BoardBefore before = board_before(run.opened);
   const Seconds began = session.now();
   TailWatch tails;
   LinkPeakRate load;
@@ -255,6 +217,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
       if (run.opened.is_on_a_line()) line.update(session.board());
       if (!run.opened.has_board()) tails.update(session, run.opened.machine(), machine);
       load.update(session.now(), run.opened.bytes_sent());
+      if (run.cuts != nullptr) run.cuts->poll(session.now().value());
       if (motors) motors->poll(turned_until(run));
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
@@ -262,6 +225,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   }
   progress.clear();
   run.opened.catch_up();
+  end_cuts(run.cuts);
   RunSummary summary = builder.summary();
   summary.program = run.arguments.program.program;
   summary.machine = machine.name;
@@ -378,7 +342,7 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
 int run_checked(const ResumableRun::Subject& subject, ProgramReader program, MachineConnection& opened,
-                ResumableRun* resumable, ScheduledChanges& changes, const ProgramStops& stops) {
+                ResumableRun* resumable, ScheduledChanges& changes, const ProgramStops& stops, CutRecorder* cuts) {
   const RunArguments& arguments = subject.arguments;
   const std::string tools =
       subject.check.tools_change ? tool_table_file(arguments.program, subject.options) : std::string();
@@ -408,7 +372,17 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Mac
   if (!start.waits_for_operator && !arguments.yes) tell_stops(stops, arguments);
   Answered answered;
   LatestMotion motion;
-  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion, port.get(), without_line};
+  const Run run{arguments,
+                subject.machine,
+                subject.check,
+                opened,
+                changes,
+                *outputs,
+                motion,
+                port.get(),
+                without_line,
+                cuts,
+                resumable != nullptr ? resumable->run() : std::string()};
   const RunSummary summary = play(run, std::move(start), answered);
   if (resumable != nullptr) resumable->end(opened.session(), answered);
   return end_run(run, answered, summary, late, subject.options.machine_units);
@@ -430,12 +404,17 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   Diagnostics findings;
   PathFingerprint path;
   ProgramStops stops;
+  auto lives = read_lives(arguments.program.tool_life, code);
+  if (!lives) return code;
+  CutForecast forecast(motion_limits(machine), std::move(*lives));
   const auto watch_path = [&](const PathItem& item) {
     if (resumable) path.add(item);
     stops.watch(item);
+    forecast.add(item);
   };
   const auto watch_operations = [&](const Operation& operation) { stops.watch(operation, options.tools); };
   const ProgramCheck check = check_program(program.again(), machine, options, findings, watch_path, watch_operations);
+  if (check.good) forecast.add_findings(arguments.program.program, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
   if (check.probes && is_on_port(arguments.board)) {
@@ -445,7 +424,11 @@ int run_program(const RunArguments& arguments, const MachineDescription& machine
   if (arguments.start.line > 0 && !(way = way_to_line(arguments, program, machine, options, code))) return code;
   const ResumableRun::Subject subject{arguments, machine, options, check, path.value(), way};
   if (resumable && !resumable->suits(subject, code)) return code;
-  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops);
+  CountedCuts cuts;
+  if (counts_tools(arguments)) code = cuts.open(arguments.program.tool_life, ResumableRun::journal_of(arguments));
+  if (code != exit_done) return code;
+  if (resumable && cuts.recorder()) resumable->count_into(*cuts.recorder());
+  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops, cuts.recorder());
 }
 
 }  // namespace

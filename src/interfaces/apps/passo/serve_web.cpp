@@ -43,11 +43,11 @@ struct ServedServices {
   MotionTimer& timer;
 };
 
-ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffsets* offsets, const ServedJobs& jobs,
+ApiOptions api_options(const PageFolder* page, const ServedData& data, const ServedJobs& jobs,
                        const ServedServices& services, const std::string& macro_folder,
                        std::function<std::string(const SavedParameters&, const ToolTable&)> keep) {
   ApiOptions options{.version = PASSO_VERSION, .openapi = openapi_text, .make_key = new_key};
-  options.history = history;
+  options.history = data.history.get();
   options.macro_folder = macro_folder;
   options.keep_offsets = std::move(keep);
   options.wall_time = seconds_since_1970;
@@ -56,13 +56,15 @@ ApiOptions api_options(const PageFolder* page, JobHistory* history, ServedOffset
     if (request.path != "/") return {};
     return WebAnswer{.status = 404, .type = "text/plain; charset=utf-8", .body = no_page};
   };
-  if (offsets != nullptr) {
-    options.parameters = offsets->parameters();
-    options.tools = offsets->tools();
+  if (data.offsets) {
+    options.parameters = data.offsets->parameters();
+    options.tools = data.offsets->tools();
   }
+  options.workshop.records = data.tools->records();
+  options.workshop.library = data.tools->library();
   options.keeper = jobs.journal;
-  options.machine_file = jobs.machine_file;
   options.machine_access = jobs.machine_access;
+  options.machine_access.stamp = jobs.machine_file;
   options.path_judge = jobs.path_judge;
   options.contact = &services.contact;
   options.settings = &services.settings;
@@ -104,19 +106,17 @@ WebLimits web_limits() {
 }  // namespace
 
 ServedWeb::ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-                     MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
-                     const ServedJobs& jobs)
+                     MachineControl& owner, ServedData data, const ServedJobs& jobs)
     : session_(session),
       owner_(owner),
       page_(arguments.page),
       has_page_(!arguments.page.empty()),
-      history_(std::move(history)),
-      offsets_(std::move(offsets)),
+      data_(std::move(data)),
       boards_(arguments),
       timer_(machine),
       api_(machine, session, owner,
            api_options(
-               arguments.page.empty() ? nullptr : &page_, history_.get(), offsets_.get(), jobs,
+               arguments.page.empty() ? nullptr : &page_, data_, jobs,
                {boards_.contact, boards_.settings, maker_, studies_, timer_}, arguments.macros,
                [this](const SavedParameters& parameters, const ToolTable& tools) { return keep(parameters, tools); })) {
 }
@@ -127,8 +127,7 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
   const auto place = web_place(arguments, code);
   if (!place) return nullptr;
   if (!macros_are_good(arguments.macros, code)) return nullptr;
-  std::unique_ptr<JobHistory> history;
-  std::unique_ptr<ServedOffsets> offsets;
+  ServedData data;
   if (!arguments.data.empty()) {
     std::error_code error;
     std::filesystem::create_directories(arguments.data, error);
@@ -137,15 +136,16 @@ std::unique_ptr<ServedWeb> ServedWeb::open(const ServeArguments& arguments, cons
       code = fail(exit_failed, fmt::format("--data {} [serve.data]", opened.error()));
       return nullptr;
     }
-    history = std::move(*opened);
-    offsets = std::make_unique<ServedOffsets>(arguments.data);
-    if (!offsets->read()) {
+    data.history = std::move(*opened);
+    data.offsets = std::make_unique<ServedOffsets>(arguments.data);
+    if (!data.offsets->read()) {
       code = exit_failed;
       return nullptr;
     }
   }
-  std::unique_ptr<ServedWeb> web(
-      new ServedWeb(arguments, machine, session, owner, std::move(history), std::move(offsets), jobs));
+  data.tools = ServedTools::open(arguments, code);
+  if (!data.tools) return nullptr;
+  std::unique_ptr<ServedWeb> web(new ServedWeb(arguments, machine, session, owner, std::move(data), jobs));
   auto server = WebServer::listen(place->address.host, place->address.port, place->access, web->api_, web_limits());
   if (!server) {
     code = fail(exit_failed, server.error());
@@ -195,7 +195,7 @@ void ServedWeb::share_offsets(GrblController& grbl) {
   grbl.share_offsets([this](const SavedParameters& parameters) {
     api_.apply_offsets(parameters);
     if (board_ != nullptr) board_->store_offsets(parameters);
-    if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
+    if (data_.offsets) api_.set_offsets_trouble(data_.offsets->keep(api_.parameters(), api_.tools()));
   });
 }
 
@@ -207,14 +207,14 @@ void ServedWeb::follow_board(GrblMachineSession& board, double bytes_per_second)
   board.watch_offsets([this] {
     api_.apply_offsets(board_->offsets(api_.parameters()));
     if (grbl_ != nullptr) grbl_->apply_offsets(api_.parameters());
-    if (offsets_) api_.set_offsets_trouble(offsets_->keep(api_.parameters(), api_.tools()));
+    if (data_.offsets) api_.set_offsets_trouble(data_.offsets->keep(api_.parameters(), api_.tools()));
   });
 }
 
 std::string ServedWeb::keep(const SavedParameters& parameters, const ToolTable& tools) {
   if (board_ != nullptr) board_->store_offsets(parameters);
   if (grbl_ != nullptr) grbl_->apply_offsets(parameters);
-  return offsets_ ? offsets_->keep(parameters, tools) : std::string();
+  return data_.offsets ? data_.offsets->keep(parameters, tools) : std::string();
 }
 
 }  // namespace passo

@@ -17,6 +17,7 @@
 #include "served_settings.hpp"
 #include "served_studies.hpp"
 #include "served_timer.hpp"
+#include "served_tools.hpp"
 
 #include "passo/api/web_api.hpp"
 #include "passo/grbl/grbl_controller.hpp"
@@ -34,6 +35,13 @@ struct ServedJobs {
   FileStamp machine_file;
   MachineFileAccess machine_access;
   std::function<PathJudge()> path_judge = {};  // see ApiOptions
+};
+
+// What is stored in the folder of --data.
+struct ServedData {
+  std::unique_ptr<JobHistory> history = {};     // may be null
+  std::unique_ptr<ServedOffsets> offsets = {};  // may be null
+  std::unique_ptr<ServedTools> tools = {};
 };
 
 class ServedWeb {
@@ -63,8 +71,7 @@ class ServedWeb {
 
  private:
   ServedWeb(const ServeArguments& arguments, const MachineDescription& machine, MachineSession& session,
-            MachineControl& owner, std::unique_ptr<JobHistory> history, std::unique_ptr<ServedOffsets> offsets,
-            const ServedJobs& jobs);
+            MachineControl& owner, ServedData data, const ServedJobs& jobs);
   void publish();
   std::string keep(const SavedParameters& parameters, const ToolTable& tools);
 
@@ -72,10 +79,9 @@ class ServedWeb {
   MachineControl& owner_;
   PageFolder page_;
   bool has_page_ = false;
-  std::unique_ptr<JobHistory> history_;     // may be null
-  std::unique_ptr<ServedOffsets> offsets_;  // may be null
-  GrblController* grbl_ = nullptr;          // the controller for senders
-  GrblMachineSession* board_ = nullptr;     // a board that keeps the offsets
+  ServedData data_;
+  GrblController* grbl_ = nullptr;       // the controller for senders
+  GrblMachineSession* board_ = nullptr;  // a board that keeps the offsets
   std::string host_;
   ServedBoards boards_;
   ServedMaker maker_;

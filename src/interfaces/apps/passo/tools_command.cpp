@@ -1,7 +1,6 @@
 #include "tools_command.hpp"
 
 #include <cstdio>
-#include <numbers>
 
 #include "commands.hpp"
 #include "program_input.hpp"
@@ -11,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/tool_import/tool_import.hpp"
 #include "passo/tooling/cutting_feeds.hpp"
 #include "passo/tooling/tool_library.hpp"
 #include "passo/tooling/tool_warnings.hpp"
@@ -19,8 +19,6 @@ namespace passo {
 namespace {
 
 using ToolsJson = nlohmann::ordered_json;
-
-constexpr double degrees_in_radian = 180 / std::numbers::pi;
 
 std::optional<ToolLibrary> shown_library(const std::string& path) {
   Diagnostics findings;
@@ -36,34 +34,6 @@ int print_tools_json(const ToolsJson& json) {
 
 ToolsJson known_length(Mm length) {
   return length > Mm(0) ? ToolsJson(length.value()) : ToolsJson();
-}
-
-ToolsJson json_of(const CuttingTool& tool) {
-  ToolsJson json = {{"number", tool.number},
-                    {"name", tool.name},
-                    {"shape", name_of(tool.shape)},
-                    {"diameter_mm", tool.diameter.value()}};
-  if (tool.shape == CuttingShape::bull) json["corner_radius_mm"] = tool.corner_radius.value();
-  if (tool.angle.value > 0) json["angle_deg"] = tool.angle.value * degrees_in_radian;
-  if (tool.shape == CuttingShape::vee || tool.shape == CuttingShape::taper) json["tip_diameter_mm"] = tool.tip.value();
-  if (tool.shape == CuttingShape::thread_mill) {
-    json["neck_diameter_mm"] = tool.neck_diameter.value();
-    json["teeth"] = tool.teeth;
-    json["pitch_mm"] = known_length(tool.tooth_pitch);
-    json["tooth_tip_mm"] = known_length(tool.tooth_tip);
-    json["reach_mm"] = known_length(tool.reach);
-  }
-  json["flutes"] = tool.flutes;
-  json["flute_length_mm"] = known_length(tool.flute_length);
-  json["stick_out_mm"] = known_length(tool.stick_out);
-  json["holder_diameter_mm"] = known_length(tool.holder_diameter);
-  json["centre_cutting"] = tool.centre_cutting;
-  json["material"] = name_of(tool.material);
-  json["max_rpm"] = tool.most_rpm ? ToolsJson(*tool.most_rpm) : ToolsJson();
-  ToolsJson loads = ToolsJson::object();
-  for (const auto& [material, load] : tool.chip_loads) loads[std::string(name_of(material))] = load.value();
-  json["chip_load_mm"] = loads;
-  return json;
 }
 
 std::string length_cell(Mm length) {
@@ -136,9 +106,8 @@ int tools_list(const ToolsListArguments& arguments) {
   const auto library = shown_library(arguments.library);
   if (!library) return exit_bad_program;
   if (arguments.json) {
-    ToolsJson json = ToolsJson::array();
-    for (const CuttingTool& tool : library->tools()) json.push_back(json_of(tool));
-    return print_tools_json({{"file", arguments.library}, {"tools", json}});
+    fmt::print("{}", tool_library_json(library->tools(), arguments.library));
+    return flush_output();
   }
   fmt::print("{:<6} {:<7} {:>8} {:>6} {:>8} {:>9} {:>7}  {:<7}  {}\n", "tool", "shape", "diameter", "flutes", "cuts to",
              "stick-out", "max rpm", "of", "name");

@@ -233,7 +233,10 @@ TEST(ToolChange, does_what_the_plan_says_with_the_first_tool) {
   plan.first = FirstTool::loaded;
   Shop loaded(plan);
   loaded.run("T1 M6\nT2 M6\nM2\n");
-  EXPECT_EQ(std::ranges::count(loaded.events, "has 1"), 1);
+  EXPECT_EQ(loaded.said.front(), "check that tool 1 is in the spindle, then continue");
+  EXPECT_THAT(std::vector(loaded.events.begin(), loaded.events.begin() + 3),
+              ElementsAre("X0 Y0 Z20", "ask 1", "X-50 Y-60 Z20"))
+      << "asks over the work, not at the place for changes";
   EXPECT_EQ(std::ranges::count(loaded.events, "touch -20"), 2);
   EXPECT_EQ(std::ranges::count(loaded.events, "ask 2"), 1);
 
@@ -248,6 +251,7 @@ TEST(ToolChange, does_what_the_plan_says_with_the_first_tool) {
                                  }()}));
   trusted.run("T1 M6\nG0 Z0\nM2\n");
   EXPECT_EQ(trusted.machine[Axis::z], 59);
+  EXPECT_EQ(std::ranges::count(trusted.events, "ask 1"), 1);
   EXPECT_EQ(std::ranges::count(trusted.events, "touch -20"), 0);
 }
 

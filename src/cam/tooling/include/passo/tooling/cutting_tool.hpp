@@ -28,6 +28,14 @@ std::string_view name_of(CuttingShape shape);
 enum class ToolMaterial : std::uint8_t { carbide, hss };
 std::string_view name_of(ToolMaterial material);
 
+inline constexpr double mm_in_metre = 1000;  // lives are given in metres
+
+// How long a tool may cut, whichever comes first. 0: no limit.
+struct ToolLife {
+  Mm length{0};     // path cut
+  Seconds time{0};  // time in the cut
+};
+
 struct CuttingTool {
   std::int32_t number = 0;  // of the T word, 0 to 99999
   std::string name;         // for the operator, one line; may be empty
@@ -48,6 +56,7 @@ struct CuttingTool {
   bool centre_cutting = true;  // the edges reach the axis, so the tool may plunge
   ToolMaterial material = ToolMaterial::carbide;
   std::optional<double> most_rpm = {};  // highest permitted spindle speed
+  ToolLife life = {};
   // Chip loads of this tool, mm per tooth. They replace those of the tables.
   std::map<WorkMaterial, Mm> chip_loads = {};
 };

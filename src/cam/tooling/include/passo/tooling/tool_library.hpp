@@ -15,6 +15,8 @@
 //     centre_cutting = false      # the tool must not plunge (default: true)
 //     material = "carbide"        # or hss
 //     max_rpm = 24000
+//     life_m = 300                # how far the tool may cut,
+//     life_min = 120              # and for how long, whichever comes first (default: no limit)
 //     [tool.1.chip_load_mm]       # own chip loads, mm per tooth, instead of those of the tables
 //     plywood = 0.08
 //

@@ -13,6 +13,8 @@
 #include "passo/api/studies.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
+#include "passo/job/tool_records.hpp"
+#include "passo/tooling/tool_library.hpp"
 #include "passo/web/web_server.hpp"
 
 namespace passo {
@@ -24,6 +26,13 @@ struct MachineFileAccess {
   // Writes `after`, if the file still contains `before`. Returns the reason for a failure; empty on success. Null: the
   // machine is not from a file.
   std::function<std::string(const std::string& before, const std::string& after)> write = {};
+  FileStamp stamp = {};  // fingerprint of the file when it was read
+};
+
+// The tools of the workshop. Both must outlive the API.
+struct WorkshopTools {
+  ToolRecords* records = nullptr;        // stores what each tool has cut; null: it is not counted
+  const ToolLibrary* library = nullptr;  // has their names and the limits of their lives; null: unknown
 };
 
 struct ApiOptions {
@@ -34,11 +43,11 @@ struct ApiOptions {
   std::function<std::optional<WebAnswer>(const WebRequest& request)> page = {};
   // Stores the job queue and the history; must outlive the API. Null: there is no queue and no history.
   JobHistory* history = nullptr;
+  WorkshopTools workshop = {};
   std::function<double()> wall_time = {};  // seconds since 1970, for the history
   // Writes the journal of a job, in addition to the history; must outlive the API. Null: an interrupted job cannot be
   // resumed.
   JobKeeper* keeper = nullptr;
-  FileStamp machine_file = {};            // fingerprint of the file when it was read
   MachineFileAccess machine_access = {};  // for the editor
   // The folder with macros, and with the subroutines that programs may call. Empty: there is none.
   std::string macro_folder = {};

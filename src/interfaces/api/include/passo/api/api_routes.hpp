@@ -22,14 +22,16 @@ class ProgramsApi;
 class SettingsApi;
 class SmallJobsApi;
 class StudiesApi;
+class ToolsApi;
 struct ApiCall;
 struct WebAnswer;
 
 template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
-using ApiHandler = std::variant<AnswerOf<BoardFilesApi>, AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>,
-                                AnswerOf<MachineFileApi>, AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>,
-                                AnswerOf<SettingsApi>, AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>>;
+using ApiHandler =
+    std::variant<AnswerOf<BoardFilesApi>, AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>,
+                 AnswerOf<MachineFileApi>, AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>,
+                 AnswerOf<SettingsApi>, AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>, AnswerOf<ToolsApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };

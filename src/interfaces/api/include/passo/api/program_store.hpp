@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "passo/activity/cut_forecast.hpp"
 #include "passo/activity/job_outline.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/api/program_path.hpp"
@@ -89,6 +90,10 @@ class ProgramStore {
   void set_sub_folders(std::vector<std::string> folders) { sub_folders_ = std::move(folders); }
   // Sets a function that returns a judge for each check. Null: the board can execute every path.
   void judge_paths(std::function<PathJudge()> new_judge) { new_judge_ = std::move(new_judge); }
+  // Sets a function that returns what is left of the lives of tools, for each check. Null: unknown.
+  void set_lives(std::function<LivesLeft()> lives) { lives_ = std::move(lives); }
+  // Invalidates all checks.
+  void forget_checks();
   bool checks() const { return checker_ != nullptr; }
   // Checks one piece of limited size.
   void poll();
@@ -111,7 +116,6 @@ class ProgramStore {
 
  private:
   void make_room_for_path(std::uint64_t id);
-  void forget_checks();
   void judge(const PathItem& item, StoredProgram& program);
   static void forget_check(StoredProgram& program);
 
@@ -124,9 +128,11 @@ class ProgramStore {
   std::uint64_t checked_ = 0;  // the program being checked
   std::unique_ptr<ProgramChecker> checker_;
   std::function<PathJudge()> new_judge_;
-  PathJudge judge_;                // of the program being checked
-  std::vector<std::string> told_;  // its objections so far
-  PathFingerprint path_;           // path fingerprint of the program being checked
+  std::function<LivesLeft()> lives_;
+  std::optional<CutForecast> cuts_;  // of the program being checked
+  PathJudge judge_;                  // of the program being checked
+  std::vector<std::string> told_;    // its objections so far
+  PathFingerprint path_;             // path fingerprint of the program being checked
 };
 
 }  // namespace passo

@@ -9,7 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "passo/geometry/curve.hpp"
 #include "passo/interpreter/operation.hpp"
@@ -22,6 +24,8 @@ double grbl_distance(const Curve& curve, const Point& place);
 
 class GrblExecuted {
  public:
+  // Sets an observer of each piece that is executed to its end, in order.
+  void watch_passed(std::function<void()> watcher) { passed_ = std::move(watcher); }
   // Adds a piece of path, whose last line is the `lines`-th of all lines of the sender. `time`: its nominal time.
   void add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines);
   // Adds a dwell before the next piece.
@@ -50,6 +54,7 @@ class GrblExecuted {
   void pass();
   bool has_begun() const;  // the first piece
 
+  std::function<void()> passed_;
   std::deque<Piece> pieces_;
   OperationSource now_;
   std::uint32_t last_line_ = 0;

@@ -189,6 +189,7 @@ class GrblMachineSession final : public MachineSession {
   void poll_check();
   void poll_work();
   void make_feed();
+  void play_executed(Work& work, const MotionLimits& limits) const;
   void poll_feed();
   void answer_question();
   void update_holds();

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "passo/diagnostics/diagnostic.hpp"
+#include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/interpreter/tool_table.hpp"
 
@@ -19,6 +20,9 @@ namespace passo {
 // Returns false if the file has errors, all of which are in `diagnostics`. `units`: the units of the file's lengths.
 [[nodiscard]] bool read_tool_table(const std::string& path, LengthUnits units, ToolTable& table,
                                    Diagnostics& diagnostics);
+
+// The same for a text that was read already. The name of `table` is that of the reader.
+[[nodiscard]] bool read_tool_table(ProgramReader reader, LengthUnits units, ToolTable& table, Diagnostics& diagnostics);
 
 // Returns `text`, the contents of such a file, with the tools updated from `table`. Changed numbers are replaced,
 // missing words are appended to the others. Order, comments and all other lines are preserved.

@@ -17,6 +17,8 @@ struct BrokenOff {
   std::optional<ResumeRefusal> refused;
   PathPosition done;      // everything before this position is executed
   PathPosition farthest;  // nothing after this position is executed
+  PathPosition began;     // where the run of the journal began
+  std::string run;        // run_of() its journal
   double noted_at = 0;    // time of the last write to the journal; seconds since 1970
 };
 // Rejects a status during motion. Puts the numbers of the coming handshake into the head. Unless the job is rejected,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "passo/interpreter/interpreter.hpp"
+#include "passo/job/cut_recorder.hpp"
 #include "passo/job/interrupted_job.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/job_identity.hpp"
@@ -45,6 +46,8 @@ class KeptJob {
   std::string program() const;
   InterpreterOptions options() const;
   void drop();
+  // Records what the interrupted job has cut, if the process that ran it could not.
+  void recover_cuts(CutRecorder& cuts) const;
 
   struct Beginning {
     std::int64_t history = 0;
@@ -65,6 +68,8 @@ class KeptJob {
   [[nodiscard]] bool reenter(std::uint64_t path);
   // Returns true if the board has received the number, so the job may start.
   bool is_named() const { return session_.board().ready(); }
+  // run_of() the journal of the job that is about to start.
+  const std::string& run() const { return begun_run_; }
   // Returns false if a write to the journal of the job failed, so the job could not be resumed.
   bool is_written() const { return run_.is_written(); }
   // For the job that is about to start. After its start, an earlier interrupted job is no longer offered.
@@ -90,6 +95,7 @@ class KeptJob {
   JournaledRun run_;
   std::optional<InterruptedJob> interrupted_;
   std::optional<BrokenOff> heard_;
+  std::string begun_run_;
   Point hello_at_;           // the position at the handshake, as far as known
   bool is_compared_ = true;  // the switch positions were compared with the previous ones
 };
