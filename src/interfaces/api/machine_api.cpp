@@ -102,9 +102,16 @@ WebAnswer MachineApi::jog(const ApiCall& call) {
   jog.way.speed = MmPerSecond(members.number("speed").value_or(0) / seconds_per_minute);
   jog.way.distance = Mm(members.number("distance").value_or(0));
   jog.lease = Seconds(members.number("lease").value_or(jog.lease.value()));
+  jog.share = members.number("share").value_or(jog.share);
   if (!members.end()) return bad_body(members.reason());
   jobs_.step_aside();
   return ask(jog);
+}
+
+WebAnswer MachineApi::renew_jog(const ApiCall& call) {
+  JsonMembers members(call.members());
+  const request::RenewKeepAlive renew{.share = members.number("share")};
+  return members.end() ? ask(renew) : bad_body(members.reason());
 }
 
 WebAnswer MachineApi::set_overrides(const ApiCall& call) {

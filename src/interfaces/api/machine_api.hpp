@@ -34,6 +34,7 @@ class MachineApi {
   WebAnswer stop(const ApiCall& call);
   WebAnswer home(const ApiCall& call);
   WebAnswer jog(const ApiCall& call);
+  WebAnswer renew_jog(const ApiCall& call);
   WebAnswer set_overrides(const ApiCall& call);
   WebAnswer choose_stops(const ApiCall& call);
   WebAnswer switch_outputs(const ApiCall& call);
