@@ -249,6 +249,7 @@ std::string MachineApi::status_text() const {
   json["work_offset"] = as_json(machine, frame.work_offset());
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(shared_.owner);
+  json["pendant"] = pendant_ != nullptr ? as_json(*pendant_) : Json();
   json["job"] = as_json(jobs_.job());
   std::string unkept_words;
   Json sentences = Json::array();

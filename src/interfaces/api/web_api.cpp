@@ -243,6 +243,10 @@ void WebApi::watch(const WebServer& server) {
   parts_->machine_api.watch(server);
 }
 
+void WebApi::watch(const PendantStatus& pendant) {
+  parts_->machine_api.watch(pendant);
+}
+
 const ApiJob& WebApi::job() const {
   return parts_->jobs.job();
 }

@@ -236,6 +236,7 @@ struct ServeArguments {
   bool check = false;                   // only checks whether these options can be served
   std::string data;                     // folder for jobs and history; empty: nothing is kept
   std::string macros;                   // folder with macros and subroutines; empty: none
+  std::string pendant;                  // auto, hidraw:DEVICE or a table; empty: none
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
   std::string system;                   // a folder with system files, as for `board list`
   std::optional<double> ahead;          // motion that may lie in a Grbl board, s
