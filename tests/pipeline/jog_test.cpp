@@ -51,6 +51,26 @@ TEST_P(Jog, by_a_distance_goes_just_so_far) {
   run.expect_at_place();
 }
 
+TEST_P(Jog, goes_at_a_share_of_its_speed_that_a_renewal_changes) {
+  SessionRun run(example_machine("router"), on());
+  run.make_ready();
+  run.taken(request::Jog{
+      .way = {.direction = test::xyz(1, 0), .speed = MmPerSecond(40)}, .lease = Seconds(10), .share = 0.25});
+  const auto steps_within = [&](Seconds time) {
+    const std::int64_t before = run.steps_made();
+    run.pass(time);
+    return static_cast<double>(run.steps_made() - before);
+  };
+  run.pass(Seconds(0.5));
+  const double slow = steps_within(Seconds(1));
+  run.taken(request::RenewKeepAlive{.share = 1});
+  run.pass(Seconds(0.5));
+  EXPECT_NEAR(steps_within(Seconds(1)) / slow, 4, 0.3);
+  EXPECT_EQ(run.refusal_of(request::RenewKeepAlive{.share = 0.01}), "machine.bad-value");
+  run.taken(request::Stop{});
+  EXPECT_TRUE(run.turn_until(MachineState::idle));
+}
+
 TEST_P(Jog, ends_at_the_travel_at_rest_however_long_it_is_renewed) {
   test::SessionOn from = on();
   from.start.place = from.stands_at = test::xyz(0, 290);

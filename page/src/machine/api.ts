@@ -33,6 +33,19 @@ export interface Waits {
   free: boolean; // the machine may be jogged, probed, zeroed and homed meanwhile
 }
 
+// A handwheel or keypad at the daemon's computer.
+export interface Pendant {
+  name: string;
+  connected: boolean;
+  link: boolean; // a wireless one is switched on and within reach
+  axis: string | null; // the selected one
+  continuous: boolean;
+  step: number; // mm or degrees for a detent; 0: none is selected
+  share: number; // of the highest speed, in continuous mode
+  refusal: string; // why its last action was refused; empty: it was not
+  refusal_sentence: Sentence;
+}
+
 export interface Status {
   change: number;
   time: number;
@@ -61,6 +74,7 @@ export interface Status {
   unkept: string; // what is not on the disk yet, and why
   unkept_sentences?: Sentence[];
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
+  pendant?: Pendant | null; // null: none has been connected
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.
   mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string; trouble_sentence: Sentence };

@@ -8,6 +8,7 @@ import { whyNoSetUp } from '../machine/actions';
 import { machine, status } from '../machine/connection';
 import { gamepad } from '../machine/gamepad';
 import { fieldHasKeys, jogShare, jogSpeed, jogStep, movesNow, pressByPointer, windowHasFocus, type Direction } from '../machine/jog';
+import { pendantWords } from '../machine/pendant';
 import { axes } from '../machine/place';
 import { goToPlace, home, homeAxis, makeZero, places, vouchForPlace, whyNotPlace } from '../machine/set_up';
 import { Button } from '../parts/button';
@@ -136,6 +137,7 @@ function JogPanel() {
             ))}
           </span>
           {gamepad.value !== '' && <span> {say('jog.gamepad', { name: gamepad.value })}</span>}
+          {(status.value?.pendant ?? null) !== null && <span> {pendantWords(status.value?.pendant)}</span>}
         </span>
       </p>
     </section>

@@ -172,7 +172,21 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
 
 Json as_json(const MachineControl& owner) {
   static constexpr const char* kinds[] = {"nobody", "sender", "client"};
-  return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}, {"taken", owner.changes()}};
+  return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}, {"taken", owner.number()}};
+}
+
+Json as_json(const PendantStatus& pendant) {
+  if (pendant.name.empty()) return {};
+  const auto letter = [](Axis axis) { return std::string(1, static_cast<char>(letter_of(axis) - 'A' + 'a')); };
+  return {{"name", pendant.name},
+          {"connected", pendant.is_connected},
+          {"link", pendant.has_link},
+          {"axis", pendant.axis ? Json(letter(*pendant.axis)) : Json()},
+          {"continuous", pendant.is_continuous},
+          {"step", rounded(pendant.step)},
+          {"share", rounded(pendant.share)},
+          {"refusal", pendant.refusal.text},
+          {"refusal_sentence", as_json(pendant.refusal)}};
 }
 
 Json as_json(const ApiJob& job) {

@@ -13,6 +13,7 @@
 #include "passo/api/api_routes.hpp"
 #include "passo/api/machine_control.hpp"
 #include "passo/api/mdi_lines.hpp"
+#include "passo/api/pendant_status.hpp"
 #include "passo/api/program_store.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
@@ -41,6 +42,8 @@ double rounded(double value);
 Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
 Json as_json(const MachineControl& owner);
+// Null: no pendant has been connected yet.
+Json as_json(const PendantStatus& pendant);
 Json as_json(const ApiJob& job);
 // Returns the modal state of the MDI lines, and the tool position derived from it.
 Json as_json(const MachineDescription& machine, const MdiLines& mdi, const Point& at);

@@ -67,7 +67,7 @@ constexpr ApiRoute routes[] = {
     {"POST", "/interrupted/resume", "resumeInterrupted", owner, none, &JobsApi::resume_interrupted, Needs::history},
 
     {"POST", "/jog", "jog", owner, json, &MachineApi::jog},
-    {"POST", "/jog/renew", "renewJog", owner, none, &MachineApi::order<request::RenewKeepAlive>},
+    {"POST", "/jog/renew", "renewJog", owner, json, &MachineApi::renew_jog},
 
     {"GET", "/machine", "getMachine", anybody, none, &MachineApi::description},
     {"GET", "/machine/file", "getMachineFile", anybody, none, &MachineFileApi::get},

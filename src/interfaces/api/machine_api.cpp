@@ -102,9 +102,16 @@ WebAnswer MachineApi::jog(const ApiCall& call) {
   jog.way.speed = MmPerSecond(members.number("speed").value_or(0) / seconds_per_minute);
   jog.way.distance = Mm(members.number("distance").value_or(0));
   jog.lease = Seconds(members.number("lease").value_or(jog.lease.value()));
+  jog.share = members.number("share").value_or(jog.share);
   if (!members.end()) return bad_body(members.reason());
   jobs_.step_aside();
   return ask(jog);
+}
+
+WebAnswer MachineApi::renew_jog(const ApiCall& call) {
+  JsonMembers members(call.members());
+  const request::RenewKeepAlive renew{.share = members.number("share")};
+  return members.end() ? ask(renew) : bad_body(members.reason());
 }
 
 WebAnswer MachineApi::set_overrides(const ApiCall& call) {
@@ -242,6 +249,7 @@ std::string MachineApi::status_text() const {
   json["work_offset"] = as_json(machine, frame.work_offset());
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(shared_.owner);
+  json["pendant"] = pendant_ != nullptr ? as_json(*pendant_) : Json();
   json["job"] = as_json(jobs_.job());
   std::string unkept_words;
   Json sentences = Json::array();

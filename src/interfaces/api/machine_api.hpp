@@ -12,6 +12,7 @@
 #include "program_times.hpp"
 
 #include "passo/api/mdi_lines.hpp"
+#include "passo/api/pendant_status.hpp"
 
 namespace passo {
 
@@ -34,6 +35,7 @@ class MachineApi {
   WebAnswer stop(const ApiCall& call);
   WebAnswer home(const ApiCall& call);
   WebAnswer jog(const ApiCall& call);
+  WebAnswer renew_jog(const ApiCall& call);
   WebAnswer set_overrides(const ApiCall& call);
   WebAnswer choose_stops(const ApiCall& call);
   WebAnswer switch_outputs(const ApiCall& call);
@@ -52,6 +54,8 @@ class MachineApi {
   void poll();
   // Sets the server whose counters are included in the metrics.
   void watch(const WebServer& server) { server_ = &server; }
+  // Sets the pendant that the status shows.
+  void watch(const PendantStatus& pendant) { pendant_ = &pendant; }
 
  private:
   WebAnswer ask(Request wanted);
@@ -65,6 +69,7 @@ class MachineApi {
   HomingRecord homing_;
   std::uint64_t mdi_owner_ = 0;  // value of MachineControl::changes() for the MDI lines
   const WebServer* server_ = nullptr;
+  const PendantStatus* pendant_ = nullptr;
   std::uint64_t alarms_ = 0;
   std::uint64_t late_ = 0;  // number of stops because a queue update was late
 };

@@ -222,6 +222,7 @@ void WebApi::poll() {
   parts_->times.poll();
   parts_->machine_api.poll();
   parts_->jobs.poll();
+  parts_->small_jobs_api.poll();
   if (!parts_->shared.session.busy()) parts_->keep_all();
 }
 
@@ -256,6 +257,10 @@ std::optional<Point> WebApi::broken_off_at() {
 
 void WebApi::watch(const WebServer& server) {
   parts_->machine_api.watch(server);
+}
+
+void WebApi::watch(const PendantStatus& pendant) {
+  parts_->machine_api.watch(pendant);
 }
 
 const ApiJob& WebApi::job() const {

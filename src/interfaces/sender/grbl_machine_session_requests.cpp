@@ -162,24 +162,24 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::Jog& jog) {
   work->jog.from = position_.place;
   work->jog.line = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
   work->jog.length = Mm(distance(work->jog.from, work->jog.line->target()));
-  work->jog.speed = jog.way.speed;
+  work->jog.highest = jog.way.speed;
   double least_acceleration = 1e9;
   for (const AxisDescription& axis : machine_.axes) {
     if (jog.way.direction[axis.axis] == 0) continue;
-    work->jog.speed = std::min(work->jog.speed, axis.velocity);
+    work->jog.highest = std::min(work->jog.highest, axis.velocity);
     least_acceleration = std::min(least_acceleration, axis.acceleration.value());
   }
-  // As much as the way between two reports, and to brake from the speed.
-  constexpr double two_reports = 0.25;  // s
-  const double v = work->jog.speed.value();
-  work->jog.ahead = Mm(v * two_reports + 0.6 * v * v / least_acceleration);
+  work->jog.acceleration = MmPerSecond2(least_acceleration);
+  work->jog.set_share(jog.share);
   work->jog.lease = jog.lease;
   work->jog.lease_end = now() + jog.lease;
   return begin(MachineEvent::begin_jog, std::move(work));
 }
 
-GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive&) {
+GrblMachineSession::Answer GrblMachineSession::handle(request::RenewKeepAlive& renew) {
   if (state_ != MachineState::jog) return refused(RefusalReason::no_jog);
+  if (auto refusal = refusal_of(renew)) return Failure{*refusal};
+  if (renew.share) work_->jog.set_share(*renew.share);
   work_->jog.lease_end = now() + work_->jog.lease;
   return at_once();
 }

@@ -53,6 +53,8 @@ struct GrblMachineSession::Work {
   struct Jog {
     std::unique_ptr<JogLine> line;  // null: this is no jog
     Point from;
+    MmPerSecond highest{0};  // speed, of which a share is used
+    MmPerSecond2 acceleration{0};
     MmPerSecond speed{0};
     Mm length{0};
     Mm sent{0};   // end of the last piece
@@ -61,6 +63,14 @@ struct GrblMachineSession::Work {
     Seconds lease_end{0};
     std::optional<Seconds> cancelled_at;
     bool freed = false;  // a cycle start has followed the last cancel
+
+    // Pieces that are sent later have this speed. They are sent ahead by the way between two reports, and to brake.
+    void set_share(double share) {
+      constexpr double two_reports = 0.25;  // s
+      speed = MmPerSecond(highest.value() * share);
+      const double v = speed.value();
+      ahead = Mm(v * two_reports + 0.6 * v * v / acceleration.value());
+    }
   };
 
   struct Probing {

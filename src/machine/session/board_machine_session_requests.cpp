@@ -218,12 +218,15 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Jog& jog) {
   work->activity = std::make_unique<JogLine>(machine_, position().place, jog.way, position().trust != Trust::unknown);
   work->lease.begin(jog.lease, now());
   put_on_drive(*work, drive_options());
+  work->drive->set_feed_override(jog.share);
   return begin(MachineEvent::begin_jog, std::move(work));
 }
 
 // Has no effect on a jog that has begun to brake.
-BoardMachineSession::Answer BoardMachineSession::handle(request::RenewKeepAlive&) {
+BoardMachineSession::Answer BoardMachineSession::handle(request::RenewKeepAlive& renew) {
   if (state_ != MachineState::jog) return refusal(RefusalReason::no_jog);
+  if (auto refused = refusal_of(renew)) return Failure{*refused};
+  if (renew.share) work_->drive->set_feed_override(*renew.share);
   work_->lease.renew(now());
   return at_once();
 }

@@ -39,6 +39,7 @@ constexpr RefusalRow all_refusals[] = {
     {no_switches, RefusalCode::no_switches, "machine.no-switches", "no axis has a homing switch (table [axis.X.home])"},
     {bad_jog, RefusalCode::bad_value, "machine.bad-value.jog", "a jog needs a direction, and a speed above 0"},
     {bad_lease, RefusalCode::bad_value, "machine.bad-value.lease", "the keep-alive timeout of a jog is 0.1 to 10 s"},
+    {bad_share, RefusalCode::bad_value, "machine.bad-value.share", "the share of a jog's speed is 0.02 to 1"},
     {bad_probe, RefusalCode::bad_value, "machine.bad-value.probe", "a probe move needs a target, and a speed above 0"},
     {probe_leaves_travel, RefusalCode::bad_value, "machine.bad-value.probe-travel",
      "the probe move would leave the machine's travel"},

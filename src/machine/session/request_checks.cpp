@@ -17,6 +17,10 @@ bool is_factor(const std::optional<double>& value, double highest) {
   return !value || (*value >= 0 && *value <= highest);
 }
 
+bool is_share(double value) {
+  return value >= request::Jog::least_share && value <= 1;
+}
+
 }  // namespace
 
 bool all_finite(const Point& point) {
@@ -41,8 +45,14 @@ std::optional<Refusal> refusal_of(const request::Jog& jog) {
                     std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
                     length_of(jog.way.direction) > 0;
   if (!good) return Refusal{RefusalReason::bad_jog};
+  if (!is_share(jog.share)) return Refusal{RefusalReason::bad_share};
   if (jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease) return {};
   return Refusal{RefusalReason::bad_lease};
+}
+
+std::optional<Refusal> refusal_of(const request::RenewKeepAlive& renew) {
+  if (is_share(renew.share.value_or(1))) return {};
+  return Refusal{RefusalReason::bad_share};
 }
 
 std::optional<Refusal> refusal_of(const request::Probe& probe, const MachineDescription& machine,

@@ -31,6 +31,7 @@ export const faults = {
   'machine.no-switches': 'no axis has a homing switch (table [axis.X.home] in the machine file)',
   'machine.bad-value.jog': 'a jog needs a direction and a speed above 0',
   'machine.bad-value.lease': 'the keep-alive timeout of a jog must be 0.1 to 10 s',
+  'machine.bad-value.share': 'the share of a jog’s speed must be 0.02 to 1',
   'machine.bad-value.probe': 'a probing move needs a target and a speed above 0',
   'machine.bad-value.probe-travel': 'the probing move would leave the machine’s travel',
   'machine.bad-value.override': 'an override must be a factor of 0 to 2 (for the machine’s own override: 0 to 1)',

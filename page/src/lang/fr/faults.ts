@@ -33,6 +33,7 @@ export const faults: Same<typeof en> = {
   'machine.no-switches': 'aucun axe n’a de fin de course d’origine (table [axis.X.home] du fichier machine)',
   'machine.bad-value.jog': 'un déplacement manuel demande une direction et une vitesse supérieure à 0',
   'machine.bad-value.lease': 'le délai de maintien (keep-alive) d’un déplacement manuel doit être de 0,1 à 10 s',
+  'machine.bad-value.share': 'la part de la vitesse d’un déplacement manuel doit être de 0,02 à 1',
   'machine.bad-value.probe': 'un palpage demande une cible et une vitesse supérieure à 0',
   'machine.bad-value.probe-travel': 'le palpage ferait sortir la machine de sa course',
   'machine.bad-value.override': 'une correction doit être un facteur de 0 à 2 (celle propre à la machine : de 0 à 1)',

@@ -33,6 +33,7 @@ export const faults: Same<typeof en> = {
   'machine.no-switches': 'nessun asse ha un finecorsa di homing (tabella [axis.X.home] del file macchina)',
   'machine.bad-value.jog': 'un movimento manuale richiede una direzione e una velocità maggiore di 0',
   'machine.bad-value.lease': 'il tempo di mantenimento (keep-alive) di un movimento manuale deve essere da 0,1 a 10 s',
+  'machine.bad-value.share': 'la quota della velocità di un movimento manuale deve essere da 0,02 a 1',
   'machine.bad-value.probe': 'una tastatura richiede un punto di arrivo e una velocità maggiore di 0',
   'machine.bad-value.probe-travel': 'la tastatura uscirebbe dalla corsa della macchina',
   'machine.bad-value.override': 'un override deve essere un fattore da 0 a 2 (quello proprio della macchina: da 0 a 1)',

@@ -33,6 +33,7 @@ export const faults: Same<typeof en> = {
   'machine.no-switches': '没有任何轴配置回零开关（机床文件中的 [axis.X.home] 表）',
   'machine.bad-value.jog': '点动需要方向和大于 0 的速度',
   'machine.bad-value.lease': '点动保持信号的超时时间必须为 0.1 至 10 s',
+  'machine.bad-value.share': '点动速度的比例必须为 0.02 至 1',
   'machine.bad-value.probe': '探测运动需要目标点和大于 0 的速度',
   'machine.bad-value.probe-travel': '探测运动会超出机床行程',
   'machine.bad-value.override': '倍率必须为 0 至 2；机床自身的倍率为 0 至 1',

@@ -240,6 +240,7 @@ struct ServeArguments {
   std::string data;                     // folder for jobs and history; empty: nothing is kept
   std::string tool_library;             // TOML; empty: the tools have no limits
   std::string macros;                   // folder with macros and subroutines; empty: none
+  std::string pendant;                  // auto, hidraw:DEVICE or a table; empty: none
   std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
   std::string system;                   // a folder with system files, as for `board list`
   std::optional<double> ahead;          // motion that may lie in a Grbl board, s

@@ -103,6 +103,8 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
                      "host name under which browsers reach this server, e.g. through a proxy; can be repeated");
   command.add_option("--macros", arguments.macros,
                      "folder with macros (.ngc) for buttons and keys, and with subroutines for all programs");
+  command.add_option("--pendant", arguments.pendant,
+                     "pendant that may move the machine: auto, hidraw:DEVICE, or a table FILE.toml; see passo pendant");
   command.add_option("--data", arguments.data,
                      "folder for the job queue, the job history, the alarms and what each tool has cut");
   command.add_option(

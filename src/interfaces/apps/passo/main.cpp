@@ -21,6 +21,7 @@
 #include "going_commands.hpp"
 #include "grade_options.hpp"
 #include "machine_options.hpp"
+#include "pendant_options.hpp"
 #include "probing_commands.hpp"
 #include "program_input.hpp"
 #include "program_options.hpp"
@@ -61,6 +62,7 @@ constexpr const char* examples = R"(Examples:
   passo cam drill pads.dxf -o board.ngc                       generate a program for the holes of a circuit board
   passo tools feeds tools.toml -t 3 --material plywood        calculate feeds and speeds of a cutter
   passo board list                                            list the boards on this computer's serial ports
+  passo pendant watch                                         show what is done at a pendant (handwheel on USB)
   passo interpolate --compare --to 27,10                      compare how interpolation methods step along a line
   passo motor --help                                          calculate the torque of a stepper motor at each speed
   passo loop --compare --picture rules.svg                    compare PID rules for a motor with an encoder
@@ -112,6 +114,7 @@ const std::vector<Command>& all_commands() {
       {"machine", "check and describe a machine file, or make one from the settings of another controller",
        options_of<MachineArguments, add_machine_options, machine>},
       {"board", "list, flash, query and monitor boards", add_board_help, board_commands()},
+      {"pendant", "list pendants (handwheels on USB), and show what is done at one", nullptr, pendant_commands()},
       {"probe", "generate a probing program", options_of<ProbeArguments, add_probe_options, probe>},
       {"frame", "generate a program that moves around a job, to show where it lies",
        options_of<FrameArguments, add_frame_options, frame>},

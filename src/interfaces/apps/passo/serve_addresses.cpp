@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "passo/base/lower_case.hpp"
+#include "passo/pendant/pendant_finder.hpp"
 
 namespace passo {
 namespace {
@@ -115,6 +116,12 @@ int check_serve(const ServeArguments& arguments, const std::string& machine_name
   if (!arguments.grbl_tcp.empty() && !sender_address(arguments, arguments.grbl_tcp, code)) return code;
   if (!arguments.grbl_serial.empty() && !sender_port(arguments, code)) return code;
   if (!arguments.http.empty() && !web_place(arguments, code)) return code;
+  if (!arguments.pendant.empty()) {
+    Diagnostics diagnostics;
+    const bool is_good = PendantFinder::make(arguments.pendant, arguments.system, diagnostics).has_value();
+    show(diagnostics);
+    if (!is_good) return exit_bad_program;
+  }
   if (!arguments.mqtt.empty() && !ServedStatus::check(arguments, code)) return code;
   if (const auto board = parse_board_address(arguments.board); !board) return fail(exit_bad_program, board.error());
   if (!arguments.data.empty() && !can_keep_data(arguments.data)) {

@@ -17,6 +17,7 @@
 #include "serve_daemon.hpp"
 #include "serve_web.hpp"
 #include "served_journal.hpp"
+#include "served_pendant.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 
@@ -167,6 +168,7 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
   }
   MachineControl owner;
   std::unique_ptr<ServedWeb> web;
+  PendantStatus pendant_status;
   ServedJobs jobs{.journal = things.journal,
                   .machine_file = stamp_of_text(arguments.machine, things.text),
                   .machine_access = access_to(arguments.machine)};
@@ -197,14 +199,23 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
     status = ServedStatus::open(arguments, machine, code);
     if (!status) return code;
   }
+  std::unique_ptr<ServedPendant> pendant;
+  if (!arguments.pendant.empty()) {
+    const PendantMachine moved{.machine = machine, .session = session, .owner = owner, .api = web->api()};
+    pendant = ServedPendant::open(arguments, moved, pendant_status, code);
+    if (!pendant) return code;
+    web->api().watch(pendant_status);
+  }
   fmt::print("{} on {}{}\n", machine.name, things.words, lines.empty() ? ":" : ", for Grbl 1.1 senders:");
   for (const auto& line : lines) fmt::print("  {}\n", line->name());
   if (web) fmt::print("Web interface and API:\n  {}\n", web->name());
+  if (pendant) fmt::print("Pendant:\n  {}\n", pendant->name());
   if (status) fmt::print("Status by MQTT:\n  {}\n", status->name());
   fmt::print("Ctrl-C stops the machine and the server.\n");
   std::fflush(stdout);
   ServeDaemon daemon(things.served, grbl, owner, std::move(lines), web.get(), service);
   daemon.tell(status.get());
+  daemon.follow(pendant.get());
   service.ready(machine.name);
   daemon.serve();
   service.stopping();
@@ -238,6 +249,9 @@ int serve(const ServeArguments& given) {
   if (!machine) return exit_bad_machine;
   if (!arguments.data.empty() && arguments.http.empty()) {
     return fail(exit_bad_program, "--data is for the jobs of --http, which is missing [serve.data]");
+  }
+  if (!arguments.pendant.empty() && arguments.http.empty()) {
+    return fail(exit_bad_program, "--pendant acts through the API of --http, which is missing [serve.pendant]");
   }
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
   if (!things) return exit_bad_program;

@@ -33,6 +33,7 @@ void ServeDaemon::serve() {
     wait();
     for (const auto& line : lines_) attend(*line);
     if (web_ != nullptr) web_->poll();
+    if (pendant_ != nullptr) pendant_->poll();
     check_owner();
     poll();
     keep_place_if_changed();
@@ -63,6 +64,7 @@ void ServeDaemon::wait() {
   std::vector<pollfd> all;
   for (const auto& line : lines_) line->add_to(all, may_read(*line));
   if (web_ != nullptr) web_->add_to(all);
+  if (pendant_ != nullptr) pendant_->add_to(all);
   static_cast<void>(::poll(all.data(), all.size(), static_cast<int>(most.value() * 1e3)));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "serve_web.hpp"
+#include "served_pendant.hpp"
 #include "served_status.hpp"
 
 #include "passo/api/machine_control.hpp"
@@ -56,6 +57,8 @@ class ServeDaemon {
 
   // Publishes the status to a broker, too. `status` must outlive the daemon; null: not published.
   void tell(ServedStatus* status) { status_ = status; }
+  // Acts for a pendant, too. `pendant` must outlive the daemon; null: there is none.
+  void follow(ServedPendant* pendant) { pendant_ = pendant; }
   // Runs until a signal is received.
   void serve();
   // Brakes all motion, and waits until it has stopped.
@@ -80,6 +83,7 @@ class ServeDaemon {
   ServedWeb* web_;
   ServiceNotice& service_;
   ServedStatus* status_ = nullptr;
+  ServedPendant* pendant_ = nullptr;
   SenderConnection* driver_ = nullptr;  // the interface with the active sender
   bool driver_spoke_ = false;           // and the sender has identified itself as one
   std::uint64_t kept_version_ = 0;      // version of the status with which the position was saved

@@ -61,6 +61,7 @@ class ServedWeb {
   // A job that is stopped from now on can be resumed when the program runs again.
   void leave() { api_.leave(); }
   const WebApi& api() const { return api_; }
+  WebApi& api() { return api_; }
   // Makes senders and programs share the same offsets. `grbl` must outlive this object.
   void share_offsets(GrblController& grbl);
   // The board keeps the work offsets: takes over its own, and writes changed ones to it. It plans the motion, too:

@@ -3,7 +3,8 @@
 //
 // In control is a G-code sender (a Grbl client), a client of the API, or nobody. Control passes explicitly: a
 // connecting sender takes control if nobody has it; a client of the API requests control, and releases it. Control
-// never passes while the machine moves for a connected owner. Everyone may hold and stop.
+// never passes while the machine moves for a connected owner. Everyone may hold and stop. A pendant takes control while
+// it is used, and gives it back afterwards (docs/decisions/0206).
 #pragma once
 
 #include <cstdint>
@@ -38,21 +39,29 @@ class MachineControl {
   // Gives control to a client. `key` later authenticates its requests.
   void claim_for_client(std::string name, std::string key) { set(Kind::client, std::move(name), std::move(key)); }
   void release() { set(Kind::nobody, "", ""); }
+  // Gives control back to the one who had it before a pendant was used.
+  void give_back_to(const MachineControl& before) {
+    set(before.kind_, before.name_, before.key_);
+    number_ = before.number_;
+  }
   // Increases with each change of the owner.
   std::uint64_t changes() const { return changes_; }
+  // The number of the present ownership. It is the same again after it was given back.
+  std::uint64_t number() const { return number_; }
 
  private:
   void set(Kind kind, std::string name, std::string key) {
     kind_ = kind;
     name_ = std::move(name);
     key_ = std::move(key);
-    ++changes_;
+    number_ = ++changes_;
   }
 
   Kind kind_ = Kind::nobody;
   std::string name_;
   std::string key_;
   std::uint64_t changes_ = 0;
+  std::uint64_t number_ = 0;
 };
 
 }  // namespace passo

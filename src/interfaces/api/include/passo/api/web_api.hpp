@@ -21,6 +21,7 @@
 #include "passo/api/api_job.hpp"
 #include "passo/api/api_options.hpp"
 #include "passo/api/machine_control.hpp"
+#include "passo/api/pendant_status.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/session/machine_session.hpp"
 #include "passo/web/web_server.hpp"
@@ -63,6 +64,8 @@ class WebApi final : public WebHandler {
   std::optional<Point> broken_off_at();
   // Sets the server whose counters are included in the metrics.
   void watch(const WebServer& server);
+  // Sets the pendant that the status shows; must outlive the API.
+  void watch(const PendantStatus& pendant);
   const ApiJob& job() const;
   // Returns the remaining time of the running job, if it is known.
   std::optional<Seconds> time_left() const;

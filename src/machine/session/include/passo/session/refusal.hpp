@@ -52,6 +52,7 @@ enum class RefusalReason : std::uint8_t {
   no_switches,
   bad_jog,
   bad_lease,
+  bad_share,
   bad_probe,
   probe_leaves_travel,
   bad_override,

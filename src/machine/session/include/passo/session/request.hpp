@@ -71,8 +71,13 @@ struct Jog {
 
   JogWay way;
   Seconds lease{0.25};  // duration of the first keep-alive timeout, and of each renewal
+  // Of the speed of the way. A client that moves a ring or a stick changes it with a renewal, while the axes move.
+  static constexpr double least_share = 0.02;
+  double share = 1;
 };
-struct RenewKeepAlive {};
+struct RenewKeepAlive {
+  std::optional<double> share = {};  // as in Jog; empty: it stays
+};
 // Homes the machine, or one axis of it (Ability::home_axis).
 struct Home {
   std::optional<Axis> axis = {};

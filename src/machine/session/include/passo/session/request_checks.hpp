@@ -17,6 +17,7 @@ bool all_finite(const Point& point);
 // Why nothing can begin in this state. `is_busy`: an activity is running or held.
 Refusal refusal_in(MachineState state, bool is_busy);
 std::optional<Refusal> refusal_of(const request::Jog& jog);
+std::optional<Refusal> refusal_of(const request::RenewKeepAlive& renew);
 // `slack`: how exactly the board reports its position.
 std::optional<Refusal> refusal_of(const request::Probe& probe, const MachineDescription& machine,
                                   const KnownPosition& position, Mm slack);
