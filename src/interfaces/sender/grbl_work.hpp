@@ -39,6 +39,7 @@ struct GrblMachineSession::Work {
   struct Stop {
     Point place;
     std::optional<Point> zero;
+    bool is_moved = false;  // by others, since then
   };
   struct Hold {
     bool asked = false;  // by a request
@@ -86,8 +87,10 @@ struct GrblMachineSession::Work {
   std::unique_ptr<ProbeLine> probe;
   Watchers watchers;
   std::unique_ptr<GrblFeed> feed;
+  std::uint64_t outputs_line = 0;  // the sender's line with the last change of the outputs
   Progress progress;
   Hold hold;
+  std::optional<Stop> line_wait = {};  // a stream has no further line yet
 
   std::unique_ptr<ProgramChecker> checker;
 

@@ -27,6 +27,9 @@ namespace {
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
 
+constexpr std::string_view kinematics_key = "kinematics";
+const char* const kinematics_code = "machine.kinematics";
+
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey tool_diameter_key{"diameter_mm", 0, 1000, "3"};
 
@@ -39,8 +42,8 @@ constexpr std::string_view second_table = "second_motor";
 
 class MachineReader {
  public:
-  MachineReader(const TomlDocument& document, const TomlReporter& reporter)
-      : document_(document), reporter_(reporter) {}
+  MachineReader(const TomlDocument& document, const TomlReporter& reporter, MachineUse use)
+      : document_(document), reporter_(reporter), use_(use) {}
 
   MachineDescription read();
 
@@ -52,6 +55,9 @@ class MachineReader {
     SourceLocation motor_position;  // of the motor number in it
   };
 
+  void read_kinematics(TableReader& top);
+  void check_core_xy(const SourceLocation& place) const;
+  void check_axis_of_core_xy(const AxisEntry& entry) const;
   void read_board(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
   void read_probe(const TomlEntry& entry);
@@ -76,11 +82,12 @@ class MachineReader {
   void number_second_motors();
 
   void finish(TableReader& reader) const {
-    reader.finish(document_.complete, {"name", path_tolerance_key.name, path_tolerance_deg_key.name});
+    reader.finish(document_.complete, {"name", kinematics_key, path_tolerance_key.name, path_tolerance_deg_key.name});
   }
 
   const TomlDocument& document_;
   const TomlReporter& reporter_;
+  MachineUse use_;
   MachineDescription machine_;
   std::optional<Hertz> event_rate_;  // the board's, if it is right
   std::vector<AxisEntry> axes_;
@@ -94,6 +101,7 @@ MachineDescription MachineReader::read() {
   if (const auto tolerance = top.number(path_tolerance_key, Need::optional)) machine_.path_tolerance = Mm(*tolerance);
   machine_.path_tolerance_deg =
       top.number(path_tolerance_deg_key, Need::optional).value_or(machine_.path_tolerance_deg);
+  read_kinematics(top);
   const TomlEntry* board = top.table("board", "a table [board] with the board's clock", Need::required);
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
@@ -115,11 +123,62 @@ MachineDescription MachineReader::read() {
   if (work != nullptr) look_at_work(*work);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
+  if (machine_.is_core_xy && axes != nullptr) check_core_xy(top.place_of(kinematics_key));
   if (park != nullptr) read_park_of(*park);
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
+}
+
+void MachineReader::read_kinematics(TableReader& top) {
+  const auto kind = top.text(kinematics_key, "corexy", Need::optional);
+  if (!kind || *kind == "cartesian") return;
+  machine_.is_core_xy = *kind == "corexy";
+  if (machine_.is_core_xy) return;
+  top.error(kinematics_code, kinematics_key, fmt::format("{} = \"{}\"", kinematics_key, kind->substr(0, 40)),
+            "\"corexy\"; without this key, or with \"cartesian\", each axis has a motor, or two");
+}
+
+// Called when all axes are known.
+void MachineReader::check_core_xy(const SourceLocation& place) const {
+  if (use_ == MachineUse::own_board) {
+    reporter_.error(kinematics_code, place,
+                    "the boards of Passo, its simulated machine and its planner do not support a CoreXY",
+                    "a board with Grbl: --board grbl:DEVICE, and passo check --board grbl");
+  }
+  std::vector<const AxisEntry*> shared;
+  for (const AxisEntry& entry : axes_) {
+    const Axis axis = entry.description.axis;
+    if (axis != Axis::x && axis != Axis::y) continue;
+    check_axis_of_core_xy(entry);
+    shared.push_back(&entry);
+  }
+  if (shared.size() < 2) {
+    if (document_.complete)
+      reporter_.error(kinematics_code, place, "a CoreXY has the axes X and Y", "[axis.X] and [axis.Y]");
+    return;
+  }
+  if (shared[0]->description.steps_per_unit == shared[1]->description.steps_per_unit) return;
+  reporter_.error(kinematics_code, shared[1]->place,
+                  fmt::format("X has {:g} steps per mm and {} has {:g}", shared[0]->description.steps_per_unit,
+                              letter_of(shared[1]->description.axis), shared[1]->description.steps_per_unit),
+                  "the same number for X and Y, which share the two motors of a CoreXY");
+}
+
+// These tables describe a motor of the axis.
+void MachineReader::check_axis_of_core_xy(const AxisEntry& entry) const {
+  const AxisDescription& axis = entry.description;
+  const char* const table = axis.second    ? "second_motor"
+                            : axis.motor   ? "torque"
+                            : axis.screw   ? "screw"
+                            : axis.encoder ? "encoder"
+                                           : nullptr;
+  if (table == nullptr) return;
+  const char letter = letter_of(axis.axis);
+  reporter_.error(
+      kinematics_code, entry.place, fmt::format("[axis.{}.{}] describes a motor of its own", letter, table),
+      fmt::format("no such table: {} shares two motors of a CoreXY with {}", letter, letter == 'X' ? 'Y' : 'X'));
 }
 
 void MachineReader::read_board(const TomlEntry& entry) {
@@ -448,8 +507,8 @@ void MachineReader::number_motors() {
 
 }  // namespace
 
-MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter) {
-  return MachineReader(document, reporter).read();
+MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter, MachineUse use) {
+  return MachineReader(document, reporter, use).read();
 }
 
 }  // namespace passo

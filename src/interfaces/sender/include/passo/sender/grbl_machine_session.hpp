@@ -28,6 +28,7 @@
 #include "passo/sender/grbl_port.hpp"
 #include "passo/sender/grbl_program_check.hpp"
 #include "passo/sender/grbl_sender.hpp"
+#include "passo/sender/session_settings.hpp"
 #include "passo/session/live_position.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -56,6 +57,8 @@ class GrblMachineSession final : public MachineSession {
   std::optional<Refusal> closed_limit() const override { return {}; }
   std::optional<Refusal> lost_place() const override;
   MachineAbilities abilities() const override;
+  NumberedSettings* numbered_settings() override { return &settings_; }
+  const NumberedSettings* numbered_settings() const override { return &settings_; }
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
@@ -84,7 +87,7 @@ class GrblMachineSession final : public MachineSession {
   // Meanwhile every request is refused. Null: the machine is not at rest.
   GrblSender* lend_sender();
   // False if it has not been lent, or if the connection or the board's state was lost in the meantime.
-  bool is_sender_lent() const { return lent_; }
+  bool is_sender_lent() const { return connection_.is_lent; }
   // The settings may be others now: the session takes over what the board has told.
   void take_sender_back();
 
@@ -104,7 +107,9 @@ class GrblMachineSession final : public MachineSession {
   struct Heard {
     std::uint64_t reports = 0;  // so far
     std::string pins;
-    std::string outputs;  // letters, as the board reports them
+    std::optional<std::string> outputs;  // letters, as the board reports them; empty: not reported yet
+    std::uint64_t outputs_after = 0;     // lines that were answered before that report
+    double speed = 0;                    // of the spindle, rpm, without its override
     std::optional<Point> work_zero;
     Contact contact;
   };
@@ -114,6 +119,7 @@ class GrblMachineSession final : public MachineSession {
     std::optional<Seconds> broken_since = {};
     bool offsets_are_old = false;
     bool asks_offsets = false;
+    bool is_lent = false;  // the sender, for the settings
     std::function<void()> offsets_listener = {};
   };
   struct Trouble {
@@ -161,6 +167,7 @@ class GrblMachineSession final : public MachineSession {
   void exchange(Seconds most);
   void hear(std::string_view line);
   void hear_report();
+  void hear_switches(const GrblReport& report);
   void hear_work_zero(const Point& zero);
   void ask_for_offsets();
   void take_board();
@@ -170,6 +177,7 @@ class GrblMachineSession final : public MachineSession {
   void prepare();
   bool rests() const;
   bool is_held_at_board() const;
+  OutputState outputs_now() const;
   MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
@@ -180,6 +188,7 @@ class GrblMachineSession final : public MachineSession {
   void make_feed();
   void poll_feed();
   void answer_question();
+  void await_line();
   void update_holds();
   void poll_jog();
   void send_jog_piece();
@@ -211,7 +220,7 @@ class GrblMachineSession final : public MachineSession {
   Connection connection_;
   bool locked_ = false;  // the board is in an alarm that $X or $H ends
   Recovery recovery_;
-  bool lent_ = false;  // the sender, for the settings
+  SessionSettings settings_{*this};
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;

@@ -19,6 +19,7 @@
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/session/machine_abilities.hpp"
 #include "passo/session/machine_status.hpp"
+#include "passo/session/numbered_settings.hpp"
 #include "passo/session/request.hpp"
 
 namespace passo {
@@ -61,6 +62,9 @@ class MachineSession {
   // The same for an unknown or lost position. Jogging is possible.
   virtual std::optional<Refusal> lost_place() const = 0;
   virtual MachineAbilities abilities() const { return {}; }
+  // Returns the settings of a board that has its own; otherwise null.
+  virtual NumberedSettings* numbered_settings() { return nullptr; }
+  virtual const NumberedSettings* numbered_settings() const { return nullptr; }
   // Returns the session if it has a board that executes our steps; otherwise null.
   virtual BoardMachineSession* as_board_session() { return nullptr; }
   virtual const BoardMachineSession* as_board_session() const { return nullptr; }
