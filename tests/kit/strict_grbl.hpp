@@ -314,27 +314,9 @@ class StrictGrbl {
     if (code == 0xA1 && parser_.has_mist) modes_.mist = mist_ = !modes_.mist;
     override_count_ = 0;
   }
-  // Toggles.
-  void stop_spindle() {
-    if (modes_.spindle == 5) return;
-    if (spindle_ == 5) say("[MSG:Restoring spindle]");
-    spindle_ = spindle_ == 5 ? modes_.spindle : 5;
-    override_count_ = 0;
-  }
-  // At rest behind an open door.
-  void switch_off() {
-    spindle_ = 5;
-    flood_ = mist_ = false;
-    override_count_ = 0;
-  }
-  // The spindle turns again; then the coolant comes, and then the motion.
-  void go_on_after_door() {
-    if (!std::exchange(restores_coolant_, false)) return resume();
-    flood_ = modes_.flood;
-    mist_ = modes_.mist;
-    override_count_ = 0;
-    restores_until_ = now_ + door_coolant_time;
-  }
+  void stop_spindle();
+  void switch_off();
+  void go_on_after_door();
   // The commands of an override: 100 %, 10 % up, 10 % down, 1 % up, 1 % down.
   static int stepped(int now, int command, int least, int most) {
     constexpr std::array steps = {0, 10, -10, 1, -1};

@@ -156,7 +156,7 @@ void GrblMachineSession::await_line() {
   }
   if (!work.lines->is_to_begin(now())) return;
   const Work::Stop wait = *std::exchange(work.line_wait, {});
-  wait.is_moved ? work.feed->go_on_from(position_.place, wait.place) : work.feed->go_on();
+  wait.is_moved ? work.feed->go_on_from(position_.place, wait.place) : work.feed->go_on_with_all_words();
   sender_.follow(first_work_zero(board_), connection_.ahead);
 }
 

@@ -7,6 +7,7 @@
 
 #include "axis_keys.hpp"
 #include "board_reader.hpp"
+#include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
 #include "machine_file_sentences.hpp"
@@ -56,8 +57,7 @@ class MachineReader {
   };
 
   void read_kinematics(TableReader& top);
-  void check_core_xy(const SourceLocation& place) const;
-  void check_axis_of_core_xy(const AxisEntry& entry) const;
+  void check_kinematics(const SourceLocation& key) const;
   void read_board(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
   void read_probe(const TomlEntry& entry);
@@ -123,7 +123,7 @@ MachineDescription MachineReader::read() {
   if (work != nullptr) look_at_work(*work);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
-  if (machine_.is_core_xy && axes != nullptr) check_core_xy(top.place_of(kinematics_key));
+  if (machine_.is_core_xy && axes != nullptr) check_kinematics(top.place_of(kinematics_key));
   if (park != nullptr) read_park_of(*park);
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
@@ -141,44 +141,10 @@ void MachineReader::read_kinematics(TableReader& top) {
 }
 
 // Called when all axes are known.
-void MachineReader::check_core_xy(const SourceLocation& place) const {
-  if (use_ == MachineUse::own_board) {
-    reporter_.error(kinematics_code, place,
-                    "the boards of Passo, its simulated machine and its planner do not support a CoreXY",
-                    "a board with Grbl: --board grbl:DEVICE, and passo check --board grbl");
-  }
-  std::vector<const AxisEntry*> shared;
-  for (const AxisEntry& entry : axes_) {
-    const Axis axis = entry.description.axis;
-    if (axis != Axis::x && axis != Axis::y) continue;
-    check_axis_of_core_xy(entry);
-    shared.push_back(&entry);
-  }
-  if (shared.size() < 2) {
-    if (document_.complete)
-      reporter_.error(kinematics_code, place, "a CoreXY has the axes X and Y", "[axis.X] and [axis.Y]");
-    return;
-  }
-  if (shared[0]->description.steps_per_unit == shared[1]->description.steps_per_unit) return;
-  reporter_.error(kinematics_code, shared[1]->place,
-                  fmt::format("X has {:g} steps per mm and {} has {:g}", shared[0]->description.steps_per_unit,
-                              letter_of(shared[1]->description.axis), shared[1]->description.steps_per_unit),
-                  "the same number for X and Y, which share the two motors of a CoreXY");
-}
-
-// These tables describe a motor of the axis.
-void MachineReader::check_axis_of_core_xy(const AxisEntry& entry) const {
-  const AxisDescription& axis = entry.description;
-  const char* const table = axis.second    ? "second_motor"
-                            : axis.motor   ? "torque"
-                            : axis.screw   ? "screw"
-                            : axis.encoder ? "encoder"
-                                           : nullptr;
-  if (table == nullptr) return;
-  const char letter = letter_of(axis.axis);
-  reporter_.error(
-      kinematics_code, entry.place, fmt::format("[axis.{}.{}] describes a motor of its own", letter, table),
-      fmt::format("no such table: {} shares two motors of a CoreXY with {}", letter, letter == 'X' ? 'Y' : 'X'));
+void MachineReader::check_kinematics(const SourceLocation& key) const {
+  std::vector<PlacedAxis> axes;
+  for (const AxisEntry& entry : axes_) axes.push_back({entry.description, entry.place});
+  check_core_xy(reporter_, key, use_, axes, document_.complete);
 }
 
 void MachineReader::read_board(const TomlEntry& entry) {
