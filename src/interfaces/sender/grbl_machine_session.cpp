@@ -69,7 +69,7 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   heard_.reports = 0;
   heard_.outputs.reset();
   heard_.outputs_after = 0;
-  if (work_) work_->outputs_line = 0;
+  if (work_) work_->progress.outputs_line = 0;
 }
 
 bool GrblMachineSession::busy() const {
@@ -94,7 +94,7 @@ bool GrblMachineSession::is_held_at_board() const {
 // As the board reports them: the operator, or somebody at the board, may have switched them.
 OutputState GrblMachineSession::outputs_now() const {
   const OutputState ordered = work_ && work_->feed ? work_->feed->outputs() : OutputState();
-  const std::uint64_t change = work_ ? work_->outputs_line : 0;
+  const std::uint64_t change = work_ ? work_->progress.outputs_line : 0;
   const bool is_not_reported_yet = heard_.outputs_after < change && sender_.lines_answered() >= change;
   if (is_not_reported_yet) return ordered;
   if (!heard_.outputs) return busy() ? ordered : OutputState();

@@ -84,7 +84,7 @@ void GrblMachineSession::poll_feed() {
   while (!work_->hold.asked && sender_.wants_lines()) {
     const OutputState before = feed.outputs();
     const auto line = feed.next();
-    if (feed.outputs() != before) work_->outputs_line = work_->progress.lines_before + feed.lines_written();
+    if (feed.outputs() != before) work_->progress.outputs_line = work_->progress.lines_before + feed.lines_written();
     if (!line) break;
     sender_.add(line->text, line->line, line->silence);
   }
@@ -134,28 +134,28 @@ void GrblMachineSession::answer_question() {
 // interpreted from where the machine is then.
 void GrblMachineSession::await_line() {
   Work& work = *work_;
-  if (!work.line_wait) {
-    work.line_wait = Work::Stop{.place = position_.place, .zero = heard_.work_zero};
+  if (!work.hold.line_wait) {
+    work.hold.line_wait = Work::Stop{.place = position_.place, .zero = heard_.work_zero};
     sender_.stop_following();
   }
   const bool is_lined_up = work.lines->queued() > 0 || work.lines->asks();
-  const auto& zero = work.line_wait->zero;
+  const auto& zero = work.hold.line_wait->zero;
   if (zero && heard_.work_zero && distance(*zero, *heard_.work_zero) > same_zero) {
     connection_.offsets_are_old = true;
     if (is_lined_up) return end_at_other_zero(0);
     switch_outputs_off();
     return end_work(Outcome::stopped);
   }
-  if (distance(work.line_wait->place, position_.place) > same_zero) {
+  if (distance(work.hold.line_wait->place, position_.place) > same_zero) {
     // These lines were interpreted from another place: it goes back there first, as after a program stop.
     if (!is_lined_up) {
       work.lines->drop(position_.place);
-      work.line_wait->place = position_.place;
+      work.hold.line_wait->place = position_.place;
     }
-    work.line_wait->is_moved = true;
+    work.hold.line_wait->is_moved = true;
   }
   if (!work.lines->is_to_begin(now())) return;
-  const Work::Stop wait = *std::exchange(work.line_wait, {});
+  const Work::Stop wait = *std::exchange(work.hold.line_wait, {});
   wait.is_moved ? work.feed->go_on_from(position_.place, wait.place) : work.feed->go_on_with_all_words();
   sender_.follow(first_work_zero(board_), connection_.ahead);
 }
