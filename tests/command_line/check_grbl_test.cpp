@@ -1,6 +1,8 @@
 // passo check --board grbl: what a board with Grbl, which plans by itself, takes for a program.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -35,6 +37,28 @@ TEST_F(CheckGrbl, tells_the_time_of_the_motion_of_grbl) {
   EXPECT_NEAR(json["dwell_s"], 2, 1e-6);
   EXPECT_NEAR(json["axes"]["X"]["peak_speed"], 50, 1e-6);
   EXPECT_EQ(json["board"]["blocks"], 15);
+}
+
+TEST_F(CheckGrbl, knows_the_motors_of_a_core_xy) {
+  std::ifstream file(machines_ + "bench.toml");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::string plain = write("plain.toml", text);
+  const std::string core = write("core.toml", "kinematics = \"corexy\"\n" + text);
+  const std::string program = write("p.ngc", "G21 G90\nG0 X50 Y50\nG1 X0 Y0 F3000\nM2\n");
+  const auto time = [&](const std::string& machine) {
+    const Outcome outcome = passo("check " + program + " -m " + machine + " --board grbl --json");
+    EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+    return nlohmann::json::parse(outcome.out)["board"]["time_s"].get<double>();
+  };
+  // 100 mm/s, 500 mm/s2. The rapid: 50 mm in each axis at once, or 100 mm of one motor.
+  const double feed = std::sqrt(2) * 50 / 50;
+  EXPECT_NEAR(time(plain), 50.0 / 100 + 100.0 / 500 + feed + 50 / (500 * std::sqrt(2)), 0.01);
+  EXPECT_NEAR(time(core), 100.0 / 100 + 100.0 / 500 + feed + 50 * std::sqrt(2) / 500, 0.01);
+  const Outcome own = passo("check " + program + " -m " + core);
+  EXPECT_EQ(own.code, 3);
+  EXPECT_THAT(own.err, HasSubstr("core.toml:1:14: error: the boards of Passo"));
+  EXPECT_THAT(own.err, HasSubstr("[machine.kinematics]"));
+  EXPECT_EQ(passo("machine " + core).code, 0);
 }
 
 TEST_F(CheckGrbl, tells_that_the_connection_is_too_slow) {

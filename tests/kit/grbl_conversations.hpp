@@ -67,7 +67,7 @@ inline std::string without_returns(std::string text) {
 
 // Asks for reports until the machine is in the state.
 inline bool await_grbl(GrblTalker& machine, std::string_view state) {
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 400; ++i) {
     if (without_returns(machine.ask("?", 1)).find("<" + std::string(state)) != std::string::npos) return true;
   }
   return false;

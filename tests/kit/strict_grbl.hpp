@@ -145,6 +145,7 @@ class StrictGrbl {
   static constexpr double byte_of_eeprom = 0.0034;  // s
   static constexpr double look_at_probe = 0.0001;   // s
   static constexpr double door_spindle_time = 4;    // s
+  static constexpr double door_coolant_time = 1;    // s
   static constexpr std::size_t longest_line = 79;
 
   // A part of a line that may have to wait.
@@ -267,9 +268,15 @@ class StrictGrbl {
   }
   void go_on() {
     if (state == "Idle") waits_for_start_ = false;
-    if (state == "Hold:0") return resume();
+    if (state == "Hold:0") {
+      if (spindle_ != modes_.spindle) stop_spindle();
+      return resume();
+    }
     if (state != "Door:0") return;
     state = "Door:3";
+    override_count_ = 0;
+    spindle_ = modes_.spindle;
+    restores_coolant_ = modes_.flood || modes_.mist;
     restores_until_ = now_ + (spindle_ != 5 ? door_spindle_time : 0);
   }
   void enter_door() {
@@ -283,6 +290,7 @@ class StrictGrbl {
     const bool moves = motion_.moves();
     motion_.brake();
     state = moves ? "Door:2" : door_is_open_ ? "Door:1" : "Door:0";
+    if (!moves) switch_off();
   }
   void reset() {
     const bool homes = is("Home");
@@ -307,9 +315,15 @@ class StrictGrbl {
     spindle_override_ = spindle;
     motion_.set_overrides(feed / 100.0, rapid / 100.0);
     const bool may_switch = state == "Idle" || is("Run") || is("Hold") || is("Jog");
-    if (may_switch && code == 0xA0) modes_.flood = flood_ = !modes_.flood;
-    if (may_switch && code == 0xA1 && parser_.has_mist) modes_.mist = mist_ = !modes_.mist;
+    if (code == 0x9E && state == "Hold:0") stop_spindle();
+    if (!may_switch || (code != 0xA0 && code != 0xA1)) return;
+    if (code == 0xA0) modes_.flood = flood_ = !modes_.flood;
+    if (code == 0xA1 && parser_.has_mist) modes_.mist = mist_ = !modes_.mist;
+    override_count_ = 0;
   }
+  void stop_spindle();
+  void switch_off();
+  void go_on_after_door();
   // The commands of an override: 100 %, 10 % up, 10 % down, 1 % up, 1 % down.
   static int stepped(int now, int command, int least, int most) {
     constexpr std::array steps = {0, 10, -10, 1, -1};
@@ -337,7 +351,7 @@ class StrictGrbl {
     for (std::string& line : motion_.take_done()) end_line(std::move(line));
     settle();
     if (boots_ && now_ >= boots_until_) end_boot();
-    if (state == "Door:3" && now_ >= restores_until_) resume();
+    if (state == "Door:3" && now_ >= restores_until_) go_on_after_door();
     while (!wire_.empty() && next_byte_ <= now_ + 1e-12) {
       const char byte = wire_.front();
       wire_.pop_front();
@@ -370,11 +384,16 @@ class StrictGrbl {
       modes_.position = motion_.place();
       cancels_jog_ = false;
       state = "Idle";
-      if (std::exchange(door_after_jog_, false)) state = door_is_open_ ? "Door:1" : "Door:0";
+      if (std::exchange(door_after_jog_, false)) {
+        state = door_is_open_ ? "Door:1" : "Door:0";
+        switch_off();
+      }
     }
     if ((state == "Run" || state == "Jog") && motion_.empty()) state = "Idle";
     if (state == "Hold:1") state = "Hold:0";
-    if (state == "Door:2") state = door_is_open_ ? "Door:1" : "Door:0";
+    if (state != "Door:2") return;
+    state = door_is_open_ ? "Door:1" : "Door:0";
+    switch_off();
   }
 
   // The main program, in kit/strict_grbl_lines.hpp. -----------------------------------------------------------------
@@ -446,6 +465,7 @@ class StrictGrbl {
   int kept_in_stall_ = 0;
   double homes_until_ = 0;
   double restores_until_ = 0;
+  bool restores_coolant_ = false;
   double boots_until_ = 0;
   bool boots_ = false;
   bool halted_ = false;

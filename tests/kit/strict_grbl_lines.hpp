@@ -447,6 +447,7 @@ inline void StrictGrbl::drop_work() {
   asks_hold_ = asks_start_ = asks_door_ = asks_cancel_ = false;
   asked_overrides_.clear();
   halted_ = cancels_jog_ = door_after_jog_ = probes_ = dwells_ = asks_report_ = false;
+  restores_coolant_ = false;
   dwell_left_ = stalls_until_ = homes_until_ = restores_until_ = 0;
   feed_override_ = rapid_override_ = spindle_override_ = 100;
   motion_.set_overrides(1, 1);

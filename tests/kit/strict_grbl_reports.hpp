@@ -1,4 +1,4 @@
-// What StrictGrbl reports: its state, offsets and modes.
+// What StrictGrbl reports: its state, offsets, modes and outputs; and how a door and a hold switch these.
 #pragma once
 
 #include "kit/strict_grbl.hpp"
@@ -79,6 +79,30 @@ inline void StrictGrbl::say_modes() {
   say(fmt::format("[GC:{} G{} G{} G{} G{} G{} M{}{} T{} F{} S{:.0f}]", motion, modes_.system, modes_.plane,
                   modes_.units, modes_.distance, modes_.feed_mode, modes_.spindle, coolant, modes_.tool,
                   rate(modes_.feed), modes_.speed));
+}
+
+// Toggles.
+inline void StrictGrbl::stop_spindle() {
+  if (modes_.spindle == 5) return;
+  if (spindle_ == 5) say("[MSG:Restoring spindle]");
+  spindle_ = spindle_ == 5 ? modes_.spindle : 5;
+  override_count_ = 0;
+}
+
+// At rest behind an open door.
+inline void StrictGrbl::switch_off() {
+  spindle_ = 5;
+  flood_ = mist_ = false;
+  override_count_ = 0;
+}
+
+// The spindle turns again; then the coolant comes, and then the motion.
+inline void StrictGrbl::go_on_after_door() {
+  if (!std::exchange(restores_coolant_, false)) return resume();
+  flood_ = modes_.flood;
+  mist_ = modes_.mist;
+  override_count_ = 0;
+  restores_until_ = now_ + door_coolant_time;
 }
 
 }  // namespace passo

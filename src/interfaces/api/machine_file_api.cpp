@@ -48,7 +48,7 @@ std::optional<TomlText::Setting> setting_of(const Json& json) {
 // What the editor shows of a text: its values if it is sound, and what is wrong if it is not.
 Json draft_json(const std::string& text, const std::string& name) {
   Diagnostics findings;
-  const auto machine = parse_machine(text, name, findings);
+  const auto machine = parse_machine(text, name, findings, MachineUse::any_board);
   Json values = Json::object();
   if (machine) {
     const auto toml = TomlText::read(text);
@@ -151,7 +151,7 @@ WebAnswer MachineFileApi::write(const ApiCall& call) {
   }
   const std::string text = said["text"].get<std::string>();
   Diagnostics findings;
-  if (!parse_machine(text, file.name, findings)) {
+  if (!parse_machine(text, file.name, findings, MachineUse::any_board)) {
     const FindingWords why = findings.all().empty() ? "it has errors" : findings.all().front().message;
     return error_answer(409, "machine-file.unsound",
                         Sentence{.code = "machine-file.unsound",

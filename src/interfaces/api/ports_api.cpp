@@ -158,7 +158,7 @@ WebAnswer PortsApi::keep_machine(const ApiCall& call) {
                         "the name of a machine file has letters, digits, dots, - and _, and ends in .toml");
   }
   Diagnostics findings;
-  if (!parse_machine(text.get<std::string>(), file, findings)) return unsound(findings);
+  if (!parse_machine(text.get<std::string>(), file, findings, MachineUse::any_board)) return unsound(findings);
   if (contact().keeps(file)) {
     return error_answer(409, "machine-file.exists",
                         Sentence{.code = "machine-file.exists",

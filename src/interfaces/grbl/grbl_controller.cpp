@@ -35,7 +35,8 @@ GrblAlarm alarm_of_homing(const MachineChange& change) {
 
 // Lines that change nothing.
 bool is_question(const std::string& line) {
-  return line == "$" || line == "$G" || line == "$$" || line == "$#" || line == "$I" || line == "$N";
+  return line == "$" || line == "$G" || line == "$$" || line == "$#" || line == "$I" || line == "$I+" || line == "$N" ||
+         line.starts_with("$E");
 }
 
 }  // namespace
@@ -132,6 +133,9 @@ std::vector<std::string> GrblController::take_replies() {
 void GrblController::poll(const std::vector<MachineChange>& changes) {
   for (const MachineChange& change : changes) on_change(change);
   if (due_.waits_for_probe() && !program_.asks()) end_probe();
+  if (NumberedSettings* const board = session_.numbered_settings()) {
+    if (const auto trouble = board->poll_write()) end_write(*trouble);
+  }
   if (!session_.busy()) {
     if (const auto next = due_.take_rest()) next();
   }

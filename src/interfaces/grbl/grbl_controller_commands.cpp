@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "passo/grbl/grbl_controller.hpp"
+#include "passo/grbl/grbl_enumerations.hpp"
 #include "passo/interpreter/grbl_errors.hpp"
 
 namespace passo {
@@ -30,6 +31,27 @@ bool is_jog(std::string_view words) {
   return true;
 }
 
+// grblHAL's settings of the retract in a hold. The machine file has a park position for the end of programs only.
+bool is_parking(int number) {
+  return number == 41 || number == 42 || (number >= 56 && number <= 59);
+}
+
+bool is_same_number(const std::string& a, const std::string& b) {
+  constexpr double shown = 0.0006;  // three decimals
+  double first = 0;
+  double second = 0;
+  const auto one = std::from_chars(a.data(), a.data() + a.size(), first);
+  const auto other = std::from_chars(b.data(), b.data() + b.size(), second);
+  return one.ec == std::errc() && other.ec == std::errc() && std::abs(first - second) <= shown;
+}
+
+// The value of a setting of the board, or what a sender has chosen for itself.
+std::string with_choice(int number, std::string value, const GrblChoices& choices) {
+  if (number == 10) return fmt::format("{}", choices.status_mask);
+  if (number == 13) return choices.inches ? "1" : "0";
+  return value;
+}
+
 }  // namespace
 
 void GrblController::handle_command(const std::string& text) {
@@ -39,6 +61,10 @@ void GrblController::handle_command(const std::string& text) {
   }
   if (text == "$G") {
     say(modes_text(program_.modes(), units()));
+    return answer(GrblError::none);
+  }
+  if (const auto lines = enumeration_of(text)) {
+    say(*lines);
     return answer(GrblError::none);
   }
   if (text == "$X") return unlock();
@@ -51,7 +77,7 @@ void GrblController::handle_command(const std::string& text) {
   if (!at_rest && !shows) return answer(GrblError::not_idle);
   if (text == "$$") {
     std::string all;
-    for (const GrblSetting& setting : grbl_settings(store_.machine(), store_.memory().choices)) {
+    for (const GrblSetting& setting : all_settings()) {
       all += fmt::format("${}={}\r\n", setting.number, setting.value);
     }
     say(std::move(all));
@@ -61,8 +87,9 @@ void GrblController::handle_command(const std::string& text) {
     say(offsets_text(program_.parameters(), program_.modes(), probe_, units()));
     return answer(GrblError::none);
   }
-  if (text == "$I") {
+  if (text == "$I" || text == "$I+") {
     say(build_text(store_.memory().build));
+    if (text == "$I+") say(more_build_text(axis_letters(units().axes)));
     return answer(GrblError::none);
   }
   if (text.starts_with("$I=")) return handle_build_info(text.substr(build_words_from));
@@ -72,6 +99,12 @@ void GrblController::handle_command(const std::string& text) {
   if (text.starts_with("$N")) return handle_startup_line(text);
   if (text.starts_with("$RST=")) return restore(text);
   handle_setting(text);
+}
+
+// As in grblHAL: in each state.
+std::optional<std::string> GrblController::enumeration_of(const std::string& text) const {
+  if (!text.starts_with("$E")) return {};
+  return grbl_enumeration(text, all_settings(), axis_letters(units().axes), session_.numbered_settings() == nullptr);
 }
 
 void GrblController::unlock() {
@@ -219,10 +252,47 @@ void GrblController::handle_setting(const std::string& text) {
     memory.choices.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
   } else if (number == 13) {
     memory.choices.inches = value != 0;
+  } else if (session_.numbered_settings() == nullptr && is_parking(number)) {
+    say("[MSG:Parking is not supported: a hold leaves the tool where it is]\r\n");
+    return answer(GrblError::bad_statement);
+  } else if (session_.numbered_settings() != nullptr) {
+    return write_to_board(number, text.substr(equals + 1));
   } else {
     return keep_setting(number, value);
   }
   answer(keep_memory(memory) ? GrblError::none : GrblError::bad_statement);
+}
+
+// Those of the board, if it has its own. How a sender wants its reports is no matter of the board.
+std::vector<GrblSetting> GrblController::all_settings() const {
+  const GrblChoices& choices = store_.memory().choices;
+  const NumberedSettings* const board = session_.numbered_settings();
+  if (board == nullptr) return grbl_settings(store_.machine(), choices);
+  std::vector<GrblSetting> all;
+  for (auto& [number, value] : board->all()) all.push_back({number, with_choice(number, std::move(value), choices)});
+  return all;
+}
+
+// What the lines before have left open ends first; the spindle stops.
+void GrblController::write_to_board(int number, const std::string& value) {
+  const auto all = session_.numbered_settings()->all();
+  const auto found = std::ranges::find(all, number, &std::pair<int, std::string>::first);
+  if (found == all.end()) return answer(GrblError::bad_statement);
+  // A sender that writes back what it has read changes nothing, and wears no memory.
+  if (is_same_number(found->second, value)) return answer(GrblError::none);
+  due_.wait_for_rest([this, number, value] {
+    session_.numbered_settings()->write(number, value);
+    due_.wait_for_setting();
+  });
+  stop_machine();
+}
+
+// A sender that has reset the controller in the meantime waits for no answer.
+void GrblController::end_write(const std::string& trouble) {
+  if (!due_.waits_for_setting()) return;
+  due_.call_off();
+  if (!trouble.empty()) say(fmt::format("[MSG:{}]\r\n", trouble));
+  answer(trouble.empty() ? GrblError::none : GrblError::bad_statement);
 }
 
 // The machine goes on with what it began with: its place is counted in steps of that.

@@ -102,6 +102,17 @@ std::string build_text(std::string_view words) {
   return fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},128]\r\n", words, grbl_planner_blocks);
 }
 
+std::string axis_letters(const std::vector<Axis>& axes) {
+  std::string letters;
+  for (const Axis axis : axes) letters += letter_of(axis);
+  return letters;
+}
+
+// ENUMS: $ES, $EG, $EA and $EE are answered. RT+: real-time commands as in Grbl.
+std::string more_build_text(std::string_view axes) {
+  return fmt::format("[AXS:{}:{}]\r\n[NEWOPT:ENUMS,RT+]\r\n[FIRMWARE:Passo]\r\n", axes.size(), axes);
+}
+
 std::string help_text() {
   return "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]\r\n";
 }

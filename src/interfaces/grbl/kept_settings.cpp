@@ -23,7 +23,7 @@ struct Change {
 
 std::optional<MachineDescription> described(const std::string& text) {
   Diagnostics diagnostics;
-  return parse_machine(text, "the machine file", diagnostics);
+  return parse_machine(text, "the machine file", diagnostics, MachineUse::any_board);
 }
 
 std::optional<std::string> changed(const std::string& text, const std::vector<Change>& changes) {

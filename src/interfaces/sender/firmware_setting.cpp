@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -90,14 +89,6 @@ std::string_view name_of(FirmwareSetting::Kind kind) {
   constexpr std::array<std::string_view, 9> names = {"unknown", "number", "integer", "flag",    "bits",
                                                      "axes",    "choice", "text",    "password"};
   return names[static_cast<std::size_t>(kind)];
-}
-
-std::optional<int> read_setting_number(std::string_view name) {
-  int number = 0;
-  if (!name.starts_with('$')) return {};
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size() || number < 0) return {};
-  return number;
 }
 
 bool names_password(std::string_view name) {
@@ -206,7 +197,8 @@ std::string settings_text(const GrblMachine& machine, std::span<const FirmwareSe
   std::string text =
       fmt::format("; settings of {} {}\n[VER:{}:]\n", machine.firmware, machine.version, machine.version);
   if (machine.firmware != "Grbl") text += fmt::format("[FIRMWARE:{}]\n", machine.firmware);
-  if (!machine.kinematics.empty()) text += fmt::format("[KINEMATICS:{}]\n", machine.kinematics);
+  const std::string kinematics = machine.kinematics.empty() && machine.is_core_xy() ? "CoreXY" : machine.kinematics;
+  if (!kinematics.empty()) text += fmt::format("[KINEMATICS:{}]\n", kinematics);
   text += fmt::format("[AXS:{}:{}]\n", machine.axes.size(), machine.axes);
   const bool hides = std::ranges::any_of(
       settings, [](const FirmwareSetting& one) { return one.kind == Kind::password && !one.value.empty(); });

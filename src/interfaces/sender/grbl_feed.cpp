@@ -138,6 +138,12 @@ void GrblFeed::go_on() {
   asks_ = Asks::nothing;
 }
 
+void GrblFeed::go_on_with_all_words() {
+  if (code_.is_by_time()) push({.text = GrblCode::known_modes, .line = 0});
+  code_.forget_modes();
+  go_on();
+}
+
 void GrblFeed::go_on_from(const Point& place, const Point& from) {
   const std::uint32_t line = stop_.source.line;
   push({.text = GrblCode::known_modes, .line = line});

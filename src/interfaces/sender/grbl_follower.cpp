@@ -67,7 +67,7 @@ GrblFollower::GrblFollower(const GrblLimits& limits, const Point& start, const P
 double GrblFollower::measured_speed(const Point& way, MmPerSecond feed) const {
   const Point measured = limits_.measured(way);
   const double length = length_of(measured);
-  double speed = feed.value();
+  double speed = limits_.measured_feed(way, feed).value();
   for (const Axis axis : all_axes) {
     const double part = std::abs(measured[axis]);
     if (part > 0 && limits_.steps_per_mm[axis] > 0) {

@@ -26,7 +26,8 @@ GrblLimits limits_of(const GrblMachine& machine) {
   GrblLimits limits{.junction_deviation = Mm(std::max(0.0, setting(11, 0.01))),
                     .arc_tolerance = Mm(setting(12, 0.002)),
                     .blocks = machine.blocks,
-                    .core_xy = machine.measures_motors()};
+                    .core_xy = machine.is_core_xy(),
+                    .feeds_tool = !machine.measures_motors()};
   for (std::size_t i = 0; i < machine.axes.size() && i < axis_count; ++i) {
     const auto axis = axis_of(machine.axes[i]);
     if (!axis) continue;
@@ -46,7 +47,8 @@ void GrblForecast::add(std::string_view text, std::uint32_t source) {
   const Point way = line.end - line.start;
   const double length = length_of(way);
   // In inverse time the way does not matter.
-  if (reader_.modes().by_time && length > 0) line.feed = line.feed * (length_of(limits_.measured(way)) / length);
+  if (reader_.modes().by_time && length > 0 && !limits_.feeds_tool)
+    line.feed = line.feed * (length_of(limits_.measured(way)) / length);
   const double answered = run(hindered_, line, source, Seconds(arrival(text.size() + 1))).value();
   unanswered_.back().answered = answered_ = answered;
   answered_unhindered_ = run(unhindered_, line, source, Seconds(answered_unhindered_)).value();

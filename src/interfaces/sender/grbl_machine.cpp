@@ -53,8 +53,14 @@ std::vector<std::string> GrblMachine::take_questions() {
   return {questions.begin(), questions.end()};
 }
 
+// grblHAL: kinematics/corexy.c. FluidNC and µCNC do not tell it in this form.
+bool GrblMachine::is_core_xy() const {
+  if (kinematics.starts_with("CoreXY")) return true;
+  return row().tells_core_xy && options.find('C') != std::string::npos;
+}
+
 bool GrblMachine::measures_motors() const {
-  return row().measures_motors && options.find('C') != std::string::npos;
+  return row().measures_motors && is_core_xy();
 }
 
 bool GrblMachine::tells_modes_unasked() const {
@@ -169,8 +175,11 @@ void GrblMachine::hear_offset(std::string_view name, std::string_view value) {
 void GrblMachine::hear_setting(std::string_view line) {
   const std::string_view name = next_grbl_field(line, '=');
   const auto number = read_grbl_number(name.substr(1));
-  const auto value = read_grbl_number(line.substr(0, line.find(' ')));
-  if (number && std::abs(*number) < 1e6 && value) settings[static_cast<int>(*number)] = *value;
+  const std::string_view text = line.substr(0, line.find(' '));
+  const auto value = read_grbl_number(text);
+  if (!number || std::abs(*number) >= 1e6 || !value) return;
+  settings[static_cast<int>(*number)] = *value;
+  setting_texts[static_cast<int>(*number)] = text;
 }
 
 bool GrblMachine::homes_single_axes() const {

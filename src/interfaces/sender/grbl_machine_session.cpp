@@ -69,6 +69,9 @@ void GrblMachineSession::connect_again(bool on_open_line) {
   loan_.lent = false;
   connection_.asks_offsets = false;
   heard_.reports = 0;
+  heard_.outputs.reset();
+  heard_.outputs_after = 0;
+  if (work_) work_->progress.outputs_line = 0;
 }
 
 bool GrblMachineSession::busy() const {
@@ -88,6 +91,25 @@ bool GrblMachineSession::rests() const {
 // By its hold input, or by another sender.
 bool GrblMachineSession::is_held_at_board() const {
   return sender_.report() && sender_.report()->state == "Hold";
+}
+
+// As the board reports them: the operator, or somebody at the board, may have switched them.
+OutputState GrblMachineSession::outputs_now() const {
+  const OutputState ordered = work_ && work_->feed ? work_->feed->outputs() : OutputState();
+  const std::uint64_t change = work_ ? work_->progress.outputs_line : 0;
+  const bool is_not_reported_yet = heard_.outputs_after < change && sender_.lines_answered() >= change;
+  if (is_not_reported_yet) return ordered;
+  if (!heard_.outputs) return busy() ? ordered : OutputState();
+  const auto is_on = [&](char letter) { return heard_.outputs->find(letter) != std::string::npos; };
+  OutputState outputs;
+  if (is_on('S')) outputs.spindle = SpindleDirection::clockwise;
+  if (is_on('C')) outputs.spindle = SpindleDirection::counterclockwise;
+  const bool turns = outputs.spindle != SpindleDirection::off;
+  const bool is_ordered = outputs.spindle == ordered.spindle;
+  if (turns) outputs.revolutions_per_minute = is_ordered ? ordered.revolutions_per_minute : heard_.speed;
+  outputs.mist = is_on('M');
+  outputs.flood = is_on('F');
+  return outputs;
 }
 
 void GrblMachineSession::exchange(Seconds most) {
@@ -159,7 +181,7 @@ void GrblMachineSession::hear_report() {
   const GrblReport& report = *sender_.report();
   if (heard_.pins != report.pins) ++news_.version;
   heard_.pins = report.pins;
-  if (report.outputs) heard_.outputs = *report.outputs;
+  hear_switches(report);
   const auto place = sender_.place();
   if (!place) return;
   live_.hear(*place, now());
@@ -172,6 +194,22 @@ void GrblMachineSession::hear_report() {
   if (!busy() || !work_->feed || work_->stage == Work::Stage::resyncs) return;
   const std::size_t blocks = board_.blocks + 1;
   work_->progress.executed.hear(sender_.lines_answered(), blocks, *place);
+}
+
+// Overrides and outputs. Somebody may have changed them at the board.
+void GrblMachineSession::hear_switches(const GrblReport& report) {
+  if (const auto& told = sender_.told_overrides()) {
+    const Overrides before = overrides_;
+    overrides_.feed = told->feed / 100.0;
+    overrides_.spindle = told->spindle / 100.0;
+    overrides_.rapids = told->rapids / 100.0;
+    if (overrides_ != before) ++news_.version;
+  }
+  if (report.speed) heard_.speed = *report.speed / std::max(overrides_.spindle, 0.01);
+  if (!report.outputs) return;
+  if (heard_.outputs != report.outputs) ++news_.version;
+  heard_.outputs = report.outputs;
+  heard_.outputs_after = sender_.lines_answered();
 }
 
 // Somebody may have set a zero at the machine.
@@ -361,6 +399,7 @@ MachineStatus GrblMachineSession::status() const {
   status.ahead = position_.place;
   status.inputs = inputs_of(heard_.pins);
   status.overrides = overrides_;
+  status.outputs = outputs_now();
   status.stops = stops_;
   status.trouble_sentence = trouble_.words;
   if (trouble_.words.text.empty() && match_.warning) status.trouble_sentence = *match_.warning;
@@ -376,7 +415,6 @@ MachineStatus GrblMachineSession::status() const {
   status.holds.set(HoldReason::operator_hold, work.hold.asked || (state_ == MachineState::hold && work.hold.heard));
   status.holds.set(HoldReason::door, state_ == MachineState::door);
   if (work.feed) {
-    status.outputs = work.feed->outputs();
     status.executes = work.progress.executed.source();
     status.executes.to = work.progress.executed.last_line();
     if (work.start && work.start->nominal_time > Seconds(0)) {

@@ -320,9 +320,18 @@ GrblMachineSession::Answer GrblMachineSession::handle(request::SwitchOutputs& wa
   }
   if (auto refusal = refusal_of(wanted, machine_)) return Failure{*refusal};
   if (wanted.spindle_stands && state_ != MachineState::hold) return refused(RefusalReason::spindle_turns);
-  const auto is_on = [&](char letter) { return heard_.outputs.find(letter) != std::string::npos; };
-  if (wanted.mist && *wanted.mist != is_on('M')) sender_.toggle_mist();
-  if (wanted.flood && *wanted.flood != is_on('F')) sender_.toggle_flood();
+  std::string& on = heard_.outputs ? *heard_.outputs : heard_.outputs.emplace();
+  const auto is_on = [&on](char letter) { return on.find(letter) != std::string::npos; };
+  // The board only knows how to toggle them. A second request may come before its report of the first.
+  const auto note = [&](char letter) { is_on(letter) ? std::erase(on, letter) : (on += letter).size(); };
+  if (wanted.mist && *wanted.mist != is_on('M')) {
+    sender_.toggle_mist();
+    note('M');
+  }
+  if (wanted.flood && *wanted.flood != is_on('F')) {
+    sender_.toggle_flood();
+    note('F');
+  }
   if (wanted.spindle_stands && *wanted.spindle_stands == (is_on('S') || is_on('C'))) sender_.toggle_spindle_stop();
   ++news_.version;
   return at_once();
@@ -370,7 +379,7 @@ void GrblMachineSession::end_at_other_zero(std::uint32_t line) {
 }
 
 void GrblMachineSession::switch_outputs_off() {
-  if (!work_->feed || work_->feed->outputs() == OutputState()) return;
+  if (!work_->feed || (work_->feed->outputs() == OutputState() && outputs_now() == OutputState())) return;
   sender_.add("M5");
   sender_.add("M9");
 }

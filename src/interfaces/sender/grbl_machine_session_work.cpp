@@ -106,7 +106,9 @@ void GrblMachineSession::poll_feed() {
   GrblFeed& feed = *work_->feed;
   // A board at rest may ignore a hold: nothing may move then either.
   while (!work_->hold.asked && sender_.wants_lines()) {
+    const OutputState before = feed.outputs();
     const auto line = feed.next();
+    if (feed.outputs() != before) work_->progress.outputs_line = work_->progress.lines_before + feed.lines_written();
     if (!line) break;
     sender_.add(line->text, line->line, line->silence);
   }
@@ -132,9 +134,7 @@ void GrblMachineSession::answer_question() {
         publish({.kind = MachineChange::Kind::came_to_rest});
       }
       return;
-    case GrblFeed::Asks::line:
-      if (work_->lines->is_to_begin(now())) feed.go_on();
-      return;
+    case GrblFeed::Asks::line: return await_line();
     case GrblFeed::Asks::probe_state:
       heard_.contact.at.reset();
       heard_.contact.touched = false;
@@ -154,6 +154,36 @@ void GrblMachineSession::answer_question() {
   }
 }
 
+// While no line is there, others may move the machine, e.g. with a pendant, or set its zero. The next line is
+// interpreted from where the machine is then.
+void GrblMachineSession::await_line() {
+  Work& work = *work_;
+  if (!work.hold.line_wait) {
+    work.hold.line_wait = Work::Stop{.place = position_.place, .zero = heard_.work_zero};
+    sender_.stop_following();
+  }
+  const bool is_lined_up = work.lines->queued() > 0 || work.lines->asks();
+  const auto& zero = work.hold.line_wait->zero;
+  if (zero && heard_.work_zero && distance(*zero, *heard_.work_zero) > same_zero) {
+    connection_.offsets_are_old = true;
+    if (is_lined_up) return end_at_other_zero(0);
+    switch_outputs_off();
+    return end_work(Outcome::stopped);
+  }
+  if (distance(work.hold.line_wait->place, position_.place) > same_zero) {
+    // These lines were interpreted from another place: it goes back there first, as after a program stop.
+    if (!is_lined_up) {
+      work.lines->drop(position_.place);
+      work.hold.line_wait->place = position_.place;
+    }
+    work.hold.line_wait->is_moved = true;
+  }
+  if (!work.lines->is_to_begin(now())) return;
+  const Work::Stop wait = *std::exchange(work.hold.line_wait, {});
+  wait.is_moved ? work.feed->go_on_from(position_.place, wait.place) : work.feed->go_on_with_all_words();
+  sender_.follow(first_work_zero(board_), connection_.ahead);
+}
+
 void GrblMachineSession::end_program() {
   const GrblFeed& feed = *work_->feed;
   if (!feed.objection().empty()) {
@@ -168,6 +198,8 @@ void GrblMachineSession::end_program() {
     overrides_ = {};
     send_overrides();
   }
+  // What the operator has switched on.
+  if (work_->program) switch_outputs_off();
   if (work_->findings->any_error()) return end_work(Outcome::failed, ActivityFault{MachineFault::program_wrong});
   const Work::Probing& probing = work_->probing;
   auto fault = probing.line ? probing.line->fault() : std::nullopt;

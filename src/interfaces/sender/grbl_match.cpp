@@ -78,6 +78,7 @@ class Comparison {
       const std::size_t index = board_.axes.find(letter_of(axis.axis));
       if (index != std::string::npos) compare(axis, static_cast<int>(index));
     }
+    compare_kinematics();
     GrblMatch match;
     if (!differences_.empty()) match.warning = sentence("grbl.other-machine", differences_);
     if (!outside_.empty() && settings_.has_soft_limits()) match.objection = sentence("grbl.outside-travel", outside_);
@@ -85,6 +86,13 @@ class Comparison {
   }
 
  private:
+  void compare_kinematics() {
+    const bool tells = board_.row().tells_core_xy || !board_.kinematics.empty();
+    if (!tells || board_.is_core_xy() == machine_.is_core_xy) return;
+    add(differences_, machine_.is_core_xy
+                          ? "the file has kinematics = \"corexy\" and the board is not built for a CoreXY"
+                          : "the board is built for a CoreXY and the file has no kinematics = \"corexy\"");
+  }
   void compare(const AxisDescription& axis, int index) {
     const char letter = letter_of(axis.axis);
     const auto steps = settings_.value(steps_per_unit + index);

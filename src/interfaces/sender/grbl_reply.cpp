@@ -13,12 +13,23 @@ std::optional<std::size_t> read_count(std::string_view text) {
   return static_cast<std::size_t>(*value);
 }
 
+// "120,100,90"
+std::optional<GrblOverrides> read_overrides(std::string_view text) {
+  const auto feed = read_count(next_grbl_field(text, ','));
+  const auto rapids = read_count(next_grbl_field(text, ','));
+  const auto spindle = read_count(next_grbl_field(text, ','));
+  if (!feed || !rapids || !spindle) return {};
+  return GrblOverrides{
+      .feed = static_cast<int>(*feed), .rapids = static_cast<int>(*rapids), .spindle = static_cast<int>(*spindle)};
+}
+
 void read_field(std::string_view name, std::string_view value, std::string_view axes, GrblReport& report) {
   if (name == "MPos") report.machine_place = read_grbl_place(value, axes);
   if (name == "WPos") report.work_place = read_grbl_place(value, axes);
   if (name == "MPos" || name == "WPos") report.values = 1 + static_cast<std::size_t>(std::ranges::count(value, ','));
   if (name == "WCO") report.work_offset = read_grbl_place(value, axes);
-  if (name == "F" || name == "FS") report.feed = read_grbl_number(value.substr(0, value.find(',')));
+  if (name == "F" || name == "FS") report.feed = read_grbl_number(next_grbl_field(value, ','));
+  if (name == "FS") report.speed = read_grbl_number(next_grbl_field(value, ','));
   if (name == "Pn") report.pins = value;
   if (name == "A") report.outputs = value;
   if (name == "SD") {
@@ -26,8 +37,11 @@ void read_field(std::string_view name, std::string_view value, std::string_view 
     const auto percent = read_grbl_number(next_grbl_field(value, ','));
     if (percent) report.file_share = std::clamp(*percent / 100, 0.0, 1.0);
   }
-  // A report with the overrides and without outputs: all are off.
-  if (name == "Ov" && !report.outputs) report.outputs.emplace();
+  if (name == "Ov") {
+    report.overrides = read_overrides(value);
+    // Without a field for outputs all are off.
+    if (!report.outputs) report.outputs.emplace();
+  }
   if (name != "Bf") return;
   report.blocks_free = read_count(next_grbl_field(value, ','));
   report.bytes_free = read_count(value);

@@ -21,6 +21,7 @@ constexpr Seconds longest_clearing{2};
 constexpr Seconds longest_spindle_start{30};
 constexpr std::size_t longest_reply = 4096;
 constexpr Seconds between_override_bytes{0.02};
+constexpr Seconds longest_report_on_its_way{0.5};
 constexpr char soft_reset = 0x18;
 constexpr std::string_view more_answers =
     "the machine has answered more lines than it was sent: a line was doubled or corrupted on the way";
@@ -127,11 +128,13 @@ void GrblSender::resume() {
 
 void GrblSender::override_feed(int percent) {
   override_.feed = std::clamp(percent, 10, 200) / 100.0;
+  override_.told.reset();
   if (follower_) follower_->set_override(override_.feed);
   for (const char byte : steps_to(percent, '\x90', '\x91')) override_.bytes.push_back(byte);
 }
 
 void GrblSender::override_spindle(int percent) {
+  override_.told.reset();
   for (const char byte : steps_to(percent, '\x99', '\x9A')) override_.bytes.push_back(byte);
 }
 
@@ -146,7 +149,17 @@ void GrblSender::send_overrides() {
 int GrblSender::override_rapids(int percent) {
   const int level = percent > 75 ? 0 : percent > 37 ? 1 : 2;
   act(static_cast<char>('\x95' + level));
+  override_.told.reset();
+  override_.sent = now_;
   return 100 >> level;
+}
+
+// A report that was on its way when a byte was sent does not know it.
+void GrblSender::hear_overrides(const GrblReport& report) {
+  if (!report.overrides || !override_.bytes.empty() || now_ - override_.sent < longest_report_on_its_way) return;
+  override_.told = report.overrides;
+  override_.feed = std::max(report.overrides->feed, 1) / 100.0;
+  if (follower_) follower_->set_override(override_.feed);
 }
 
 void GrblSender::cancel_jog() {
@@ -350,6 +363,7 @@ void GrblSender::hear_report(const GrblReport& report) {
   if (greets()) machine_.hear_value_count(report.values);
   if (reports_.hear(report, now_)) last_.progress = now_;
   if (report.bytes_free) window_.hear_free_bytes(*report.bytes_free);
+  hear_overrides(report);
   follow_report(report);
 }
 

@@ -33,6 +33,7 @@ struct GrblMachineSession::Work {
     Seconds reached{0};              // nominal time from the beginning of the program
     std::uint64_t lines_before = 0;  // lines sent before this work
     std::uint64_t stops = 0;         // program stops that it has come to
+    std::uint64_t outputs_line = 0;  // the sender's line with the last change of the outputs
 
     // `dwell_left`: of the present dwell. Between its end and the next report nothing of it is left either.
     void update(std::optional<Seconds> dwell_left) { reached = std::max(reached, skipped + executed.time(dwell_left)); }
@@ -41,6 +42,7 @@ struct GrblMachineSession::Work {
   struct Stop {
     Point place;
     std::optional<Point> zero;
+    bool is_moved = false;  // by others, since then
   };
   struct Hold {
     bool asked = false;  // by a request
@@ -49,6 +51,7 @@ struct GrblMachineSession::Work {
     bool told = false;   // that the machine has come to rest
     Seconds at{0};
     std::optional<Stop> stop = {};
+    std::optional<Stop> line_wait = {};  // a stream has no further line yet
   };
   struct Jog {
     std::unique_ptr<JogLine> line;  // null: this is no jog

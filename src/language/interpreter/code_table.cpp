@@ -273,7 +273,7 @@ constexpr CodeEntry table[] = {
     m(4, spindle, "spindle counterclockwise", uses("$"), grbl(executed)),
     m(5, spindle, "spindle off", uses("$"), grbl(executed)),
     m(6, tool_change, "tool change", chapter("RS274/NGC 3.6.3, tool change")),
-    m(7, coolant, "mist on"),
+    m(7, coolant, "mist on", grbl(executed)),  // ENABLE_M7
     m(8, coolant, "flood on", grbl(executed)),
     m(9, coolant, "coolant off", grbl(executed)),
     m(19, spindle, "orient the spindle", uses("RQP$"), means('R', degrees, "to {}"), means('Q', seconds, "within {}"),

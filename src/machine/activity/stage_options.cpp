@@ -99,11 +99,20 @@ MotorRow row_of(const AxisDescription& axis, bool inverted) {
   return {.steps = {axis.axis, inverted ? -axis.steps_per_unit : axis.steps_per_unit}, .screw = screw_map(axis)};
 }
 
+// The motor of X turns by X + Y, that of Y by X - Y.
+MotorRow row_of_core_xy(const AxisDescription& axis) {
+  const double steps = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+  return {.steps = {{Axis::x, steps}, {Axis::y, axis.axis == Axis::x ? steps : -steps}}};
+}
+
 }  // namespace
 
 Kinematics kinematics_of(const MachineDescription& machine) {
   Kinematics kinematics;
-  for (const AxisDescription& axis : machine.axes) kinematics.add(row_of(axis, axis.inverted));
+  for (const AxisDescription& axis : machine.axes) {
+    const bool shares = machine.is_core_xy && (axis.axis == Axis::x || axis.axis == Axis::y);
+    kinematics.add(shares ? row_of_core_xy(axis) : row_of(axis, axis.inverted));
+  }
   return kinematics;
 }
 

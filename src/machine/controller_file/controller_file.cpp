@@ -29,7 +29,7 @@ std::string line_of(std::string_view text, std::uint32_t line) {
 // user.
 bool can_be_read(const ImportedMachine& machine, const std::string& file, Diagnostics& diagnostics) {
   Diagnostics found;
-  if (parse_machine(machine.toml, file, found)) return true;
+  if (parse_machine(machine.toml, file, found, MachineUse::any_board)) return true;
   for (const Diagnostic& finding : found.all()) {
     diagnostics.add(of_file("import.bad-result", file,
                             fmt::format("the machine file would be wrong: {}", std::string(finding.message)),

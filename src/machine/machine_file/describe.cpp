@@ -197,6 +197,7 @@ std::string describe_park(const ParkDescription& park) {
 std::string describe(const MachineDescription& machine) {
   const BoardDescription& board = machine.board;
   std::string out = fmt::format("machine         {}\n", machine.name);
+  if (machine.is_core_xy) out += "kinematics      CoreXY: X and Y share two motors; only a board with Grbl drives it\n";
   out += fmt::format("path tolerance  {:g} mm", machine.path_tolerance.value());
   out += machine.has_rotary_axis() ? fmt::format(", {:g} deg\n", machine.path_tolerance_deg) : "\n";
   out += fmt::format("board           clock {} Hz, {:.1f} to {} events/s, step pulse {:g} us\n",

@@ -47,14 +47,14 @@ std::optional<std::string> machine_file_text(const std::string& path, Diagnostic
   return text;
 }
 
-std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics) {
+std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics, MachineUse use) {
   const auto text = machine_file_text(path, diagnostics);
   if (!text) return std::nullopt;
-  return parse_machine(*text, path, diagnostics);
+  return parse_machine(*text, path, diagnostics, use);
 }
 
 std::optional<MachineDescription> parse_machine(std::string_view text, const std::string& file,
-                                                Diagnostics& diagnostics) {
+                                                Diagnostics& diagnostics, MachineUse use) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     file_error(diagnostics, "machine.empty", file, machine_file_says::empty_file,
@@ -69,7 +69,7 @@ std::optional<MachineDescription> parse_machine(std::string_view text, const std
   Diagnostics found(most_sorted_errors);
   const TomlReporter reporter(text, file, found);
   MachineDescription machine;
-  if (is_fit_for_parser(reporter)) machine = read_machine(parse_toml(std::string(text), reporter), reporter);
+  if (is_fit_for_parser(reporter)) machine = read_machine(parse_toml(std::string(text), reporter), reporter, use);
   hand_over(found, diagnostics);
   if (found.any_error()) return std::nullopt;
   return machine;

@@ -7,6 +7,7 @@
 
 #include "axis_keys.hpp"
 #include "board_reader.hpp"
+#include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
 #include "machine_file_sentences.hpp"
@@ -27,6 +28,9 @@ namespace {
 constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 constexpr NumberKey path_tolerance_deg_key{"path_tolerance_deg", 1e-4, 10, "0.05"};
 
+constexpr std::string_view kinematics_key = "kinematics";
+const char* const kinematics_code = "machine.kinematics";
+
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey tool_diameter_key{"diameter_mm", 0, 1000, "3"};
 
@@ -39,8 +43,8 @@ constexpr std::string_view second_table = "second_motor";
 
 class MachineReader {
  public:
-  MachineReader(const TomlDocument& document, const TomlReporter& reporter)
-      : document_(document), reporter_(reporter) {}
+  MachineReader(const TomlDocument& document, const TomlReporter& reporter, MachineUse use)
+      : document_(document), reporter_(reporter), use_(use) {}
 
   MachineDescription read();
 
@@ -52,6 +56,8 @@ class MachineReader {
     SourceLocation motor_position;  // of the motor number in it
   };
 
+  void read_kinematics(TableReader& top);
+  void check_kinematics(const SourceLocation& key) const;
   void read_board(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
   void read_probe(const TomlEntry& entry);
@@ -76,11 +82,12 @@ class MachineReader {
   void number_second_motors();
 
   void finish(TableReader& reader) const {
-    reader.finish(document_.complete, {"name", path_tolerance_key.name, path_tolerance_deg_key.name});
+    reader.finish(document_.complete, {"name", kinematics_key, path_tolerance_key.name, path_tolerance_deg_key.name});
   }
 
   const TomlDocument& document_;
   const TomlReporter& reporter_;
+  MachineUse use_;
   MachineDescription machine_;
   std::optional<Hertz> event_rate_;  // the board's, if it is right
   std::vector<AxisEntry> axes_;
@@ -94,6 +101,7 @@ MachineDescription MachineReader::read() {
   if (const auto tolerance = top.number(path_tolerance_key, Need::optional)) machine_.path_tolerance = Mm(*tolerance);
   machine_.path_tolerance_deg =
       top.number(path_tolerance_deg_key, Need::optional).value_or(machine_.path_tolerance_deg);
+  read_kinematics(top);
   const TomlEntry* board = top.table("board", "a table [board] with the board's clock", Need::required);
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
@@ -115,11 +123,28 @@ MachineDescription MachineReader::read() {
   if (work != nullptr) look_at_work(*work);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
+  if (machine_.is_core_xy && axes != nullptr) check_kinematics(top.place_of(kinematics_key));
   if (park != nullptr) read_park_of(*park);
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
+}
+
+void MachineReader::read_kinematics(TableReader& top) {
+  const auto kind = top.text(kinematics_key, "corexy", Need::optional);
+  if (!kind || *kind == "cartesian") return;
+  machine_.is_core_xy = *kind == "corexy";
+  if (machine_.is_core_xy) return;
+  top.error(kinematics_code, kinematics_key, fmt::format("{} = \"{}\"", kinematics_key, kind->substr(0, 40)),
+            "\"corexy\"; without this key, or with \"cartesian\", each axis has a motor, or two");
+}
+
+// Called when all axes are known.
+void MachineReader::check_kinematics(const SourceLocation& key) const {
+  std::vector<PlacedAxis> axes;
+  for (const AxisEntry& entry : axes_) axes.push_back({entry.description, entry.place});
+  check_core_xy(reporter_, key, use_, axes, document_.complete);
 }
 
 void MachineReader::read_board(const TomlEntry& entry) {
@@ -448,8 +473,8 @@ void MachineReader::number_motors() {
 
 }  // namespace
 
-MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter) {
-  return MachineReader(document, reporter).read();
+MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter, MachineUse use) {
+  return MachineReader(document, reporter, use).read();
 }
 
 }  // namespace passo

@@ -8,6 +8,6 @@
 namespace passo {
 
 // The result is complete and valid only if no error was reported.
-MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter);
+MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter, MachineUse use);
 
 }  // namespace passo

@@ -82,6 +82,7 @@ inline constexpr std::size_t imported_pin_count = 11;
 
 struct ImportedModel {
   Sourced<std::string> name;
+  std::optional<ValueOrigin> core_xy = {};  // X and Y share two motors
   std::optional<SourcedNumber> step_pulse_us = {};
   std::optional<SourcedNumber> direction_setup_us = {};
   std::optional<SourcedNumber> direction_hold_us = {};

@@ -82,6 +82,7 @@ std::string MachineText::write() {
       "# configuration: check it. Every key is explained in docs/manual/machine-file.md.\n\n",
       context_.result().controller);
   put("name", toml_text(model_.name.value), model_.name.origin);
+  if (model_.core_xy) put("kinematics", "\"corexy\"", *model_.core_xy);
   write_board();
   write_tool_and_spindle();
   write_inputs();

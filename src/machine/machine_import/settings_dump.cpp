@@ -24,7 +24,7 @@ std::string_view setting_value(std::string_view line) {
 // "[VER:1.1f.20170801:]", "[FIRMWARE:grblHAL]": what the controller says of itself.
 bool is_identity(std::string_view line) {
   return line.starts_with("[VER:") || line.starts_with("[FIRMWARE:") || line.starts_with("[AXS:") ||
-         line.starts_with("[SIGNALS:") || line.starts_with("[KINEMATICS:");
+         line.starts_with("[OPT:") || line.starts_with("[SIGNALS:") || line.starts_with("[KINEMATICS:");
 }
 
 }  // namespace

@@ -84,6 +84,8 @@ class SettingsImport {
   bool is_grblhal() const { return firmware_ == GrblFirmware::grblhal; }
 
   void find_firmware();
+  void find_kinematics();
+  void check_core_xy();
   void find_letters();
   void read_axis(Axis axis, int index);
   void read_travel(ImportedAxis& axis, int index);
@@ -127,11 +129,46 @@ void SettingsImport::find_firmware() {
   for (const SourceNode& node : tree_.children) {
     if (!node.name.starts_with('$')) context_.mark(node);
   }
-  if (const SourceNode* kinematics = found("KINEMATICS"); kinematics != nullptr) {
+  find_kinematics();
+}
+
+// grblHAL tells [KINEMATICS:CoreXY v2.02], and both have C in the first field of [OPT:VC,15,128].
+void SettingsImport::find_kinematics() {
+  const SourceNode* kinematics = found("KINEMATICS");
+  const SourceNode* options = found("OPT");
+  if (kinematics != nullptr && !kinematics->text.starts_with("CoreXY")) {
     context_.error("import.kinematics", context_.origin(*kinematics, "KINEMATICS"),
                    fmt::format("the machine has the kinematics {}", ImportContext::printable(kinematics->text)),
-                   "a machine with a motor, or two, for each axis: a machine file describes no other kinematics");
+                   "CoreXY, or a machine with a motor, or two, for each axis: a machine file describes no others");
+  } else if (kinematics != nullptr) {
+    model_.core_xy = context_.origin(*kinematics, "KINEMATICS");
+  } else if (options != nullptr && firmware_ != GrblFirmware::fluidnc &&
+             options->text.substr(0, options->text.find(',')).find('C') != std::string::npos) {
+    model_.core_xy = context_.origin(*options, "OPT");
   }
+}
+
+// The motors of X and Y are theirs together.
+void SettingsImport::check_core_xy() {
+  std::vector<ImportedAxis*> shared;
+  for (ImportedAxis& axis : model_.axes) {
+    if (axis.axis != Axis::x && axis.axis != Axis::y) continue;
+    shared.push_back(&axis);
+    if (axis.second) context_.unmapped(axis.second->origin, "a machine file has two motors for X and Y of a CoreXY");
+    if (axis.backlash) context_.unmapped(axis.backlash->origin, "no equivalent for an axis of a CoreXY");
+    axis.second.reset();
+    axis.backlash.reset();
+  }
+  const bool have_scales = shared.size() == 2 && shared[0]->scale && shared[1]->scale;
+  if (have_scales && shared[0]->scale->value.value() != shared[1]->scale->value.value()) {
+    context_.error("import.kinematics", shared[1]->scale->origin,
+                   fmt::format("X has {} steps per mm and Y has {}", shared[0]->scale->value.text(),
+                               shared[1]->scale->value.text()),
+                   "the same number for X and Y, which share the two motors of a CoreXY");
+  }
+  context_.warn(
+      "the machine is a CoreXY: only its own board with Grbl can drive it. $110, $111, $120 and $121 are limits of its "
+      "motors");
 }
 
 // "3:XYZ" in the line [AXS:3:XYZ]; without it, Grbl's order.
@@ -373,6 +410,7 @@ void SettingsImport::import() {
   for (std::size_t i = 0; i < letters_.size(); ++i) {
     if (setting(100 + static_cast<int>(i)) != nullptr) read_axis(letters_[i], static_cast<int>(i));
   }
+  if (model_.core_xy && !context_.has_failed()) check_core_xy();
   read_levels();
   read_spindle();
   read_soft_limits();

@@ -35,6 +35,14 @@ Point GrblLimits::measured(Point way) const {
   return way;
 }
 
+MmPerSecond GrblLimits::measured_feed(const Point& way, MmPerSecond feed) const {
+  if (!core_xy || !feeds_tool) return feed;
+  const Point motors = measured(way);
+  const double length = std::sqrt(dot(way, way));
+  // A full circle has no way from end to end.
+  return feed * (length > 0 ? std::sqrt(dot(motors, motors)) / length : std::numbers::sqrt2);
+}
+
 GrblPlanner::GrblPlanner(const GrblLimits& limits, const Point& start) : limits_(limits), at_(start) {
   assert(limits.blocks >= 1);
   for (const Axis axis : all_axes) {
@@ -85,14 +93,15 @@ Seconds GrblPlanner::add_line(const Point& end, MmPerSecond feed, std::uint32_t 
   const Point direction = way * (1 / length);
   Block block{.motion = {.source = source,
                          .rapid = std::isinf(feed.value()),
-                         .feed = feed,
+                         .feed = limits_.measured_feed(moved, feed),
                          .start = last_step_,
                          .end = step,
                          .length = Mm(length),
                          .acceleration = MmPerSecond2(limit_along(direction, strongest_)),
                          .scale = limits_.core_xy ? std::sqrt(dot(moved, moved)) / length : 1}};
   const double fastest = limit_along(direction, fastest_);
-  const double wanted = block.motion.rapid ? fastest * limits_.rapid_factor : feed.value() * limits_.feed_factor;
+  const double wanted =
+      block.motion.rapid ? fastest * limits_.rapid_factor : block.motion.feed.value() * limits_.feed_factor;
   block.nominal2 = square(std::min(std::max(wanted, slowest), fastest));
   if (!blocks_.empty()) block.most_entry2 = std::min({junction2(direction), block.nominal2, nominal2_});
   blocks_.push_back(block);

@@ -98,7 +98,7 @@ int cam_board(const CamBoardArguments& arguments, const WorkProgress& progress, 
   Diagnostics findings;
   std::optional<MachineDescription> machine;
   if (!arguments.machine.empty()) {
-    machine = load_machine_file(arguments.machine, findings);
+    machine = load_machine_file(arguments.machine, findings, MachineUse::any_board);
     show(findings);
     if (!machine) return exit_bad_machine;
   }

@@ -261,7 +261,8 @@ int write_files(const CheckArguments& arguments, const MachineDescription& machi
 int check(const CheckArguments& arguments) {
   if (const std::string refusal = refusal_of(arguments); !refusal.empty()) return fail(exit_bad_program, refusal);
   Diagnostics diagnostics;
-  const auto machine = load_machine_file(arguments.machine, diagnostics);
+  const auto machine = load_machine_file(arguments.machine, diagnostics,
+                                         arguments.board.empty() ? MachineUse::own_board : MachineUse::any_board);
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   std::optional<ProgramReader> program = streamed_program(arguments.program);

@@ -187,7 +187,7 @@ nlohmann::ordered_json as_json(const Explanation& line) {
 // What the machine file says about the words of a program. Nothing: the file is wrong.
 std::optional<ExplainedMachine> explained_machine(const std::string& file, Diagnostics& findings) {
   if (file.empty()) return ExplainedMachine{};
-  const std::optional<MachineDescription> machine = load_machine_file(file, findings);
+  const std::optional<MachineDescription> machine = load_machine_file(file, findings, MachineUse::any_board);
   if (!machine) return {};
   ExplainedMachine explained;
   for (const AxisDescription& axis : machine->axes) explained.surface_radius[axis.axis] = axis.surface_radius;

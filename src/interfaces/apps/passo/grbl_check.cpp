@@ -20,14 +20,15 @@ namespace {
 constexpr double bits_per_byte = 10;  // with start bit and stop bit
 
 // Of the machine file's settings only those of the axes: its $11 would be our path tolerance.
-GrblLimits limits_of_axes(const MachineDescription& machine) {
+GrblMachine grbl_on_uno(const MachineDescription& machine) {
   constexpr int first_of_axes = 100;
   GrblMachine board;
+  if (machine.is_core_xy) board.hear("[OPT:VC,15,128]");
   board.axes = "XYZ" + more_grbl_axes(machine);
   for (const GrblSetting& setting : grbl_settings(machine, {})) {
     if (setting.number >= first_of_axes) board.hear(fmt::format("${}={}", setting.number, setting.value));
   }
-  return limits_of(board);
+  return board;
 }
 
 }  // namespace
@@ -42,9 +43,8 @@ double grbl_bytes_per_second(const BoardAddress& address, const GrblMachine& mac
 std::optional<GrblBoard> grbl_board(const std::string& name, const MachineDescription& machine,
                                     InterpreterOptions& options, int& code) {
   if (name == "grbl") {
-    GrblBoard board{.limits = limits_of_axes(machine), .line = {}, .target = {}};
-    for (const Axis axis : grbl_axes_of(machine)) board.target.axes.add(axis);
-    return board;
+    const GrblMachine uno = grbl_on_uno(machine);
+    return GrblBoard{.limits = limits_of(uno), .line = {}, .target = GrblTarget::of(uno)};
   }
   if (!names_grbl_machine(name)) {
     code = fail(exit_bad_program,

@@ -13,6 +13,10 @@ bool names_grbl_machine(const std::string& board) {
   return board.starts_with("grbl:");
 }
 
+MachineUse use_with(const std::string& board) {
+  return names_grbl_machine(board) ? MachineUse::any_board : MachineUse::own_board;
+}
+
 std::unique_ptr<GrblConnection> GrblConnection::open(const std::string& board, int& code) {
   auto link = GrblLink::open(board, code);
   if (!link) return nullptr;

@@ -8,6 +8,7 @@
 
 #include "grbl_machine_connection.hpp"
 
+#include "passo/machine_file/machine_description.hpp"
 #include "passo/sender/file_upload.hpp"
 #include "passo/sender/grbl_sender.hpp"
 
@@ -15,6 +16,8 @@ namespace passo {
 
 // Returns whether an address of --board identifies such a machine.
 bool names_grbl_machine(const std::string& board);
+// Returns what a command with this --board does with its machine.
+MachineUse use_with(const std::string& board);
 
 class GrblConnection {
  public:

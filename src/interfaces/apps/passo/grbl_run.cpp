@@ -77,20 +77,29 @@ nlohmann::ordered_json place_json(const GrblMachineSession& session) {
   return json;
 }
 
+// `moves`: of the whole program. `trouble`: why it ended before its end; empty: it did not.
+void print_json(Seconds time, const RunArguments& arguments, const GrblMachineSession& session, std::uint64_t moves,
+                const std::string& trouble) {
+  const GrblMachine& board = session.board();
+  nlohmann::ordered_json all = {
+      {"program", arguments.program.program},
+      {"grbl",
+       {{"firmware", board.firmware}, {"version", board.version}, {"receive_buffer", session.sender().buffer_size()}}},
+      {"moves", moves},
+      {"lines", session.lines_of_program()},
+      {"time_s", time.value()},
+      {"position_mm", place_json(session)},
+      {"completed", trouble.empty()}};
+  if (!trouble.empty()) all["trouble"] = trouble;
+  if (!trouble.empty()) all["interrupted"] = interrupted_by() != 0;
+  fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
 void print(Seconds time, const RunArguments& arguments, GrblMachineConnection& opened, const ProgramCheck& check) {
   const GrblMachineSession& session = opened.session();
   const GrblMachine& board = session.board();
   if (arguments.json) {
-    const nlohmann::ordered_json all = {{"program", arguments.program.program},
-                                        {"grbl",
-                                         {{"firmware", board.firmware},
-                                          {"version", board.version},
-                                          {"receive_buffer", session.sender().buffer_size()}}},
-                                        {"moves", check.moves},
-                                        {"lines", session.lines_of_program()},
-                                        {"time_s", time.value()},
-                                        {"position_mm", place_json(session)}};
-    fmt::print("{}\n", all.dump(2));
+    print_json(time, arguments, session, check.moves, "");
   } else if (!arguments.quiet) {
     fmt::print(
         "{}: {} in {}, {:.1f} s; stopped at {} (machine). Steps were not counted, because {} {} does not report them\n",
@@ -99,7 +108,9 @@ void print(Seconds time, const RunArguments& arguments, GrblMachineConnection& o
   }
 }
 
-int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened, const Answered& answered) {
+// `time`: of the motion so far.
+int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened, const Answered& answered, Seconds time,
+                   std::uint64_t moves) {
   const GrblMachineSession& session = opened.session();
   std::string words = interrupted_by() != 0 ? "interrupted" : "held";
   if (session.fault()) {
@@ -114,6 +125,7 @@ int end_broken_off(const RunArguments& arguments, GrblMachineConnection& opened,
   } else if (answered.fault && interrupted_by() == 0) {
     words = fmt::format("{} [{}]", answered.fault->message(), answered.fault->code());
   }
+  if (arguments.json) print_json(time, arguments, session, moves, words);
   const auto& report = session.sender().report();
   // The report may be from before the brake, if the machine has not answered any more.
   const int failed =
@@ -160,7 +172,7 @@ int stream(const RunArguments& arguments, GrblMachineConnection& opened, const M
     return exit_done;
   }
   if (!session.fault()) show(late);
-  return end_broken_off(arguments, opened, answered);
+  return end_broken_off(arguments, opened, answered, session.now() - begun.value_or(session.now()), check.moves);
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ void print(const HomingReport& report) {
 
 int home(const HomeArguments& arguments) {
   Diagnostics diagnostics;
-  const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
+  const std::optional<MachineDescription> machine =
+      load_machine_file(arguments.machine, diagnostics, use_with(arguments.board));
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   if (names_grbl_machine(arguments.board)) return home_grbl(arguments, *machine);

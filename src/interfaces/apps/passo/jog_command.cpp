@@ -166,7 +166,8 @@ int jog_on_grbl(const JogArguments& arguments, const MachineDescription& machine
 
 int jog(const JogArguments& arguments) {
   Diagnostics diagnostics;
-  const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
+  const std::optional<MachineDescription> machine =
+      load_machine_file(arguments.machine, diagnostics, use_with(arguments.board));
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   const bool by_keys = arguments.moves.empty() && is_terminal(STDIN_FILENO) && is_terminal(STDOUT_FILENO);

@@ -85,7 +85,7 @@ int machine(const MachineArguments& arguments) {
     return fail(exit_bad_program, "give a machine file, or --from and the configuration of another controller");
   }
   Diagnostics diagnostics;
-  const auto description = load_machine_file(arguments.machine, diagnostics);
+  const auto description = load_machine_file(arguments.machine, diagnostics, MachineUse::any_board);
   show(diagnostics);
   if (!description) return exit_bad_machine;
   const std::string text = describe(*description);

@@ -440,7 +440,7 @@ int run(const RunArguments& arguments) {
   if (!changes) return exit_bad_program;
   if (!arguments.cable_cut.empty() && !(cut = read_cable_cut(arguments.cable_cut))) return exit_bad_program;
   Diagnostics diagnostics;
-  const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
+  const auto machine = load_machine_file(arguments.machine, diagnostics, use_with(arguments.board));
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);

@@ -65,9 +65,9 @@ std::optional<std::string> machine_text(const std::string& file) {
   return text;
 }
 
-std::optional<MachineDescription> described(const std::string& text, const std::string& file) {
+std::optional<MachineDescription> described(const std::string& text, const std::string& file, MachineUse use) {
   Diagnostics diagnostics;
-  auto machine = parse_machine(text, file.empty() ? "the example machine" : file, diagnostics);
+  auto machine = parse_machine(text, file.empty() ? "the example machine" : file, diagnostics, use);
   show(diagnostics);
   return machine;
 }
@@ -245,7 +245,7 @@ int serve_grbl_board(const ServeArguments& arguments, const std::string& text, c
 int serve(const ServeArguments& given) {
   const ServeArguments arguments = with_usual(given);
   const auto text = machine_text(arguments.machine);
-  const auto machine = text ? described(*text, arguments.machine) : std::nullopt;
+  const auto machine = text ? described(*text, arguments.machine, use_with(arguments.board)) : std::nullopt;
   if (!machine) return exit_bad_machine;
   if (!arguments.data.empty() && arguments.http.empty()) {
     return fail(exit_bad_program, "--data is for the jobs of --http, which is missing [serve.data]");

@@ -34,7 +34,7 @@ int ToolShelf::open(bool wants_tool) {
   if (!a.material.empty()) material_ = work_material_of(a.material);
   if (a.limits.empty()) return exit_done;
   Diagnostics of_machine;
-  const auto machine = load_machine_file(a.limits, of_machine);
+  const auto machine = load_machine_file(a.limits, of_machine, MachineUse::any_board);
   show(of_machine);
   if (!machine) return exit_bad_machine;
   limits_ = tool_limits_of(*machine);

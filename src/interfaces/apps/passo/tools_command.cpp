@@ -139,7 +139,7 @@ int tools_feeds(const ToolsFeedsArguments& arguments) {
                       .rpm = arguments.rpm};
   if (!arguments.machine.empty()) {
     Diagnostics findings;
-    const auto machine = load_machine_file(arguments.machine, findings);
+    const auto machine = load_machine_file(arguments.machine, findings, MachineUse::any_board);
     show(findings);
     if (!machine) return exit_bad_machine;
     const ToolLimits limits = tool_limits_of(*machine);

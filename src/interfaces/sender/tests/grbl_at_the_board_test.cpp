@@ -125,6 +125,85 @@ TEST_F(GrblAtTheBoard, a_program_that_is_held_before_its_first_line_rests_in_a_h
   EXPECT_EQ(run.answer_to(*ticket)->outcome, Outcome::done);
 }
 
+TEST_F(GrblAtTheBoard, outputs_are_those_that_it_reports) {
+  ASSERT_TRUE(run.go_online());
+  const auto outputs = [&] { return run.session.status().outputs; };
+  EXPECT_EQ(outputs(), OutputState());
+  run.grbl.receive("M8\nM4S500\n");
+  EXPECT_TRUE(
+      run.play([&] { return outputs().flood && outputs().spindle == SpindleDirection::counterclockwise; }, Seconds(3)))
+      << "at rest";
+  EXPECT_EQ(outputs().revolutions_per_minute, 500);
+  run.grbl.receive("M9\nM5\n");
+  EXPECT_TRUE(run.play([&] { return outputs() == OutputState(); }, Seconds(3)));
+  const auto ticket = run.ask(grbl_start("G21 G90\nM3 S900\nG1 X60 F1200\nM2\n"));
+  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 5; }));
+  EXPECT_EQ(outputs().spindle, SpindleDirection::clockwise);
+  EXPECT_EQ(outputs().revolutions_per_minute, 900);
+  run.grbl.receive("\xA0");
+  EXPECT_TRUE(run.play([&] { return outputs().flood; }, Seconds(1))) << "by a pendant";
+  EXPECT_EQ(outputs().revolutions_per_minute, 900);
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  EXPECT_TRUE(run.play([&] { return !run.session.works(); }, Seconds(1)));
+  EXPECT_FALSE(run.grbl.parser_modes().flood) << "the end of a program switches everything off";
+  EXPECT_TRUE(run.play([&] { return outputs() == OutputState(); }, Seconds(1)));
+}
+
+// The board can only toggle them. The second request comes before the report of the first.
+TEST_F(GrblAtTheBoard, an_output_that_is_switched_on_twice_is_on) {
+  ASSERT_TRUE(run.go_online());
+  const auto ticket = run.ask(grbl_start("G21 G90\nG1 X60 F1200\nM2\n"));
+  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 5; }));
+  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = true}));
+  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = true}));
+  EXPECT_TRUE(run.session.status().outputs.flood);
+  run.play_for(Seconds(0.3));
+  EXPECT_TRUE(run.grbl.parser_modes().flood);
+  EXPECT_TRUE(run.session.status().outputs.flood);
+  ASSERT_TRUE(run.ask(request::SwitchOutputs{.flood = false}));
+  run.play_for(Seconds(0.3));
+  EXPECT_FALSE(run.session.status().outputs.flood);
+  EXPECT_FALSE(run.grbl.parser_modes().flood);
+  EXPECT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+}
+
+TEST_F(GrblAtTheBoard, a_door_shows_the_outputs_off_until_the_machine_goes_on) {
+  ASSERT_TRUE(run.go_online());
+  const auto ticket = run.ask(grbl_start("G21 G90\nM3 S900\nM8\nG1 X60 F1200\nM2\n"));
+  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 5; }));
+  run.grbl.open_door(true);
+  ASSERT_TRUE(run.play([&] { return run.session.state() == MachineState::door && run.session.status().rests; }));
+  EXPECT_TRUE(run.play([&] { return run.session.status().outputs == OutputState(); }, Seconds(1)));
+  run.grbl.open_door(false);
+  run.play_for(Seconds(0.3));
+  ASSERT_TRUE(run.ask(request::Resume{}));
+  ASSERT_TRUE(run.play_until(MachineState::run));
+  EXPECT_TRUE(run.session.status().outputs.flood);
+  EXPECT_EQ(run.session.status().outputs.spindle, SpindleDirection::clockwise);
+  EXPECT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+}
+
+TEST_F(GrblAtTheBoard, overrides_are_those_that_it_reports) {
+  ASSERT_TRUE(run.go_online());
+  const auto overrides = [&] { return run.session.status().overrides; };
+  const auto ticket = run.ask(grbl_start("G21 G90\nM3 S1000\nG1 X100 F1200\nM2\n"));
+  ASSERT_TRUE(run.play([&] { return run.grbl.place()[Axis::x] > 5; }));
+  run.grbl.receive("\x92\x96\x9A");  // by a pendant
+  EXPECT_TRUE(run.play([&] { return overrides().feed == 0.9; }, Seconds(2)));
+  EXPECT_EQ(overrides().rapids, 0.5);
+  EXPECT_EQ(overrides().spindle, 1.1);
+  EXPECT_NEAR(run.session.status().outputs.revolutions_per_minute, 1000, 1e-6) << "without the override";
+  ASSERT_TRUE(run.ask(request::Override{.feed = 1.3}));
+  for (int i = 0; i < 100; ++i) {
+    run.play_for(Seconds(0.02));
+    EXPECT_EQ(overrides().feed, 1.3) << "no report from before the request counts";
+  }
+  EXPECT_EQ(overrides().spindle, 1.1);
+  ASSERT_TRUE(run.play([&] { return run.answer_to(*ticket).has_value(); }));
+  run.play_for(Seconds(3));
+  EXPECT_EQ(overrides(), Overrides()) << "as at the end of each program";
+}
+
 TEST_F(GrblAtTheBoard, a_stall_is_noticed_within_seconds_though_all_was_answered) {
   ASSERT_TRUE(run.go_online());
   const auto ticket = run.ask(grbl_start("G21 G90\nG1 X20 F1200\nG1 X0 F60\nM2\n"));

@@ -81,6 +81,34 @@ TEST(GrblForecast, knows_that_a_core_xy_measures_its_motors) {
   EXPECT_NEAR(time("G0X100Y100Z0"), 2, 2e-3);
 }
 
+// grblHAL converts F itself, in each chord of an arc too (kinematics/corexy.c); its planner works with the motors.
+TEST(GrblForecast, knows_that_a_core_xy_with_grblhal_measures_the_tool) {
+  for (const char* kinematics : {"[KINEMATICS:CoreXY v2.02]", "[OPT:VNMCL+,100,1024,3,0]"}) {
+    GrblMachine machine;
+    for (const char* line :
+         {"[FIRMWARE:grblHAL]", "[AXS:3:XYZ]", kinematics, "$11=0.010", "$12=0.002", "$100=400", "$101=400", "$102=400",
+          "$110=6000", "$111=6000", "$112=6000", "$120=100000", "$121=100000", "$122=100000"}) {
+      machine.hear(line);
+    }
+    EXPECT_TRUE(machine.is_core_xy());
+    EXPECT_FALSE(machine.measures_motors());
+    const auto time = [&](const char* line) {
+      GrblForecast forecast(limits_of(machine), network, {}, GrblTarget::of(machine));
+      forecast.add(line, 1);
+      return forecast.finish().time.value();
+    };
+    EXPECT_NEAR(time("G1F600X100Y0Z0"), 10, 1e-3);
+    EXPECT_NEAR(time("G1F600X100Y100Z0"), std::sqrt(2) * 10, 1e-3);
+    EXPECT_NEAR(time("G1F600X0Y0Z50"), 5, 1e-3);
+    EXPECT_NEAR(time("G3F600X-20Y0Z0I-10J0"), std::numbers::pi, 5e-3);
+    EXPECT_NEAR(time("G18G3F600X-20Y0Z0I-10K0"), std::numbers::pi, 5e-3) << "each chord has a factor of its own";
+    EXPECT_NEAR(time("G0X100Y0Z0"), 1, 2e-3);
+    EXPECT_NEAR(time("G0X100Y100Z0"), 2, 2e-3) << "one motor makes the whole way";
+    // A motor that makes the whole way of a diagonal limits its feed.
+    EXPECT_NEAR(time("G1F6000X100Y100Z0"), 2, 2e-3);
+  }
+}
+
 // 0.1 mm per line at 100 mm/s: a thousand lines a second, and the connection carries half of them.
 TEST(GrblForecast, tells_what_the_connection_costs_and_which_feed_it_carries) {
   constexpr double line = 11520 / 24.0;  // lines per second

@@ -56,6 +56,13 @@ TEST_F(GrblMatches, a_file_of_the_board_is_not_objected_to) {
   EXPECT_EQ(done->outcome, Outcome::done);
 }
 
+TEST_F(GrblMatches, another_kinematics_is_a_warning) {
+  MachineDescription machine = fitting_router();
+  machine.is_core_xy = true;
+  connect(machine, true);
+  EXPECT_THAT(warning().text, HasSubstr("the board is not built for a CoreXY"));
+}
+
 TEST_F(GrblMatches, a_smaller_travel_and_lower_speeds_suit_the_board) {
   MachineDescription machine = fitting_router();
   for (AxisDescription& axis : machine.axes) {

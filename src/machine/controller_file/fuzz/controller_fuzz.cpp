@@ -31,7 +31,8 @@ void check_import(std::string_view text, std::optional<ImportFormat> format) {
   require(machine.has_value() == !diagnostics.any_error(), "refused without a word, or taken with an error");
   if (!machine) return;
   Diagnostics wrong;
-  require(parse_machine(machine->toml, "fuzz.toml", wrong).has_value(), "a machine file that cannot be read");
+  require(parse_machine(machine->toml, "fuzz.toml", wrong, MachineUse::any_board).has_value(),
+          "a machine file that cannot be read");
   require(!machine->understood.empty() && !machine->warnings.empty(), "nothing to say");
   require(!describe(*machine).empty(), "no report");
 }

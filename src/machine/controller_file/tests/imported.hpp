@@ -42,7 +42,7 @@ inline Imported imported(const std::string& text, std::optional<ImportFormat> fo
   Imported it;
   it.result = import_controller_text({.file = "source", .text = text}, format, it.diagnostics);
   Diagnostics wrong;
-  if (it.result) it.machine = parse_machine(it.result->toml, "made.toml", wrong);
+  if (it.result) it.machine = parse_machine(it.result->toml, "made.toml", wrong, MachineUse::any_board);
   EXPECT_EQ(it.result.has_value(), it.machine.has_value()) << render(wrong, false);
   return it;
 }

@@ -110,10 +110,36 @@ TEST(SettingsImport, refuses_with_the_place) {
   EXPECT_EQ(zero.first().place.line, 2U);
   EXPECT_EQ(imported("$100=100\n$120=10\n").first_code(), "import.missing-key");
   EXPECT_EQ(imported("$110=100\n$120=10\n").first_code(), "import.no-axis");
-  EXPECT_EQ(imported("[KINEMATICS:CoreXY v2]\n$100=100\n").first_code(), "import.kinematics");
+  EXPECT_EQ(imported("[KINEMATICS:Delta v1]\n$100=100\n").first_code(), "import.kinematics");
   EXPECT_EQ(imported("Hello\n").first_code(), "import.unknown-format");
   EXPECT_EQ(imported("$100=1e300\n$110=1\n$120=1\n").first_code(), "import.out-of-range");
   EXPECT_EQ(imported("$100=100000\n$110=600000\n$120=1\n").first_code(), "import.too-fast");
+}
+
+TEST(SettingsImport, reads_a_core_xy) {
+  const std::string settings =
+      "$100=80\n$101=80\n$102=400\n$110=6000\n$111=6000\n$112=600\n$120=500\n$121=500\n$122=50\n"
+      "$130=300\n$131=200\n$132=50\n";
+  for (const char* about : {"[VER:1.1h.20190830:]\n[OPT:VC,15,128]\n",
+                            "[VER:1.1f.20260817:]\n[OPT:VNML+,100,1024,3,0]\n[FIRMWARE:grblHAL]\n"
+                            "[KINEMATICS:CoreXY v2.02]\n",
+                            "[VER:1.1f.20260817:]\n[OPT:VNMCL+,100,1024,3,0]\n[FIRMWARE:grblHAL]\n"}) {
+    const Imported it = imported(about + settings);
+    ASSERT_TRUE(it.machine) << about;
+    EXPECT_TRUE(it.machine->is_core_xy) << about;
+    EXPECT_TRUE(it.warns_of("only its own board with Grbl can drive it"));
+    EXPECT_NE(it.result->toml.find("kinematics = \"corexy\""), std::string::npos);
+  }
+  EXPECT_FALSE(imported("[VER:1.1h.20190830:]\n[OPT:V,15,128]\n" + settings).machine->is_core_xy);
+  // A backlash is that of a screw, which X does not have.
+  const Imported with_backlash =
+      imported("[VER:1.1f:]\n[FIRMWARE:grblHAL]\n[KINEMATICS:CoreXY v2.02]\n" + settings + "$160=0.1\n");
+  ASSERT_TRUE(with_backlash.machine);
+  EXPECT_FALSE(with_backlash.axis(Axis::x).screw);
+  EXPECT_EQ(with_backlash.reason_of("$160"), "no equivalent for an axis of a CoreXY");
+  const Imported uneven = imported("[OPT:VC,15,128]\n" + replaced(settings, "$101=80", "$101=90"));
+  EXPECT_EQ(uneven.first_code(), "import.kinematics");
+  EXPECT_EQ(uneven.first().place.line, 3U);
 }
 
 TEST(SettingsImport, a_travel_of_zero_is_no_limit) {

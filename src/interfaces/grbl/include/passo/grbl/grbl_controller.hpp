@@ -123,7 +123,11 @@ class GrblController {
   void handle_command(const std::string& text);
   void handle_jog(const std::string& text);
   void handle_setting(const std::string& text);
+  std::optional<std::string> enumeration_of(const std::string& text) const;
   void keep_setting(int number, double value);
+  void write_to_board(int number, const std::string& value);
+  void end_write(const std::string& trouble);
+  std::vector<GrblSetting> all_settings() const;
   void handle_build_info(const std::string& text);
   bool keep_memory(const GrblMemory& memory);
   void start_up();

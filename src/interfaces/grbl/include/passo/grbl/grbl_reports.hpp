@@ -55,6 +55,10 @@ std::string offsets_text(const SavedParameters& parameters, const ActiveModes& m
 std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
 // $I, with the build info stored for this machine
 std::string build_text(std::string_view words);
+// What $I+ tells in addition, in the words of grblHAL. $I is that of Grbl 1.1h: senders take a controller with these
+// lines for another one.
+std::string more_build_text(std::string_view axes);
+std::string axis_letters(const std::vector<Axis>& axes);
 // Returns the response to $.
 std::string help_text();
 

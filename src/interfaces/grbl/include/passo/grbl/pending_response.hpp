@@ -1,5 +1,5 @@
 // PendingResponse: the state of the only line that may be waiting for its response: whether there is one, and which
-// event completes it: the probe, homing, or standstill.
+// event completes it: the probe, homing, a setting that the board has read back, or standstill.
 #pragma once
 
 #include <functional>
@@ -27,6 +27,9 @@ class PendingResponse {
     return ticket != nullptr && *ticket == ended && call_off();
   }
 
+  void wait_for_setting() { waits_for_ = Setting(); }
+  bool waits_for_setting() const { return std::holds_alternative<Setting>(waits_for_); }
+
   // `then` is called when the machine has stopped.
   void wait_for_rest(std::function<void()> then) { waits_for_ = std::move(then); }
   // Returns the function to call now that the machine has stopped. Empty if the response does not wait for that.
@@ -40,7 +43,8 @@ class PendingResponse {
 
  private:
   struct Probe {};
-  std::variant<std::monostate, Probe, Ticket, std::function<void()>> waits_for_;
+  struct Setting {};
+  std::variant<std::monostate, Probe, Setting, Ticket, std::function<void()>> waits_for_;
 };
 
 }  // namespace passo

@@ -1,8 +1,7 @@
-// FirmwareSetting: one setting of the firmware of a Grbl board ("$110=500.000"), with its name, unit, range and
-// meaning.
+// The settings of a Grbl board: their descriptions, values, and files of them.
 //
-// grblHAL describes its settings itself ($ES, $EG, $ESH). Those of the other firmwares are described by a table here,
-// from Grbl's documentation. A setting without a description has a name and a value only.
+// grblHAL describes its settings itself ($ES, $EG, $ESH). Those of the other firmwares are described by a table
+// (grbl_meanings/), from Grbl's documentation. A setting without a description has a name and a value only.
 #pragma once
 
 #include <cstdint>
@@ -15,50 +14,18 @@
 #include <vector>
 
 #include "passo/base/result.hpp"
+#include "passo/grbl_meanings/firmware_setting_table.hpp"
 #include "passo/sender/grbl_machine.hpp"
 
 namespace passo {
 
-struct FirmwareSetting {
-  enum class Kind : std::uint8_t {
-    unknown,
-    number,
-    integer,
-    flag,    // 0 or 1
-    bits,    // the sum of 1, 2, 4 …, one for each of `choices`
-    axes,    // the same, one for each axis of the board
-    choice,  // the position in `choices`, from 0
-    text,
-    password,  // the value is never shown: see shown_value()
-  };
-  std::string name;          // "$110"
-  std::string value;         // as the board writes it
-  std::string title = {};    // "Maximum rate of X"; empty: not described
-  std::string unit = {};     // "mm/min"
-  std::string group = {};    // "Axis X"
-  std::string meaning = {};  // sentences
-  Kind kind = Kind::unknown;
-  std::vector<std::string> choices = {};  // empty text: not in use
-  std::optional<double> least = {};
-  std::optional<double> most = {};
-  bool zero_too = false;       // 0 is allowed below `least`
-  bool needs_restart = false;  // takes effect when the board has restarted
-  bool read_only = false;      // cannot be written by its number
-};
-
 // "number", "integer", "flag" …
 std::string_view name_of(FirmwareSetting::Kind kind);
-
-// Returns 110 of "$110"; nothing if it is no number.
-std::optional<int> read_setting_number(std::string_view name);
 
 // Returns whether a setting is a password by its name, as FluidNC's $Sta/Password.
 bool names_password(std::string_view name);
 // Returns the value of a setting for people and files: asterisks for a password.
 std::string shown_value(const FirmwareSetting& setting, std::string_view value);
-
-// Fills in what the table says about a setting of Grbl 1.1. `axes`: the letters of the board's axes.
-void describe_by_table(FirmwareSetting& setting, std::string_view axes);
 
 // What grblHAL says about its settings: the answers to $ES, $EG and $ESH.
 class SettingDescriptions {

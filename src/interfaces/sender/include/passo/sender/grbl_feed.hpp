@@ -66,6 +66,8 @@ class GrblFeed {
   const Action& stop() const { return stop_; }
   // Continues after an operator stop, or with a further line.
   void go_on();
+  // The same. The next lines have all their words, for a reader that does not know those before.
+  void go_on_with_all_words();
   // The same after a stop at `from` during which others may have moved the machine, or changed its modes. From `place`,
   // rapids lead back: up to the higher Z, across, and down.
   void go_on_from(const Point& place, const Point& from);

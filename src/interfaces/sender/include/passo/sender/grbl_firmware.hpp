@@ -10,13 +10,9 @@
 #include <span>
 #include <string_view>
 
-namespace passo {
+#include "passo/grbl_meanings/grbl_meanings.hpp"
 
-// The meaning of a number, as a clause.
-struct GrblMeaning {
-  int number = 0;
-  std::string_view words;
-};
+namespace passo {
 
 struct GrblFirmware {
   // How the board measures the way to which F applies, if a move turns a rotary axis and also moves a linear one.
@@ -39,6 +35,7 @@ struct GrblFirmware {
   std::size_t unusable_bytes;  // of the receive buffer that it reports
   bool sizes_are_last;         // blocks and bytes are the last fields of [OPT:…], not the second and third
   bool tells_mist;             // 'M' in [OPT:…] says whether M7 exists; without it M7 is rejected
+  bool tells_core_xy;          // 'C' in [OPT:…] says that it was built for a CoreXY
   bool measures_motors;        // built for a CoreXY ('C' in [OPT:…]), it applies F to the way of the two motors
   bool homes_single_axes;      // it knows $HX, whatever [OPT:…] says; others have 'H' there if they do
   bool converts_angles;        // with $13=1 the values of rotary axes are divided by 25.4 too

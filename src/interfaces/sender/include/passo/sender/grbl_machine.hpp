@@ -15,18 +15,19 @@
 namespace passo {
 
 struct GrblMachine {
-  std::string firmware = "Grbl";              // the name of a row of grbl_firmwares(), or what it calls itself
-  std::string version = {};                   // "1.1h.20190830"; empty: no response to $I yet
-  std::string axes = "XYZABCUVW";             // letters of its axes in the order of its reports and settings
-  std::size_t blocks = 15;                    // size of its planner queue
-  std::size_t bytes = 128;                    // size of its receive buffer
-  std::string options = {};                   // the letters of [OPT:…]
-  std::string new_options = {};               // grblHAL: "ENUMS,RT+,TC,SED"
-  std::string kinematics = {};                // if it tells any: "CoreXY"
-  std::map<int, double> settings = {};        // the settings $0 … and their values
-  std::map<std::string, Point> offsets = {};  // mm: G54 … G59, G59.1 …, G28, G30, G92, TLO
-  std::string system = "G54";                 // the active work coordinate system
-  std::map<int, std::string> alarms = {};     // its own words for its alarms, if it tells them
+  std::string firmware = "Grbl";                  // the name of a row of grbl_firmwares(), or what it calls itself
+  std::string version = {};                       // "1.1h.20190830"; empty: no response to $I yet
+  std::string axes = "XYZABCUVW";                 // letters of its axes in the order of its reports and settings
+  std::size_t blocks = 15;                        // size of its planner queue
+  std::size_t bytes = 128;                        // size of its receive buffer
+  std::string options = {};                       // the letters of [OPT:…]
+  std::string new_options = {};                   // grblHAL: "ENUMS,RT+,TC,SED"
+  std::string kinematics = {};                    // if it tells any: "CoreXY"
+  std::map<int, double> settings = {};            // the settings $0 … and their values
+  std::map<int, std::string> setting_texts = {};  // the same, as the board writes them: "0.010"
+  std::map<std::string, Point> offsets = {};      // mm: G54 … G59, G59.1 …, G28, G30, G92, TLO
+  std::string system = "G54";                     // the active work coordinate system
+  std::map<int, std::string> alarms = {};         // its own words for its alarms, if it tells them
 
   // Processes a response line: [VER:…], [OPT:…], [AXS:…], [FIRMWARE:…], [GC:…], [G54:…], $n=…. Ignores other lines.
   void hear(std::string_view line);
@@ -44,7 +45,9 @@ struct GrblMachine {
   bool is_known() const { return row().name == firmware; }
   // Returns whether M7 exists, as far as the board tells it.
   bool has_mist() const;
-  // Returns whether it was built for a CoreXY, and plans and measures the motion of its motors.
+  // Returns whether it was built for a CoreXY: it plans the motion of the motors of X and Y.
+  bool is_core_xy() const;
+  // Returns whether F also applies to the way of these motors.
   bool measures_motors() const;
   // Returns whether [GC:…] may come that nobody has asked for.
   bool tells_modes_unasked() const;

@@ -28,6 +28,7 @@
 #include "passo/sender/grbl_port.hpp"
 #include "passo/sender/grbl_program_check.hpp"
 #include "passo/sender/grbl_sender.hpp"
+#include "passo/sender/session_settings.hpp"
 #include "passo/session/live_position.hpp"
 #include "passo/session/machine_session.hpp"
 
@@ -59,6 +60,8 @@ class GrblMachineSession final : public MachineSession {
   std::optional<Refusal> lost_place() const override;
   MachineAbilities abilities() const override;
   BoardStorage* storage() override;
+  NumberedSettings* numbered_settings() override { return &settings_; }
+  const NumberedSettings* numbered_settings() const override { return &settings_; }
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
@@ -109,7 +112,9 @@ class GrblMachineSession final : public MachineSession {
   struct Heard {
     std::uint64_t reports = 0;  // so far
     std::string pins;
-    std::string outputs;  // letters, as the board reports them
+    std::optional<std::string> outputs;  // letters, as the board reports them; empty: not reported yet
+    std::uint64_t outputs_after = 0;     // lines that were answered before that report
+    double speed = 0;                    // of the spindle, rpm, without its override
     std::optional<Point> work_zero;
     Contact contact;
   };
@@ -172,6 +177,7 @@ class GrblMachineSession final : public MachineSession {
   void exchange(Seconds most);
   void hear(std::string_view line);
   void hear_report();
+  void hear_switches(const GrblReport& report);
   void hear_work_zero(const Point& zero);
   void ask_for_offsets();
   void take_board();
@@ -181,6 +187,7 @@ class GrblMachineSession final : public MachineSession {
   void prepare();
   bool rests() const;
   bool is_held_at_board() const;
+  OutputState outputs_now() const;
   MmPerSecond speed_now() const;
   void unlock();
   void lose_place();
@@ -192,6 +199,7 @@ class GrblMachineSession final : public MachineSession {
   void play_executed(Work& work, const MotionLimits& limits) const;
   void poll_feed();
   void answer_question();
+  void await_line();
   void update_holds();
   void poll_jog();
   void send_jog_piece();
@@ -228,6 +236,7 @@ class GrblMachineSession final : public MachineSession {
   bool locked_ = false;  // the board is in an alarm that $X or $H ends
   Recovery recovery_;
   Loan loan_;
+  SessionSettings settings_{*this};
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;

@@ -11,6 +11,14 @@
 
 namespace passo {
 
+// In percent.
+struct GrblOverrides {
+  int feed = 100;
+  int rapids = 100;
+  int spindle = 100;
+  friend bool operator==(const GrblOverrides&, const GrblOverrides&) = default;
+};
+
 // A status report: <Idle|MPos:0.000,0.000,0.000|Bf:15,128|FS:0,0|WCO:0.000,0.000,0.000|Pn:XP>
 struct GrblReport {
   std::string state;                        // "Idle", "Run", "Hold", "Alarm" …
@@ -21,12 +29,13 @@ struct GrblReport {
   std::size_t values = 0;                   // numbers in its position: one for each axis
   std::optional<std::size_t> blocks_free = {};
   std::optional<std::size_t> bytes_free = {};
-  std::optional<double> feed = {};  // its speed now, as reported: mm/min, or inches/min with $13=1
-  std::string pins = {};            // letters of the triggered inputs
-  // Letters of the outputs that are on: S or C spindle, F flood, M mist. Grbl reports them now and then; empty: not in
-  // this report.
-  std::optional<std::string> outputs = {};
-  std::optional<double> file_share = {};  // of a file on the board that it runs, 0 to 1
+  std::optional<double> feed = {};   // its speed now, as reported: mm/min, or inches/min with $13=1
+  std::optional<double> speed = {};  // of the spindle, rpm, with its override
+  std::string pins = {};             // letters of the triggered inputs
+  // Grbl reports these two now and then, and at once after a change; empty: not in this report.
+  std::optional<GrblOverrides> overrides = {};
+  std::optional<std::string> outputs = {};  // letters of those that are on: S or C spindle, F flood, M mist
+  std::optional<double> file_share = {};    // of a file on the board that it runs, 0 to 1
 
   // Returns whether nothing moves, and nothing will start moving by itself.
   bool rests() const;

@@ -129,6 +129,9 @@ class GrblSender {
   void override_spindle(int percent);
   // Sets the override of rapids: Grbl has 100, 50 and 25 percent. Returns the percentage that was set.
   int override_rapids(int percent);
+  // Returns the overrides that the machine has reported since a change by this sender has taken effect; others may have
+  // changed them. Empty: none yet.
+  const std::optional<GrblOverrides>& told_overrides() const { return override_.told; }
   // As for an open door: brakes, and switches spindle and coolant off. resume() restores them.
   void open_door() { act('\x84'); }
   // Stops jogging motion, and drops the jog lines that were not sent.
@@ -180,6 +183,7 @@ class GrblSender {
   void answer_mark();
   void follow_report(const GrblReport& report);
   void send_overrides();
+  void hear_overrides(const GrblReport& report);
   void check_silence();
   void check_lost_bytes();
   void check_standstill();
@@ -235,6 +239,7 @@ class GrblSender {
     std::deque<char> bytes;  // not sent yet
     Seconds sent{-1};        // time of the last one
     double feed = 1;         // the factor, since the connection
+    std::optional<GrblOverrides> told = {};
   };
   Overrides override_;
 };

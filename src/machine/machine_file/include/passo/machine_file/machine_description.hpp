@@ -192,6 +192,8 @@ struct ParkDescription {
 
 struct MachineDescription {
   std::string name;
+  // X and Y share two motors of the same scale: one turns by X + Y, the other by X - Y. Only for boards with Grbl.
+  bool is_core_xy = false;
   Mm path_tolerance{0.01};
   double path_tolerance_deg = 0.05;  // of rotary axes
   BoardDescription board;
@@ -234,13 +236,18 @@ struct MachineDescription {
 // read.
 std::optional<std::string> machine_file_text(const std::string& path, Diagnostics& diagnostics);
 
+// What the caller does with a machine. Whoever plans or makes the steps of its motors cannot use a machine that only a
+// board with Grbl drives: that is an error of the file then.
+enum class MachineUse : std::uint8_t { own_board, any_board };
+
 // Reads and checks a machine file. All errors go to `diagnostics` (line, key, nearest key, what is missing), with codes
 // "machine.*". Returns nothing if there was any error.
-std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics);
+std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics,
+                                                    MachineUse use = MachineUse::own_board);
 
 // The same for a text in memory. `file` names the text in diagnostics.
 std::optional<MachineDescription> parse_machine(std::string_view text, const std::string& file,
-                                                Diagnostics& diagnostics);
+                                                Diagnostics& diagnostics, MachineUse use = MachineUse::own_board);
 
 // The description as readable text: one line each for the machine, the board and the tool, and one for each axis.
 std::string describe(const MachineDescription& machine);

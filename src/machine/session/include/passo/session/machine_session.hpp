@@ -20,6 +20,7 @@
 #include "passo/session/board_storage.hpp"
 #include "passo/session/machine_abilities.hpp"
 #include "passo/session/machine_status.hpp"
+#include "passo/session/numbered_settings.hpp"
 #include "passo/session/request.hpp"
 
 namespace passo {
@@ -64,6 +65,9 @@ class MachineSession {
   virtual MachineAbilities abilities() const { return {}; }
   // The files of the board. Null: it stores none.
   virtual BoardStorage* storage() { return nullptr; }
+  // Returns the settings of a board that has its own; otherwise null.
+  virtual NumberedSettings* numbered_settings() { return nullptr; }
+  virtual const NumberedSettings* numbered_settings() const { return nullptr; }
   // Returns the session if it has a board that executes our steps; otherwise null.
   virtual BoardMachineSession* as_board_session() { return nullptr; }
   virtual const BoardMachineSession* as_board_session() const { return nullptr; }

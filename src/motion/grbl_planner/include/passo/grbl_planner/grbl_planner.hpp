@@ -41,12 +41,15 @@ struct GrblLimits {
   std::size_t blocks = 15;                  // blocks that the planner holds, including the one that moves; at least 1
   double feed_factor = 1;                   // overrides; above 0
   double rapid_factor = 1;
-  // The motors of X and Y move by x + y and x - y. Lengths and feeds are measured along the motors, and the limits of X
-  // and Y are theirs.
+  // The motors of X and Y move by x + y and x - y. Lengths are measured along the motors, and the limits of X and Y are
+  // theirs.
   bool core_xy = false;
+  bool feeds_tool = false;  // then F is the speed of the tool, as in grblHAL, not along the motors, as in Grbl
 
   // Returns a way of the tool as the board measures it.
   Point measured(Point way) const;
+  // Returns the feed along the motors for a move of the tool.
+  MmPerSecond measured_feed(const Point& way, MmPerSecond feed) const;
   bool operator==(const GrblLimits&) const = default;
 };
 

@@ -1,11 +1,14 @@
 // The settings of Grbl 1.1 and of the firmwares that use its numbers. Source: Grbl v1.1 Settings
 // (doc/markdown/settings.md of gnea/grbl); settings.c of grbl-Mega-5X for the axes beyond Z.
+#include "passo/grbl_meanings/firmware_setting_table.hpp"
+
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include <fmt/format.h>
 
-#include "passo/sender/firmware_setting.hpp"
+#include "passo/geometry/axes.hpp"
 
 namespace passo {
 namespace {
@@ -101,6 +104,14 @@ void describe_axis(FirmwareSetting& setting, int number, std::string_view axes) 
 }
 
 }  // namespace
+
+std::optional<int> read_setting_number(std::string_view name) {
+  int number = 0;
+  if (!name.starts_with('$')) return {};
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || number < 0) return {};
+  return number;
+}
 
 void describe_by_table(FirmwareSetting& setting, std::string_view axes) {
   const auto number = read_setting_number(setting.name);
