@@ -14,6 +14,7 @@
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/drive/motion_drive.hpp"
+#include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/journal/resume_point.hpp"
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_line.hpp"
@@ -154,6 +155,7 @@ class DrivenProgram {
                          .counts_per_turn = machine.spindle.counts_per_turn,
                          .guards_by_probe = machine.probe.guards && on_.answers_probes,
                          .waits_for_operator = on_.waits_for_operator};
+    if (machine.tool_change) options.coolant_wait = collet_wait(*machine.tool_change);
     if (options.guards_by_probe) options.live = live_commitment;
     if (board_.is_remote() && !board_.session().error() && !unsuited_) options.tails.emplace();
     if (on_.resume_at) options.begin_at = on_.resume_at->place;

@@ -77,6 +77,7 @@ class JournaledHost {
   // Set: the program waits at its stops, for this. Empty: it does not wait.
   std::function<void(const Action&)> operator_works;
   std::uint64_t turns_between_holds = 0;  // the program is held that often, and resumed at rest; 0: never
+  bool holds_by_door = false;             // at rest, spindle and coolant are then off
 
  private:
   void work(MortalPort& port, bool& done) {
@@ -126,8 +127,12 @@ class JournaledHost {
   }
   void hold_now_and_then(MotionDrive& drive) {
     if (turns_between_holds == 0) return;
-    if (++turns_ % turns_between_holds == 0) drive.hold();
-    if (drive.state() == MotionDrive::State::held) drive.resume();
+    const HoldReason reason = holds_by_door ? HoldReason::door : HoldReason::operator_hold;
+    if (++turns_ % turns_between_holds == 0) drive.hold(reason);
+    if (!drive.holds().has(reason) || drive.state() != MotionDrive::State::held) return;
+    if (holds_by_door && !std::exchange(outputs_are_off_, true)) return drive.stop_outputs();
+    outputs_are_off_ = false;
+    drive.resume(reason);
   }
   bool fails(const DrivenProgram& job) const {
     const auto error = job.link().error();
@@ -139,6 +144,7 @@ class JournaledHost {
   std::string program_;
   std::uint16_t sessions_ = 0;
   std::uint64_t turns_ = 0;
+  bool outputs_are_off_ = false;
 };
 
 }  // namespace passo::test

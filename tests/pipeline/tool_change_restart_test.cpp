@@ -1,8 +1,10 @@
 // A machine that measures its tools: the host dies, is cut off, held or stopped at any instant of a program with tool
 // changes, and another one goes on by the journal. The tool, its length and the place are right in the end, the machine
-// never goes across below the safe height while the spindle is off.
+// never goes across below the safe height while the spindle is off, and no tool falls from the collet or is pulled from
+// a collet that has not opened yet.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -30,9 +32,37 @@ const std::string changing_job =
     "G21 G90 G64 P0.05\nT1 M6\nG0 X10 Y5\nZ2\nM3 S1000\nG1 Z-1 F1500 X20\nY8\nM8\nT2 M6\nG0 X-5 Y5\nZ3\nM3 S1000\nG1 "
     "Z-1 F1200\n"
     "X-8\nT3 M6 G0 X3\nM3 S1000\nG1 Z1 F1800\nG2 X5 Y7 I1 J1\nM2\n";
+// The block of an M6 that calls a macro has no other words.
+std::string job_for(ToolChangeWay way) {
+  const std::string more = "M6 G0 X3";
+  std::string job = changing_job;
+  return way == ToolChangeWay::macro ? job.replace(job.find(more), more.size(), "M6\nG0 X3") : job;
+}
+
 // Machine Z at which each tool touches the setter; without a tool, nothing does.
 constexpr std::array<double, 4> contacts = {-1000, -20, -12.5, -31.2};
 constexpr double safe_height = 20;
+
+// Tool n is in pocket n. The holder goes in from the front. The mist output opens the collet.
+constexpr MachineXy first_pocket{-25, 30};
+constexpr MachineXy pocket_step{15, 0};
+constexpr double pocket_entry = -12;  // in Y
+constexpr double pocket_height = -10;
+constexpr Seconds valve_time{0.2};
+
+MachineXy pocket_of(std::size_t tool) {
+  const auto others = static_cast<double>(tool) - 1;
+  return {first_pocket.x + others * pocket_step.x, first_pocket.y + others * pocket_step.y};
+}
+
+// The same as the rack, as lines of G-code.
+const std::string changer_lines =
+    "G21 G90 G94 F3000\n"
+    "o<put> if [#5400 GT 0]\n"
+    "G53 G0 X[-40+15*#5400] Y18\nG53 G1 Z-10\nG53 G1 Y30\nM7\nG4 P0.2\nG53 G0 Z20\nM9\nG4 P0.2\n"
+    "o<put> endif\n"
+    "G53 G0 X[-40+15*#<_selected_tool>] Y30\nM7\nG4 P0.2\nG53 G1 Z-10\nM9\nG4 P0.2\nG53 G1 Y18\n"
+    "M3 S100\n";  // which the change has to stop
 
 MachineDescription changing_machine(ToolChangeWay way) {
   MachineDescription machine = test::example_machine("router");
@@ -52,6 +82,21 @@ MachineDescription changing_machine(ToolChangeWay way) {
     plan.wear.reset();
     plan.measure_at.reset();
     plan.use = LengthUse::work;
+  }
+  if (way == ToolChangeWay::rack) {
+    plan.rack = {.pockets = 3,
+                 .first = first_pocket,
+                 .step = pocket_step,
+                 .z = pocket_height,
+                 .entry = {0, pocket_entry},
+                 .feed = MmPerSecond(50),
+                 .opens = ColletOutput::mist,
+                 .wait = valve_time};
+  }
+  if (way == ToolChangeWay::macro) {
+    plan.macro = changer_lines;
+    plan.macro_collet_wait = valve_time;
+    plan.touches = 2;
   }
   machine.tool_change = std::make_shared<const ToolChangePlan>(plan);
   return machine;
@@ -91,18 +136,101 @@ class ToolPlant final : public Plant {
   std::vector<IdealPlant> plants_;
 };
 
-// Looks at every step: while the spindle is off, X and Y move at the safe height only, but for rounded corners.
-class Watchman final : public MachineObserver {
+// The motors' position, by their steps.
+class Place {
  public:
-  explicit Watchman(const MachineDescription& machine) : machine_(machine) {}
-  void on_steps(Ticks /*time*/, std::uint8_t stepped, std::uint8_t directions) override {
-    constexpr double rounding = 0.06;
+  explicit Place(const MachineDescription& machine) : machine_(machine) {}
+  void step(std::uint8_t stepped, std::uint8_t directions) {
     for (std::size_t m = 0; m < steps_.size(); ++m) {
       if ((stepped >> m & 1U) != 0) steps_[m] += (directions >> m & 1U) != 0 ? -1 : 1;
     }
-    const double height = static_cast<double>(steps_[2]) / machine_.axes[2].steps_per_unit;
+  }
+  double operator[](std::size_t axis) const {
+    return static_cast<double>(steps_[axis]) / machine_.axes[axis].steps_per_unit;
+  }
+
+ private:
+  const MachineDescription& machine_;
+  std::array<std::int64_t, 3> steps_{};
+};
+
+// A collet with a valve, and the rack. It opens and closes some time after its output. What is in the spindle follows
+// from where it does so.
+class Collet final : public MachineObserver {
+ public:
+  Collet(const MachineDescription& machine, ToolPlant& plant, bool has_valve)
+      : clock_(machine.board.clock.value()), place_(machine), plant_(plant), has_valve_(has_valve) {
+    if (has_valve_) in_rack_ = {false, true, true, true};
+  }
+  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
+    pass(time);
+    const bool is_loose = held_above_ > 0 && !is_open_;
+    if (is_loose) trouble = "a tool was moved that is not seated in the collet";
+    place_.step(stepped, directions);
+  }
+  void on_outputs(Ticks time, const BoardOutputs& outputs) override {
+    pass(time);
+    const bool wants_open = (outputs.switches & mist_on) != 0;
+    if (!has_valve_ || wants_open == wants_open_) return;
+    wants_open_ = wants_open;
+    switches_at_ = time.count + std::llround(valve_time.value() * clock_ * 0.999);
+  }
+  std::string trouble;
+
+ private:
+  void pass(Ticks time) {
+    if (is_open_ == wants_open_ || time.count < switches_at_) return;
+    is_open_ = wants_open_;
+    is_open_ ? open() : close();
+  }
+  void open() {
+    if (plant_.tool == 0) return;
+    if (!is_over(plant_.tool) || place_[2] > pocket_height + reach || in_rack_[plant_.tool]) {
+      trouble = "a tool fell from the collet";
+    }
+    in_rack_[plant_.tool] = true;
+    plant_.tool = 0;
+    held_above_ = 0;
+  }
+  void close() {
+    for (std::size_t tool = 1; tool < in_rack_.size(); ++tool) {
+      if (!in_rack_[tool] || !is_over(tool) || place_[2] > pocket_height + reach) continue;
+      in_rack_[tool] = false;
+      plant_.tool = tool;
+      held_above_ = place_[2] > pocket_height + exact ? place_[2] - pocket_height : 0;
+    }
+  }
+  bool is_over(std::size_t tool) const {
+    const MachineXy at = pocket_of(tool);
+    return std::abs(place_[0] - at.x) < exact && std::abs(place_[1] - at.y) < exact;
+  }
+
+  static constexpr double exact = 0.06;  // mm
+  static constexpr double reach = 8;     // of the holder into the collet
+  double clock_;
+  Place place_;
+  ToolPlant& plant_;
+  bool has_valve_;
+  bool wants_open_ = false;
+  bool is_open_ = false;
+  std::int64_t switches_at_ = 0;
+  double held_above_ = 0;  // the tool was seized so high above its seat
+  std::array<bool, contacts.size()> in_rack_{};
+};
+
+// Looks at every step: while the spindle is off, X and Y move at the safe height only, but for rounded corners and the
+// way into a pocket.
+class Watchman final : public MachineObserver {
+ public:
+  explicit Watchman(const MachineDescription& machine) : machine_(machine), place_(machine) {}
+  void on_steps(Ticks /*time*/, std::uint8_t stepped, std::uint8_t directions) override {
+    constexpr double rounding = 0.06;
+    place_.step(stepped, directions);
+    const double height = place_[2];
     if (spindle_) lowest_cut = std::min(lowest_cut, height);
-    if (spindle_ || height >= safe_height - rounding) {
+    const bool in_pocket =
+        std::abs(height - pocket_height) < rounding && place_[1] > first_pocket.y + pocket_entry - 0.1;
+    if (spindle_ || in_pocket || height >= safe_height - rounding) {
       low_way_ = 0;
     } else if ((stepped & 3U) != 0) {
       longest_low_way = std::max(longest_low_way, low_way_ += 1 / machine_.axes[0].steps_per_unit);
@@ -116,9 +244,9 @@ class Watchman final : public MachineObserver {
 
  private:
   const MachineDescription& machine_;
+  Place place_;
   bool spindle_ = false;
   double low_way_ = 0;
-  std::array<std::int64_t, 3> steps_{};
 };
 
 class ChangeBench {
@@ -129,11 +257,13 @@ class ChangeBench {
                  static_cast<std::size_t>(description_.board.held_items)),
         plant_(description_),
         line_(machine_, description_.board.clock, {}),
-        host_(description_, changing_job),
-        watchman_(description_) {
+        host_(description_, job_for(way)),
+        watchman_(description_),
+        collet_(description_, plant_, way == ToolChangeWay::rack || way == ToolChangeWay::macro) {
     machine_.connect(plant_);
     machine_.add_observer(log_);
     machine_.add_observer(watchman_);
+    machine_.add_observer(collet_);
     host_.operator_works = [this](const Action& stop) {
       if (stop.kind != Action::Kind::tool_change) return;
       EXPECT_EQ(machine_.counts().outputs.switches & spindle_on, 0) << "the spindle turns while a hand is at it";
@@ -158,7 +288,11 @@ class ChangeBench {
   BoardOutputs outputs() const { return machine_.counts().outputs; }
   std::size_t tool() const { return plant_.tool; }
   const Watchman& watchman() const { return watchman_; }
-  void hold_each(std::uint64_t turns) { host_.turns_between_holds = turns; }
+  const Collet& collet() const { return collet_; }
+  void hold_each(std::uint64_t turns, bool by_door) {
+    host_.turns_between_holds = turns;
+    host_.holds_by_door = by_door;
+  }
   bool done = false;
   std::vector<std::int32_t> hand_tools;
 
@@ -170,10 +304,12 @@ class ChangeBench {
   test::JournaledHost host_;
   test::StepLog log_;
   Watchman watchman_;
+  Collet collet_;
 };
 
 void expect_as_alone(const ChangeBench& bench, const ChangeBench& alone) {
   ASSERT_TRUE(bench.done);
+  EXPECT_EQ(bench.collet().trouble, "");
   EXPECT_EQ(bench.end(), alone.end());
   EXPECT_EQ(bench.tool(), alone.tool());
   EXPECT_LT(bench.watchman().longest_low_way, 0.3);
@@ -186,18 +322,33 @@ void expect_as_alone(const ChangeBench& bench, const ChangeBench& alone) {
   }
 }
 
+constexpr std::array all_ways = {ToolChangeWay::setter, ToolChangeWay::plate, ToolChangeWay::rack,
+                                 ToolChangeWay::macro};
+
+const char* name_of_way(ToolChangeWay way) {
+  switch (way) {
+    case ToolChangeWay::setter: return "setter";
+    case ToolChangeWay::plate: return "plate";
+    case ToolChangeWay::rack: return "rack";
+    case ToolChangeWay::macro: return "macro";
+  }
+  return "";
+}
+
 void die_amid_changes(ToolChangeWay way, int trials) {
   ChangeBench alone(way);
   const std::uint64_t moments = alone.host(test::never, HostEnd::before_frame);
   ASSERT_TRUE(alone.done);
   ASSERT_EQ(alone.tool(), 3U);
+  ASSERT_EQ(alone.collet().trouble, "");
   const std::uint64_t seed = test::seed();
   int deaths = 0;
   for (int i = 0; i < trials && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
     ChangeBench bench(way);
-    bench.hold_each(random() % 2 == 0 ? 0 : 5 + random() % 200);
+    const std::uint64_t holds = random() % 3;  // none, by a person, by the door
+    bench.hold_each(holds == 0 ? 0 : 5 + random() % 200, holds == 2);
     const std::uint64_t lives = 1 + random() % 3;
     for (std::uint64_t life = 0; life < lives && !bench.done && !testing::Test::HasFatalFailure(); ++life) {
       bench.host(random() % moments, static_cast<HostEnd>(random() % 4));
@@ -207,7 +358,8 @@ void die_amid_changes(ToolChangeWay way, int trials) {
     if (!bench.done) bench.host(test::never, HostEnd::before_frame);
     expect_as_alone(bench, alone);
   }
-  std::printf("%d trials, %d hosts died or were stopped\n", trials, deaths);
+  std::printf("%s: %d trials, %d hosts died or were stopped, at some of %llu moments\n", name_of_way(way), trials,
+              deaths, static_cast<unsigned long long>(moments));
 }
 
 TEST(ToolChangeRestart, ends_with_the_right_tool_length_and_place) {
@@ -221,13 +373,13 @@ TEST(ToolChangeRestart, ends_with_the_right_tool_length_and_place) {
 }
 
 TEST(ToolChangeRestart, goes_on_whenever_the_host_dies) {
-  for (const ToolChangeWay way : {ToolChangeWay::setter, ToolChangeWay::plate}) die_amid_changes(way, test::fewer(3));
+  for (const ToolChangeWay way : all_ways) die_amid_changes(way, test::fewer(3));
 }
 
 class ToolChangeRestartInFull : public test::InFull<testing::Test> {};
 TEST_F(ToolChangeRestartInFull, goes_on_whenever_the_host_dies) {
   const int trials = static_cast<int>(300 / test::in_full());
-  for (const ToolChangeWay way : {ToolChangeWay::setter, ToolChangeWay::plate}) die_amid_changes(way, trials);
+  for (const ToolChangeWay way : all_ways) die_amid_changes(way, trials);
 }
 
 }  // namespace

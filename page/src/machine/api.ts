@@ -69,6 +69,7 @@ export interface Status {
   waits_for_tool: number | null;
   waits_for_operator: boolean;
   waits?: Waits | null;
+  measured_tool?: { tool: number; length: number } | null; // by the last M6 of the program
   trouble: string;
   trouble_sentence: Sentence | null;
   unkept: string; // what is not on the disk yet, and why

@@ -11,6 +11,7 @@ const isDoubtful = (): boolean => status.value !== null && status.value.trust !=
 
 export function Position() {
   const trust = status.value?.trust ?? 'unknown';
+  const measured = status.value?.measured_tool;
   return (
     <section class="panel position" aria-label={say('run.position')}>
       <div class="position-head">
@@ -43,6 +44,12 @@ export function Position() {
           <span class="dim">{say('run.speed')}</span> <b class="figure">{speedText(status.value?.speed ?? 0)}</b>{' '}
           <span class="unit">{speedUnit()}</span>
         </span>
+        {measured != null && (
+          <span data-testid="measured-tool">
+            <span class="dim">{say('run.tool', { tool: measured.tool })}</span> <b class="figure">{placeText('z', measured.length)}</b>{' '}
+            <span class="unit">{lengthUnit()}</span>
+          </span>
+        )}
         <span class={`trust ${trust === 'homed' ? 'sure' : isDoubtful() ? 'doubt' : ''}`}>
           <Icon name={trust === 'homed' ? 'home' : 'warn'} />
           {say(`run.trust.${trust}`)}

@@ -162,6 +162,9 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
                {"waits_for_tool", Json()},
                {"waits_for_operator", status.waits_for.has_value()},
                {"waits", status.waits_for ? waits_json(*status.waits_for) : Json()},
+               {"measured_tool", status.measured_tool ? Json{{"tool", status.measured_tool->number},
+                                                             {"length", rounded(status.measured_tool->length)}}
+                                                      : Json()},
                {"trouble", status.trouble_sentence.text},
                {"trouble_sentence", as_json(status.trouble_sentence)}};
   if (status.waits_for && status.waits_for->kind == Action::Kind::tool_change) {

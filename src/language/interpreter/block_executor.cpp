@@ -84,6 +84,7 @@ BlockExecutor::BlockExecutor(BlockContext& block, SymbolTable& symbols)
       subprograms_(block),
       modes_(block),
       stops_(block, cutter_codes_, frame_),
+      hooks_(block, frame_),
       comments_(block, symbols),
       symbols_(symbols) {}
 
@@ -116,7 +117,7 @@ void BlockExecutor::roll_back() {
   block_.missing_feed_told = missing_feed_was_told_;
   drilling_.roll_back();
   cycle_ = nullptr;
-  static_cast<void>(tools_.take_begun());
+  tools_.drop_change();
   reopen();  // the program had not ended when its last line came
 }
 

@@ -20,6 +20,7 @@
 #include "cutter_codes.hpp"
 #include "drilling_codes.hpp"
 #include "frame_codes.hpp"
+#include "hook_codes.hpp"
 #include "input_output_codes.hpp"
 #include "lathe_codes.hpp"
 #include "modal_snapshot.hpp"
@@ -67,6 +68,10 @@ class BlockExecutor : private CodeFamily {
   Span repeated() const { return words_.has('L') ? words_.span('L') : Span{block_.word.column, block_.word.length}; }
   void drop_cycle() { cycle_ = nullptr; }
 
+  // The hooks of the machine file; without allow_hooks() there are none. Returns whether there is one at the start,
+  // whose call is then to be followed.
+  void allow_hooks() { hooks_.allow(); }
+  bool call_start_hook();
   // Returns whether the program waits for the result of the last probe move.
   bool awaits_probe() const { return probe_.awaits_outcome(); }
   void apply_probe_outcome() { probe_.apply_outcome(); }
@@ -122,6 +127,7 @@ class BlockExecutor : private CodeFamily {
   // Saving and restoring the modal state.
   bool keep_modal_state(CodeNumber code);
   void restore_after_sub(const OperationSource& source);
+  void leave_hook();
   void restore(const ModalSnapshot& saved);
   void restore_spindles(const ModalSnapshot& saved);
   void restore_switches(const ModalSnapshot& saved);
@@ -140,6 +146,7 @@ class BlockExecutor : private CodeFamily {
   SubprogramCodes subprograms_;
   ModeCodes modes_;
   StopCodes stops_;
+  HookCodes hooks_;
   ActiveComments comments_;
 
   SymbolTable& symbols_;

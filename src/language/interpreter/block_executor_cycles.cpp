@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "block_executor.hpp"
+#include "program_lines.hpp"
 
 namespace passo {
 
@@ -31,11 +32,28 @@ void BlockExecutor::go_on() {
     if (compensated) state_.cutter_shift = cutter_.shift(state_.position);
     const bool has_changed = tools_.take_begun();
     if (!std::exchange(cycle_, nullptr)->finish()) return;
-    if (tools_.take_macro_call()) return subprograms_.call_change_macro(words_.span(ModalGroup::tool_change));
+    if (tools_.take_macro_call()) {
+      return subprograms_.call_machine_program(change_macro_number, words_.span(ModalGroup::tool_change));
+    }
     if (has_changed && (!execute_after_change() || cycle_ != nullptr)) return;
   }
   const CodeEntry* const stop = words_.code(ModalGroup::stopping);
-  if (stop != nullptr && tools_.check_stop(stop->number)) stops_.run(stop->number);
+  if (stop == nullptr || !tools_.check_stop(stop->number) || !hooks_.check_stop(stop->number)) return;
+  if (const std::int32_t hook = hooks_.begin_end(stop->number)) {
+    return subprograms_.call_machine_program(hook, words_.span(ModalGroup::stopping));
+  }
+  if (!block_.ended) stops_.run(stop->number);
+}
+
+bool BlockExecutor::call_start_hook() {
+  const std::int32_t hook = hooks_.begin_start();
+  if (hook != 0) subprograms_.call_machine_program(hook, {});
+  return hook != 0;
+}
+
+void BlockExecutor::leave_hook() {
+  restore(hooks_.end());
+  if (!block_.ended && hooks_.ending() != 0) stops_.run(hooks_.ending());
 }
 
 // A line of a lathe cycle's contour.

@@ -113,12 +113,31 @@ class Interpreter::Implementation {
     return modes;
   }
 
+  std::optional<ToolMeasurement> measured_tool() const {
+    const MeasuredTools& known = state_.measured;
+    if (known.tool == 0 || known.tool != state_.tool) return {};
+    return ToolMeasurement{known.tool, state_.frame.tool_offset()[Axis::z] + known.work_shift};
+  }
+
   void watch(BlockWatcher& watcher) {
     watcher_ = &watcher;
     flow_.watch(watcher);
   }
 
  private:
+  static std::vector<MachineProgram> machine_programs(const InterpreterOptions& options) {
+    std::vector<MachineProgram> programs;
+    const auto add = [&](std::int32_t number, const char* name, const std::string& lines) {
+      if (!lines.empty()) programs.push_back({number, name, lines});
+    };
+    if (options.tool_change != nullptr) {
+      add(change_macro_number, "[tool_change] of the machine file", options.tool_change->macro);
+    }
+    add(start_hook_number, "hooks.at_start of the machine file", options.hooks.at_start);
+    add(end_hook_number, "hooks.at_end of the machine file", options.hooks.at_end);
+    return programs;
+  }
+
   // grbl throws the '/' away and runs the line.
   static ProgramFlow::Options flow_options(const InterpreterOptions& options) {
     return {.lines = {.block_delete = options.block_delete && options.dialect != Dialect::grbl,
@@ -126,7 +145,7 @@ class Interpreter::Implementation {
                       .dialect = options.dialect,
                       .open_ended = options.open_ended,
                       .more_grbl_axes = options.more_grbl_axes.c_str(),
-                      .change_macro = options.tool_change != nullptr ? options.tool_change->macro : std::string()},
+                      .machine_programs = machine_programs(options)},
             .bounds = {.idle_passes = options.idle_passes,
                        .repeated_steps = options.repeated_steps,
                        .main_passes = options.main_passes},
@@ -135,6 +154,10 @@ class Interpreter::Implementation {
 
   // One block: none, one or several operations. False: the next line was not given yet.
   bool step() {
+    if (!std::exchange(has_begun_, true) && !block_.options.hooks.empty() && flow_.is_job()) {
+      executor_.allow_hooks();
+      if (executor_.call_start_hook()) return follow_jump(), true;
+    }
     if (LatheCodes* const lathe = executor_.wants_contour()) {
       read_contour(*lathe);
     } else if (executor_.busy()) {
@@ -221,6 +244,7 @@ class Interpreter::Implementation {
   BlockContext block_;
   BlockExecutor executor_;
   std::string_view text_;  // of the block at hand
+  bool has_begun_ = false;
   bool finished_ = false;
   ProgramState kept_state_;
   BlockWatcher* watcher_ = nullptr;
@@ -281,6 +305,10 @@ void Interpreter::stand_at(const Point& machine) {
 
 ActiveModes Interpreter::modes() const {
   return implementation_->modes();
+}
+
+std::optional<ToolMeasurement> Interpreter::measured_tool() const {
+  return implementation_->measured_tool();
 }
 
 std::uint64_t Interpreter::offset() const {

@@ -45,9 +45,13 @@ bool BlockExecutor::keep_modal_state(CodeNumber number) {
 
 void BlockExecutor::leave_sub(const OperationSource& source) {
   restore_after_sub(source);
-  if (block_.ended || !tools_.changes_by_macro(state_.call_depth)) return;
+  if (block_.ended) return;
   block_.source = source;
   block_.word = {};
+  if (hooks_.is_left(state_.call_depth)) return leave_hook();
+  if (!tools_.changes_by_macro(state_.call_depth)) return;
+  tools_.examine_after_macro();
+  restore(tools_.modes_before_macro());
   tools_.go_on_after_macro();
   cycle_ = &tools_;
 }

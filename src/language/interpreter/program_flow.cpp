@@ -84,11 +84,10 @@ const Block* ProgramFlow::next() {
       continue;
     }
     if (watcher_ != nullptr) watcher_->before(block, lines_.file().name, state_, parameters_, symbols_);
-    if (!block.control) {
-      if (!block.words.empty() || !block.assignments.empty()) lines_.percent_signs().note_content();
-      return &block;
-    }
-    lines_.percent_signs().note_content();
+    // The hook at the start comes before the '%' of the program.
+    const bool has_content = block.control || !block.words.empty() || !block.assignments.empty();
+    if (has_content && frames_.empty()) lines_.percent_signs().note_content();
+    if (!block.control) return &block;
     state_.line = block.line;
     obey(*block.control);
     if (watcher_ != nullptr) watcher_->after(state_);

@@ -50,6 +50,8 @@ class ProgramFlow final : public CallStack {
   const Block* next();
   // Adds a line. Only with `open_ended`, when next() has returned null.
   void push_line(std::string_view text) { lines_.push_line(text); }
+  // Returns whether the program is a whole one, with M2 or M30. Only before the first block.
+  bool is_job() { return !lines_.open_ended() && lines_.has_end(); }
   // Returns whether the next line is not available yet.
   bool waits_for_line() const { return lines_.open_ended() && end_ == End::none; }
   // Returns the line of the call if a subroutine was just left.

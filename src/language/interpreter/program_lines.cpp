@@ -22,6 +22,23 @@ bool is_percent(std::string_view text) {
   return first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%';
 }
 
+// Whether the words of the line have M2 or M30. Comments do not count.
+bool is_program_end(std::string_view text) {
+  for (std::size_t i = 0; i < text.size() && text[i] != ';'; ++i) {
+    if (text[i] == '(') {
+      i = std::min(text.find(')', i), text.size());
+      continue;
+    }
+    if (text[i] != 'M' && text[i] != 'm') continue;
+    std::string number;
+    for (std::size_t k = i + 1; k < text.size() && (text[k] == ' ' || (text[k] >= '0' && text[k] <= '9')); ++k) {
+      if (text[k] != ' ' && !(number.empty() && text[k] == '0')) number += text[k];
+    }
+    if (number == "2" || number == "30") return true;
+  }
+  return false;
+}
+
 constexpr double highest_label = 1e9;
 
 }  // namespace
@@ -196,6 +213,17 @@ void ProgramLines::report_moves_after_end() {
   file_->reader.seek(here);
 }
 
+bool ProgramLines::has_end() {
+  ProgramReader& reader = files_.front()->reader;
+  std::string_view text;
+  std::uint32_t line = 0;
+  Diagnostics unheeded;
+  bool found = false;
+  while (!found && reader.next_line(text, line, unheeded)) found = is_program_end(text);
+  reader.seek({});
+  return found;
+}
+
 bool ProgramLines::lacks_closing_percent(ReaderPosition from) {
   if (!percent_signs_.opened()) return false;
   ProgramReader& reader = files_.front()->reader;
@@ -219,6 +247,9 @@ bool ProgramLines::label_of_skipped(const Control& control, Symbol& label) const
 }
 
 ProgramLines::File* ProgramLines::find_sub(Symbol label) {
+  if (!options_.machine_programs.empty()) {
+    if (File* const found = find_machine_program(label)) return found;
+  }
   if (find_in(*file_, label)) return file_;
   for (const auto& file : files_) {
     if (file.get() != file_ && find_in(*file, label)) return file.get();
@@ -260,9 +291,6 @@ bool ProgramLines::find_in(File& file, Symbol label) {
 
 // The first file of that name counts, as in LinuxCNC.
 ProgramLines::File* ProgramLines::open_named(Symbol label) {
-  if (!options_.change_macro.empty() && symbols_.name(label) == fmt::format("{}", change_macro_number)) {
-    return open_change_macro(label);
-  }
   const std::string name = std::string(symbols_.name(label)) + ".ngc";
   File* file = open_in(folder_of_file(files_.front()->name), name);
   for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
@@ -271,11 +299,17 @@ ProgramLines::File* ProgramLines::open_named(Symbol label) {
   return file != nullptr && find_in(*file, label) ? file : nullptr;
 }
 
-// The modes of the caller are restored at the end (M73).
-ProgramLines::File* ProgramLines::open_change_macro(Symbol label) {
-  const std::string text = fmt::format("O{}\nM73\n{}M99\n", change_macro_number, options_.change_macro);
-  files_.push_back(std::make_unique<File>(ProgramReader::from_text("[tool_change] of the machine file", text),
-                                          files_.size(), symbols_));
+// Null: there is no such program of the machine.
+ProgramLines::File* ProgramLines::find_machine_program(Symbol label) {
+  const auto found = std::ranges::find_if(options_.machine_programs, [&](const MachineProgram& one) {
+    return symbols_.name(label) == fmt::format("{}", one.number);
+  });
+  if (found == options_.machine_programs.end()) return nullptr;
+  for (const auto& file : files_) {
+    if (file->name == found->name) return file.get();
+  }
+  const std::string text = fmt::format("O{}\n{}M99\n", found->number, found->lines);
+  files_.push_back(std::make_unique<File>(ProgramReader::from_text(found->name, text), files_.size(), symbols_));
   return find_in(*files_.back(), label) ? files_.back().get() : nullptr;
 }
 

@@ -28,8 +28,15 @@
 
 namespace passo {
 
-// The number of the program that M6 calls, with the lines of the machine file. Programs of users have other numbers.
+// Lines of the machine file, which are called as a numbered program. Programs of users have other numbers.
+struct MachineProgram {
+  std::int32_t number = 0;
+  std::string name;  // for messages
+  std::string lines;
+};
 inline constexpr std::int32_t change_macro_number = 999'999'006;
+inline constexpr std::int32_t start_hook_number = 999'999'001;
+inline constexpr std::int32_t end_hook_number = 999'999'002;
 
 class ProgramLines {
  public:
@@ -39,7 +46,7 @@ class ProgramLines {
     Dialect dialect = Dialect::linuxcnc;
     bool open_ended = false;        // the lines arrive one by one, with push_line()
     LetterSet more_grbl_axes = {};  // axes that the Grbl dialect accepts in addition to X, Y and Z
-    std::string change_macro = {};  // the lines that M6 calls as the program change_macro_number; empty: none
+    std::vector<MachineProgram> machine_programs = {};
   };
   struct SubPlace {
     ReaderPosition at;      // the line with its O-word
@@ -107,6 +114,8 @@ class ProgramLines {
   PercentSigns& percent_signs() { return percent_signs_; }
   // Returns whether the rest of the main file, starting at `from`, lacks the '%' that closes the program.
   bool lacks_closing_percent(ReaderPosition from);
+  // Returns whether M2 or M30 is in any line of the main file. Only before the first line is read.
+  bool has_end();
   // Warns about moves after the current line.
   void report_moves_after_end();
 
@@ -122,7 +131,7 @@ class ProgramLines {
   bool label_of_skipped(const Control& control, Symbol& label) const;
   bool find_in(File& file, Symbol label);
   File* open_named(Symbol label);
-  File* open_change_macro(Symbol label);
+  File* find_machine_program(Symbol label);
   File* open_in(const std::string& folder, const std::string& name);
 
   Options options_;

@@ -1,6 +1,7 @@
 // ProgramState: the state set by the program so far. Its modal state has one code for each modal group.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -115,6 +116,10 @@ struct ProgramState {
   double units_of(Axis axis) const { return is_rotary(axis) ? 1 : length_unit(); }
   Point tool_position() const { return position + cutter_shift; }
   Point machine_position() const { return frame.machine_from_work(tool_position()); }
+  bool any_spindle_turns() const {
+    return std::ranges::any_of(spindles,
+                               [](const SpindleState& spindle) { return spindle.direction != SpindleDirection::off; });
+  }
 };
 
 }  // namespace passo

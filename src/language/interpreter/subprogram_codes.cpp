@@ -58,11 +58,11 @@ bool SubprogramCodes::program_words(SubprogramJump& found) {
          (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
 }
 
-void SubprogramCodes::call_change_macro(Span span) {
+void SubprogramCodes::call_machine_program(std::int32_t number, Span span) {
   SubprogramJump call;
   call.kind = Kind::macro;
   call.span = span;
-  call.program = change_macro_number;
+  call.program = number;
   jump_ = call;
 }
 

@@ -26,7 +26,7 @@ class SubprogramCodes : private CodeFamily {
   // Must be called after the block was executed. If the block moved, requests the macro of G66.
   void call_modal_macro();
   // Requests the program that changes tools. `span`: M6.
-  void call_change_macro(Span span);
+  void call_machine_program(std::int32_t number, Span span);
   // Returns the jump requested by the last block.
   std::optional<SubprogramJump> take_jump() { return std::exchange(jump_, std::nullopt); }
 

@@ -1,6 +1,8 @@
 #include "tool_change_cycle.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,7 +10,7 @@
 namespace passo {
 namespace {
 
-// How far the second touch goes below the first.
+// How far a slow touch goes below the one before.
 constexpr double beyond_contact = 1;  // mm
 
 }  // namespace
@@ -79,8 +81,14 @@ ToolChangeCycle::Stage ToolChangeCycle::after_check() const {
 }
 
 void ToolChangeCycle::go_on_after_macro() {
+  if (has_macro_fault()) {
+    rise();
+    reason_ = start_.macro_fault;
+    return give_up();
+  }
   emit(operation::ChangeTool{start_.to, true});
   rise();
+  if (start_.spindle_turns && plan_.run_down > Seconds(0)) emit(operation::Dwell{plan_.run_down});
   stage_ = plan_.measures && start_.to != 0 ? after_load() : Stage::go_back;
 }
 
@@ -132,7 +140,7 @@ void ToolChangeCycle::seek() {
   stage_ = Stage::latch;
 }
 
-// The first touch was fast. The second one, slowly, counts.
+// The first touch was fast. The slow ones count.
 void ToolChangeCycle::latch() {
   const double low = plan_.window_low;
   double contact = low;
@@ -156,22 +164,21 @@ void ToolChangeCycle::latch() {
     }
   }
   touched_ = contact;
-  go_to(with_z(contact + plan_.retract), plan_.seek);
-  probe_to(contact - beyond_contact, plan_.latch);
+  touches_.assign(1, contact);
+  touch_slowly();
+}
+
+void ToolChangeCycle::touch_slowly() {
+  go_to(with_z(touched_ + plan_.retract), plan_.seek);
+  probe_to(touched_ - beyond_contact, plan_.latch);
   stage_ = Stage::judge;
 }
 
 void ToolChangeCycle::judge() {
-  if (outcome_) {
-    if (outcome_->refused) return not_measured("the tool setter did not open again after the first touch: check it");
-    if (!outcome_->touched) {
-      return not_measured(
-          fmt::format("the tool touched at Z{:.3f}, but not a second time: tighten it, and check "
-                      "the tool setter",
-                      touched_));
-    }
-    touched_ = outcome_->contact[Axis::z];
-  }
+  if (!record_slow_touch()) return;
+  if (touches_.size() <= static_cast<std::size_t>(plan_.touches)) return touch_slowly();
+  if (!do_touches_agree()) return;
+  touched_ = std::accumulate(touches_.begin() + 1, touches_.end(), 0.0) / plan_.touches;
   rise();
   if (plan_.way == ToolChangeWay::plate) {
     say("remove the touch plate, then continue");
@@ -183,6 +190,34 @@ void ToolChangeCycle::judge() {
   is_measured_ = outcome_.has_value();
   if (is_measured_ && !known_.reference) known_.reference = touched_;
   stage_ = Stage::go_back;
+}
+
+bool ToolChangeCycle::record_slow_touch() {
+  if (outcome_) {
+    if (outcome_->refused) {
+      not_measured("the tool setter did not open again after the touch before: check it");
+      return false;
+    }
+    if (!outcome_->touched) {
+      not_measured(fmt::format("the tool touched at Z{:.3f}, but not a {} time: tighten it, and check the tool setter",
+                               touched_, touches_.size() == 1 ? "second" : "further"));
+      return false;
+    }
+    touched_ = outcome_->contact[Axis::z];
+  }
+  touches_.push_back(touched_);
+  return true;
+}
+
+// A tool that slips in its collet, chips on it, or a setter that sticks: the touches then differ.
+bool ToolChangeCycle::do_touches_agree() {
+  const auto [low, high] = std::ranges::minmax_element(touches_);
+  if (*high - *low <= plan_.agreement) return true;
+  not_measured(
+      fmt::format("{} touches differ by {:.3f} mm, more than {:g} mm: tighten the tool, clean its tip and the tool "
+                  "setter, and check that the setter is fixed",
+                  touches_.size(), *high - *low, plan_.agreement));
+  return false;
 }
 
 void ToolChangeCycle::judge_used() {
@@ -210,13 +245,7 @@ void ToolChangeCycle::report_used(std::string text) {
 void ToolChangeCycle::not_measured(std::string reason) {
   rise();
   reason_ = std::move(reason);
-  if (++tries_ == most_tries) {
-    // An error ends the path where it is found. So the error has to wait until the tool is up: for a probe move of no
-    // length.
-    probe(position_);
-    stage_ = Stage::give_up;
-    return;
-  }
+  if (++tries_ == most_tries) return give_up();
   if (!used_) {
     stage_ = Stage::ask;
     return;
@@ -224,6 +253,13 @@ void ToolChangeCycle::not_measured(std::string reason) {
   say(std::exchange(reason_, {}));
   emit(operation::ProgramStop{});
   stage_ = Stage::check_used;
+}
+
+// An error ends the path where it is found. So the error has to wait until the tool is up: for a probe move of no
+// length.
+void ToolChangeCycle::give_up() {
+  probe(position_);
+  stage_ = Stage::give_up;
 }
 
 // From the rack, tool n is in pocket n. Nobody knows what is in the spindle before the first change.

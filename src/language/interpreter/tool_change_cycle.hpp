@@ -1,5 +1,5 @@
 // ToolChangeCycle: the operations of one M6 on a machine that measures its tools (ToolChangePlan): Z up, the way to the
-// place of the change, the question to the operator, two touches of the tool setter, and the way back over the work.
+// place of the change, the question to the operator, touches of the tool setter, and the way back over the work.
 //
 // The cycle is pure: it knows the plan, where the tool is, and the outcome of its probe moves. After a probe move it
 // pauses until the outcome is known (awaits() and apply()). If a tool was not measured, the spindle stands, the tool is
@@ -10,6 +10,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cycle.hpp"
 #include "program_state.hpp"
@@ -27,6 +28,7 @@ class ToolChangeCycle final : public Cycle {
     Frame frame;
     MeasuredTools known;
     std::optional<Point> after_macro = {};  // set: the macro has changed the tool; the position before it
+    std::string macro_fault = {};           // of the macro, which ends the change with the tool up
     std::int32_t from = 0;                  // the tool in the spindle; 0: none
     std::int32_t to = 0;                    // 0: the spindle stays empty
     bool only_checks = false;               // at the end of the program: the tool is measured and stays
@@ -51,6 +53,7 @@ class ToolChangeCycle final : public Cycle {
   // After so many tries to measure, the cycle ends with gave_up().
   static constexpr int most_tries = 10;
   bool gave_up() const { return gave_up_; }
+  bool has_macro_fault() const { return !start_.macro_fault.empty(); }
   const std::string& reason() const { return reason_; }
 
  private:
@@ -80,10 +83,14 @@ class ToolChangeCycle final : public Cycle {
   void go_to_setter();
   void seek();
   void latch();
+  void touch_slowly();
   void judge();
+  bool record_slow_touch();
+  bool do_touches_agree();
   void judge_used();
   void report_used(std::string text);
   void not_measured(std::string reason);
+  void give_up();
   void unload();
   void put_away(std::int32_t tool);
   void load();
@@ -116,7 +123,8 @@ class ToolChangeCycle final : public Cycle {
   bool is_measured_ = false;
   bool gave_up_ = false;
   int tries_ = 0;
-  double touched_ = 0;  // machine Z of the last touch
+  std::vector<double> touches_;  // of this measurement: machine Z; the fast one is the first
+  double touched_ = 0;           // machine Z of the last touch, then their mean
   std::string reason_;
   std::deque<std::string> texts_;  // of messages that were not pulled yet
 };

@@ -1,5 +1,6 @@
 #include "tool_codes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "interpreter_sentences.hpp"
@@ -48,7 +49,7 @@ bool ToolCodes::change(CodeNumber number) {
     return fail("gcode.missing-tool", words_.span(tool_change), interpreter_says::no_tool_selected,
                 interpreter_says::tool_before);
   }
-  if (block_.options.tool_change != nullptr && !before_macro_) {  // inside the macro, M6 asks and waits
+  if (block_.options.tool_change != nullptr && !macro_) {  // inside the macro, M6 asks and waits
     if (!check_uncompensated("M6") || !check_alone()) return false;
     begin_cycle(state_.selected_tool, false);
     begun_ = true;
@@ -65,13 +66,14 @@ void ToolCodes::begin_cycle(std::int32_t to, bool only_checks) {
   ToolChangeCycle::Start start{.machine = state_.machine_position(),
                                .frame = state_.frame,
                                .known = state_.measured,
-                               .after_macro = before_macro_,
+                               .after_macro = macro_ ? std::optional(macro_->back) : std::nullopt,
+                               .macro_fault = macro_ ? macro_->fault : std::string(),
                                .from = state_.tool,
                                .to = to,
                                .only_checks = only_checks,
-                               .spindle_turns = state_.spindles[0].direction != SpindleDirection::off,
-                               .mist = state_.mist,
-                               .flood = state_.flood};
+                               .spindle_turns = macro_ ? macro_->spindle_turns : state_.any_spindle_turns(),
+                               .mist = macro_ ? macro_->mist : state_.mist,
+                               .flood = macro_ ? macro_->flood : state_.flood};
   const auto remark = state_.tools.remarks.find(to);
   if (remark != state_.tools.remarks.end()) start.remark = remark->second;
   next_tool_ = to;
@@ -94,7 +96,7 @@ bool ToolCodes::check_alone() {
 }
 
 bool ToolCodes::check_stop(CodeNumber number) {
-  if (!before_macro_ || (number != code(2) && number != code(30))) return true;
+  if (!macro_ || (number != code(2) && number != code(30))) return true;
   return fail("gcode.change-macro", words_.span(stopping), "the program would end in the middle of a tool change",
               "tool_change.macro without M2 and M30");
 }
@@ -112,18 +114,12 @@ bool ToolCodes::finish() {
   const ToolChangeCycle& done = *cycle_;
   if (done.calls_macro()) {
     state_.measured = done.known();
-    before_macro_ = done.back();
-    macro_depth_ = state_.call_depth;
+    begin_macro();
     return calls_macro_ = true;
   }
-  before_macro_.reset();
-  if (done.gave_up()) {
-    block_.ended = true;
-    return fail(
-        "gcode.tool-not-measured", words_.span(tool_change),
-        fmt::format("tool {} was not measured in {} tries: {}", next_tool_, ToolChangeCycle::most_tries, done.reason()),
-        "a tool setter that works, and a tool that reaches it");
-  }
+  const bool by_macro = macro_.has_value();
+  if (by_macro) end_macro();
+  if (done.gave_up()) return fail_change(by_macro);
   const double work_shift = state_.measured.work_shift;
   state_.measured = done.known();
   state_.measured.work_shift = work_shift;
@@ -137,6 +133,45 @@ bool ToolCodes::finish() {
     use_table_length();
   }
   return true;
+}
+
+// The cycle has switched the coolant off; the macro may use its outputs.
+void ToolCodes::begin_macro() {
+  MacroCall& call = macro_.emplace();
+  call.back = cycle_->back();
+  call.mist = std::exchange(state_.mist, false);
+  call.flood = std::exchange(state_.flood, false);
+  call.before = lines_.before();
+}
+
+void ToolCodes::end_macro() {
+  state_.mist = macro_->mist;
+  state_.flood = macro_->flood;
+  macro_.reset();
+}
+
+void ToolCodes::examine_after_macro() {
+  macro_->spindle_turns = state_.any_spindle_turns();
+  const std::string fault = lines_.put_back(macro_->before, next_tool_);
+  if (!fault.empty()) macro_->fault = "the macro of the tool change " + fault;
+}
+
+// Behind a macro, the block is its last one. Returns false.
+bool ToolCodes::fail_change(bool by_macro) {
+  const ToolChangeCycle& done = *cycle_;
+  block_.ended = true;
+  std::string_view code = "gcode.tool-not-measured";
+  std::string message =
+      fmt::format("tool {} was not measured in {} tries: {}", next_tool_, ToolChangeCycle::most_tries, done.reason());
+  std::string expected = "a tool setter that works, and a tool that reaches it";
+  if (done.has_macro_fault()) {
+    code = "gcode.change-macro";
+    message = done.reason();
+    expected = "tool_change.macro that leaves offsets and tool as the program expects them";
+  }
+  if (!by_macro) return fail(code, words_.span(tool_change), std::move(message), std::move(expected));
+  reporter_.error_at(code, block_.source.line, {}, {}, std::move(message), std::move(expected));
+  return false;
 }
 
 void ToolCodes::use_length(double contact) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "cycle_codes.hpp"
 #include "frame_codes.hpp"
+#include "machine_lines.hpp"
 #include "spindle_codes.hpp"
 #include "tool_change_cycle.hpp"
 
@@ -15,17 +17,25 @@ namespace passo {
 class ToolCodes final : public CycleCodes {
  public:
   ToolCodes(BlockContext& block, FrameCodes& frame, SpindleCodes& spindles)
-      : CycleCodes(block), frame_(frame), spindles_(spindles) {}
+      : CycleCodes(block), frame_(frame), spindles_(spindles), lines_(block, frame) {}
 
   bool select();
   bool change(CodeNumber code);
   // Whether an M6 has begun a cycle whose block has other words, which wait for its end.
   bool has_begun() const { return begun_; }
   bool take_begun() { return std::exchange(begun_, false); }
+  // As if the M6 had not been read.
+  void drop_change() {
+    begun_ = calls_macro_ = false;
+    macro_.reset();
+  }
   // Returns whether the tool is now to be changed by the lines of the machine file. Called once after each cycle.
   bool take_macro_call() { return std::exchange(calls_macro_, false); }
   // Whether the subroutine that was left was that of the change. `depth`: call depth of its caller.
-  bool changes_by_macro(int depth) const { return before_macro_ && depth == macro_depth_; }
+  bool changes_by_macro(int depth) const { return macro_ && depth == macro_->before.depth; }
+  // Finds what the macro has left that the program does not expect. Called before the modes are restored.
+  void examine_after_macro();
+  const ModalSnapshot& modes_before_macro() const { return macro_->before.modes; }
   // Begins the cycle that goes on behind it.
   void go_on_after_macro() { begin_cycle(next_tool_, false); }
   // Whether the code may stand where it is: the lines of a change cannot end the program.
@@ -43,6 +53,9 @@ class ToolCodes final : public CycleCodes {
   bool find_tool(std::int32_t number, Span span, const Tool*& tool);
   void load_tool(std::int32_t number);
   void begin_cycle(std::int32_t to, bool only_checks);
+  void begin_macro();
+  void end_macro();
+  bool fail_change(bool by_macro);
   bool check_alone();
   void use_length(double contact);
   void use_table_length();
@@ -59,8 +72,17 @@ class ToolCodes final : public CycleCodes {
   bool only_checks_ = false;
   bool begun_ = false;
   bool calls_macro_ = false;
-  std::optional<Point> before_macro_;  // the machine position before the change; set while the macro runs
-  int macro_depth_ = 0;                // call depth of its caller
+  // Set while the macro runs, and until its change is over.
+  struct MacroCall {
+    Point back;         // the machine position before the change
+    bool mist = false;  // that of the program; off while the macro runs
+    bool flood = false;
+    MachineLines::Before before;
+    bool spindle_turns = false;  // the macro has left it so
+    std::string fault = {};
+  };
+  std::optional<MacroCall> macro_;
+  MachineLines lines_;
 };
 
 }  // namespace passo

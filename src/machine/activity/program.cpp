@@ -32,7 +32,7 @@ void report_end(Diagnostics& diagnostics, const std::string& file, const PathIte
 
 }  // namespace
 
-// The program with the moves of M6.
+// The program with the moves of M6 and the hooks.
 struct ProgramChecker::Changes {
   Changes(ProgramReader program, const PathOptions& path, const InterpreterOptions& options)
       : interpreter(std::move(program), options, findings),
@@ -59,7 +59,7 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       path_options_(path_options(machine, program.name(), options.start)),
       limits_(motion_limits(machine)),
       tools_(options.tools),
-      again_(machine.tool_change != nullptr ? std::optional(program.again()) : std::nullopt),
+      again_(machine.tool_change != nullptr || !machine.hooks.empty() ? std::optional(program.again()) : std::nullopt),
       changing_(again_ ? on_machine(machine, options) : InterpreterOptions{}),
       interpreter_(std::move(program), options, diagnostics),
       track_(options.start),
@@ -99,7 +99,7 @@ bool ProgramChecker::pull_item() {
 }
 
 bool ProgramChecker::begins_changes() {
-  if (!again_ || !changes_tools_ || diagnostics_.any_error()) return false;
+  if (!again_ || !(changes_tools_ || !changing_.hooks.empty()) || diagnostics_.any_error()) return false;
   changes_ = std::make_unique<Changes>(std::move(*again_), path_options_, changing_);
   return true;
 }

@@ -33,6 +33,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
 
 InterpreterOptions on_machine(const MachineDescription& machine, InterpreterOptions options) {
   options.tool_change = machine.tool_change;
+  options.hooks = machine.hooks;
   return options;
 }
 

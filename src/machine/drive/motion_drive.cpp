@@ -35,7 +35,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       switching_({.order = outputs_, .feed = *feed_, .link = board_, .script = script_},
                  {.not_before = options.not_before,
                   .spindle_wait = options.spindle_wait,
-                  .spindle_run_up = options.spindle_run_up}),
+                  .spindle_run_up = options.spindle_run_up,
+                  .coolant_wait = options.coolant_wait}),
       holds_(pipeline_.planner()),
       waits_at_optional_(options.waits_at_optional) {
   pipeline_.path_items().watch([this](const PathItem& item) { watch(item); });

@@ -31,13 +31,17 @@ void OutputSequencer::switch_on(const OutputState& outputs, Seconds spindle_wait
     });
     await_feed();
   };
-  order(spindle);
-  if (spindle.spindle != SpindleDirection::off) {
-    const Seconds wait = std::max(spindle_wait, run_up_time({}, spindle, times_.spindle_run_up));
+  const auto rest = [this](Seconds wait) {
     parts_.script.then([this, wait] { pause(wait); });
     await_pause_end();
+  };
+  order(spindle);
+  if (spindle.spindle != SpindleDirection::off) {
+    rest(std::max(spindle_wait, run_up_time({}, spindle, times_.spindle_run_up)));
   }
-  if (spindle != outputs) order(outputs);
+  if (spindle == outputs) return;
+  order(outputs);
+  if (times_.coolant_wait > Seconds(0)) rest(times_.coolant_wait);
 }
 
 void OutputSequencer::let_go() {

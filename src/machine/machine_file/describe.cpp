@@ -179,8 +179,16 @@ std::string describe_tool_change(const ToolChangePlan& plan) {
     case LengthUse::reference: line += "lengths from the first tool"; break;
     case LengthUse::work: line += "the work's Z follows the tool"; break;
   }
+  if (plan.touches > 1) line += fmt::format("; mean of {} touches within {:g} mm", plan.touches, plan.agreement);
   if (plan.wear) line += fmt::format("; used tools within {:g} mm", *plan.wear);
   return line + "\n";
+}
+
+std::string describe_hooks(const ProgramHooks& hooks) {
+  if (hooks.empty()) return "";
+  const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
+  return fmt::format("hooks           lines of G-code in each job: {} at the start, {} at the end\n",
+                     lines(hooks.at_start), lines(hooks.at_end));
 }
 
 std::string describe_park(const ParkDescription& park) {
@@ -208,6 +216,7 @@ std::string describe(const MachineDescription& machine) {
   out += describe_pins(machine.pins);
   out += describe_homing(machine);
   if (machine.tool_change) out += describe_tool_change(*machine.tool_change);
+  out += describe_hooks(machine.hooks);
   out += describe_park(machine.park);
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) {
     out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor) +

@@ -10,6 +10,7 @@
 #include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
+#include "hooks_reader.hpp"
 #include "machine_file_sentences.hpp"
 #include "park_reader.hpp"
 #include "pins_reader.hpp"
@@ -66,6 +67,7 @@ class MachineReader {
   void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_park_of(const TomlEntry& entry);
+  void read_hooks_of(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -113,6 +115,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
+  const TomlEntry* hooks = top.table("hooks", "a table [hooks]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -127,6 +130,7 @@ MachineDescription MachineReader::read() {
   if (park != nullptr) read_park_of(*park);
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
+  if (hooks != nullptr) read_hooks_of(*hooks);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
@@ -203,6 +207,13 @@ void MachineReader::read_pins(const TomlEntry* inputs, const TomlEntry* outputs)
 void MachineReader::read_park_of(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "park", entry.place, reporter_);
   machine_.park = read_park(reader, machine_.axes);
+  finish(reader);
+}
+
+void MachineReader::read_hooks_of(const TomlEntry& entry) {
+  const TomlTable& table = std::get<TomlTable>(entry.value.content);
+  TableReader reader(table, "hooks", entry.place, reporter_);
+  machine_.hooks = read_hooks(reader, table);
   finish(reader);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "code_lines_reader.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,10 +23,13 @@ constexpr NumberKey window_key{"window_mm", -1e5, 1e5, "[-90, -40]"};
 constexpr NumberKey seek_key{"seek_mm_s", 1e-3, 1e5, "10"};
 constexpr NumberKey latch_key{"latch_mm_s", 1e-3, 1e5, "0.5"};
 constexpr NumberKey retract_key{"retract_mm", 0.01, 100, "2"};
+constexpr NumberKey touches_key{"touches", 1, 10, "3"};
+constexpr NumberKey agreement_key{"touches_within_mm", 0.001, 10, "0.05"};
 constexpr NumberKey nose_key{"nose_z_mm", -1e5, 1e5, "-130"};
 constexpr NumberKey run_down_key{"spindle_run_down_s", 0, 600, "5"};
 constexpr NumberKey wear_key{"wear_mm", 0.001, 100, "0.1"};
 
+constexpr NumberKey collet_wait_key{"collet_wait_s", 0, 60, "1"};
 constexpr NumberKey pockets_key{"pockets", 1, 1000, "6"};
 constexpr NumberKey first_key{"first_mm", -1e5, 1e5, "[20, 380]"};
 constexpr NumberKey step_key{"step_mm", -1e4, 1e4, "[40, 0]"};
@@ -116,6 +120,12 @@ std::shared_ptr<const ToolChangePlan> ToolChangeReader::read() {
     error(reader_, "rack", "[tool_change.rack] has no effect with this way", "way = \"rack\"");
   }
   reader_.know("macro");
+  const auto collet_wait = reader_.number(collet_wait_key, Need::optional);
+  plan_.macro_collet_wait = collet_wait ? Seconds(*collet_wait) : plan_.macro_collet_wait;
+  if (collet_wait && plan_.way != ToolChangeWay::macro) {
+    error(reader_, collet_wait_key.name, "tool_change.collet_wait_s has no effect with this way",
+          "way = \"macro\"; a rack has wait_s");
+  }
   if (plan_.way == ToolChangeWay::macro) {
     read_macro();
   } else if (macro_ != nullptr) {
@@ -142,6 +152,10 @@ void ToolChangeReader::read_measuring(bool needs_place) {
     plan_.latch = MmPerSecond(*speed);
     check_speed(latch_key, plan_.latch, plan_.seek, "at most the seek speed");
   }
+  if (const auto touches = reader_.whole_number(touches_key, Need::optional)) {
+    plan_.touches = static_cast<std::int32_t>(*touches);
+  }
+  plan_.agreement = reader_.number(agreement_key, Need::optional).value_or(plan_.agreement);
   plan_.use = static_cast<LengthUse>(word_of(reader_, "lengths", {"reference", "absolute", "work"}, Need::optional));
   const auto nose = reader_.number(nose_key, plan_.use == LengthUse::absolute ? Need::required : Need::optional);
   if (nose && plan_.use != LengthUse::absolute) {
@@ -182,24 +196,11 @@ void ToolChangeReader::read_window() {
 }
 
 void ToolChangeReader::read_macro() {
-  constexpr std::size_t most_lines = 200;
-  constexpr std::size_t longest = 255;
-  const std::string expected = "a list of lines of G-code, e.g. macro = [\"G53 G0 X0 Y0\", \"G53 G1 Z-50 F500\"]";
-  if (macro_ == nullptr) return reader_.missing("macro", expected);
-  const auto* const lines = std::get_if<TomlArray>(&macro_->content);
-  if (lines == nullptr || lines->empty() || lines->size() > most_lines) {
-    return error(reader_, "macro", fmt::format("tool_change.macro is not a list of 1 to {} lines", most_lines),
-                 expected);
+  if (macro_ == nullptr) {
+    return reader_.missing("macro", "a list of lines of G-code, e.g. macro = [\"G53 G0 X0 Y0\", \"G53 G1 Z-50 F500\"]");
   }
-  for (const TomlValue& value : *lines) {
-    const auto* const line = std::get_if<std::string>(&value.content);
-    const bool good = line != nullptr && line->size() <= longest && line->find_first_of("\r\n") == std::string::npos;
-    if (!good) {
-      return error(reader_, "macro", fmt::format("tool_change.macro has {} in its list", kind_of(value)),
-                   fmt::format("lines of at most {} characters", longest));
-    }
-    plan_.macro += *line + "\n";
-  }
+  plan_.macro = read_code_lines(reader_, change_code, "macro", *macro_);
+  good_ = good_ && !plan_.macro.empty();
 }
 
 std::optional<MachineXy> ToolChangeReader::place(TableReader& reader, const NumberKey& key, Need need) {

@@ -344,6 +344,7 @@ MachineStatus BoardMachineSession::status() const {
   status.committed = drive.committed();
   status.outputs = drive.outputs();
   status.executes = work_->ahead.line_at(clock_of(*work_));
+  if (work_->program != nullptr) status.measured_tool = work_->program->measured_tool();
   if (const auto& wait = drive.waits_for()) {
     status.waits_for = OperatorWait{.kind = wait->kind,
                                     .tool = wait->tool,

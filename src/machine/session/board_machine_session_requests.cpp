@@ -9,6 +9,7 @@
 #include "passo/activity/jog_line.hpp"
 #include "passo/activity/probe_line.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/session/request_checks.hpp"
 
 namespace passo {
@@ -94,6 +95,7 @@ DriveOptions BoardMachineSession::drive_options() const {
                        .spindle_wait = machine_.silence.spindle_wait,
                        .spindle_run_up = machine_.spindle.run_up,
                        .waits_at_optional = stops_.optional_stop};
+  if (machine_.tool_change) options.coolant_wait = collet_wait(*machine_.tool_change);
   if (options_.over_a_line) options.tails.emplace();
   return options;
 }

@@ -11,6 +11,7 @@ export const run = {
   'run.trust.counted': 'Step count verified, not homed',
   'run.trust.homed': 'Homed',
   'run.speed': 'Speed',
+  'run.tool': 'Length of tool {tool}',
   'run.progress': 'Progress',
   'run.left': 'Time left',
   'run.end': 'Finishes at',

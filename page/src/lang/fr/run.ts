@@ -14,6 +14,7 @@ export const run: Same<typeof en> = {
   'run.trust.counted': 'Comptage vérifié, sans origine',
   'run.trust.homed': 'Origine prise',
   'run.speed': 'Vitesse',
+  'run.tool': 'Longueur de l’outil {tool}',
   'run.progress': 'Progression',
   'run.left': 'Temps restant',
   'run.end': 'Fin à',

@@ -14,6 +14,7 @@ export const run: Same<typeof en> = {
   'run.trust.counted': 'Passi verificati, senza homing',
   'run.trust.homed': 'Homing eseguito',
   'run.speed': 'Velocità',
+  'run.tool': 'Lunghezza dell’utensile {tool}',
   'run.progress': 'Completato',
   'run.left': 'Tempo residuo',
   'run.end': 'Fine alle',

@@ -14,6 +14,7 @@ export const run: Same<typeof en> = {
   'run.trust.counted': '步数已核对，未回零',
   'run.trust.homed': '已回零',
   'run.speed': '速度',
+  'run.tool': '刀具 {tool} 长度',
   'run.progress': '进度',
   'run.left': '剩余时间',
   'run.end': '预计结束',

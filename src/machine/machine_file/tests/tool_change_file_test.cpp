@@ -52,7 +52,7 @@ TEST(ToolChangeFile, is_read) {
   const auto machine =
       with_change(by_hand +
                       "lengths = \"absolute\"\nnose_z_mm = -79\nwear_mm = 0.1\nfirst_tool = \"trusted\"\n"
-                      "spindle_run_down_s = 4\nretract_mm = 3\n",
+                      "spindle_run_down_s = 4\nretract_mm = 3\ntouches = 4\ntouches_within_mm = 0.02\n",
                   diagnostics);
   ASSERT_TRUE(machine) << render(diagnostics, false);
   const ToolChangePlan& plan = *machine->tool_change;
@@ -65,14 +65,16 @@ TEST(ToolChangeFile, is_read) {
   EXPECT_EQ(plan.seek, MmPerSecond(10));
   EXPECT_EQ(plan.latch, MmPerSecond(0.5));
   EXPECT_EQ(plan.retract, 3);
+  EXPECT_EQ(plan.touches, 4);
+  EXPECT_EQ(plan.agreement, 0.02);
   EXPECT_EQ(plan.use, LengthUse::absolute);
   EXPECT_EQ(plan.setter_z, -79);
   EXPECT_EQ(plan.wear, 0.1);
   EXPECT_EQ(plan.first, FirstTool::trusted);
   EXPECT_EQ(plan.run_down, Seconds(4));
   EXPECT_THAT(describe(*machine), testing::HasSubstr("tool change     by hand, tool setter at X-140 Y-90, touching at "
-                                                     "Z-70 to Z-20, across at Z-2; lengths from the nose, Z-79; used "
-                                                     "tools within 0.1 mm\n"));
+                                                     "Z-70 to Z-20, across at Z-2; lengths from the nose, Z-79; mean "
+                                                     "of 4 touches within 0.02 mm; used tools within 0.1 mm\n"));
 }
 
 TEST(ToolChangeFile, is_read_with_a_rack) {
@@ -87,6 +89,7 @@ TEST(ToolChangeFile, is_read_with_a_rack) {
   EXPECT_EQ(read.z, -60);
   EXPECT_EQ(read.opens, ColletOutput::flood);
   EXPECT_EQ(read.wait, Seconds(1));
+  EXPECT_EQ(collet_wait(*machine->tool_change), Seconds(1));
 }
 
 TEST(ToolChangeFile, is_read_with_lines_of_a_changer) {
@@ -95,6 +98,7 @@ TEST(ToolChangeFile, is_read_with_lines_of_a_changer) {
       with_change(replaced(by_hand, "\"setter\"", "\"macro\"") + "macro = [\"G53 G0 X1\", \"(#5400)\"]\n", diagnostics);
   ASSERT_TRUE(machine) << render(diagnostics, false);
   EXPECT_EQ(machine->tool_change->macro, "G53 G0 X1\n(#5400)\n");
+  EXPECT_EQ(collet_wait(*machine->tool_change), Seconds(1));
 }
 
 TEST(ToolChangeFile, tells_what_is_wrong) {
@@ -116,6 +120,9 @@ TEST(ToolChangeFile, tells_what_is_wrong) {
   EXPECT_THAT(changed("measure_at_mm = [-140, -90]", ""), HasSubstr("[tool_change] lacks measure_at_mm"));
   EXPECT_THAT(message(by_hand + "lengths = \"absolute\"\n"), HasSubstr("lacks nose_z_mm"));
   EXPECT_THAT(message(by_hand + "nose_z_mm = -79\n"), HasSubstr("has no effect with these lengths"));
+  EXPECT_THAT(message(by_hand + "touches = 0\n"), HasSubstr("touches"));
+  EXPECT_THAT(message(by_hand + "touches = 2.5\n"), HasSubstr("touches"));
+  EXPECT_THAT(message(by_hand + "touches_within_mm = 0\n"), HasSubstr("touches_within_mm"));
   EXPECT_THAT(message(by_hand + "first_tool = \"trusted\"\n"), HasSubstr("the first tool has to be measured"));
   EXPECT_THAT(message(by_hand + "measures = false\n"), HasSubstr("M6 then only waits"));
   EXPECT_THAT(message(by_hand + rack), HasSubstr("way = \"rack\""));
@@ -130,6 +137,7 @@ TEST(ToolChangeFile, tells_what_is_wrong) {
   EXPECT_THAT(message(by_hand + "macro = [\"G0 X1\"]\n"), HasSubstr("way = \"macro\""));
   const std::string macro = replaced(by_hand, "\"setter\"", "\"macro\"");
   EXPECT_THAT(message(macro), HasSubstr("lacks macro"));
+  EXPECT_THAT(message(by_hand + "collet_wait_s = 1\n"), HasSubstr("collet_wait_s has no effect with this way"));
   EXPECT_THAT(message(macro + "macro = []\n"), HasSubstr("not a list of 1 to 200 lines"));
   EXPECT_THAT(message(macro + "macro = [1]\n"), HasSubstr("has the number 1 in its list"));
   EXPECT_THAT(message(by_hand + "speed = 1\n"), HasSubstr("[machine.unknown-key]"));

@@ -124,6 +124,7 @@ class GrblProgramPath final : public Source<PathItem> {
   OperatorMessages& operator_messages() { return messages_; }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
   const ToolTable& tools() const { return interpreter_.tools(); }
+  std::optional<ToolMeasurement> measured_tool() const { return interpreter_.measured_tool(); }
 
  private:
   StoredResults results_{StoredResults::Answers{}};

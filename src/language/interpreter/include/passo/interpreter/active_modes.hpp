@@ -25,4 +25,12 @@ struct ActiveModes {
   Point position;  // the programmed position, machine coordinates
 };
 
+// A tool in the spindle that M6 has measured. The length is its offset: from the spindle's nose, or the difference to
+// the first tool.
+struct ToolMeasurement {
+  std::int32_t number = 0;
+  double length = 0;  // mm
+  friend bool operator==(const ToolMeasurement&, const ToolMeasurement&) = default;
+};
+
 }  // namespace passo

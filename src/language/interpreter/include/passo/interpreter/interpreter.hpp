@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "passo/interpreter/machine_results.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/interpreter/parameter_file.hpp"
+#include "passo/interpreter/program_hooks.hpp"
 #include "passo/interpreter/settings_file.hpp"
 #include "passo/interpreter/tool_table.hpp"
 
@@ -62,6 +64,7 @@ struct InterpreterOptions {
   bool open_ended = false;
   // What M6 does. Null: it waits for the operator.
   std::shared_ptr<const ToolChangePlan> tool_change;
+  ProgramHooks hooks;  // only for a program with M2 or M30
   // Letters of further axes that the Grbl dialect accepts in addition to X, Y and Z, e.g. "AC".
   std::string more_grbl_axes;
 };
@@ -94,6 +97,8 @@ class Interpreter final : public Source<Operation> {
   void stand_at(const Point& machine);
   // Returns the modes and offsets after the lines read so far.
   ActiveModes modes() const;
+  // Empty: the tool in the spindle was not measured by M6, or there is none.
+  std::optional<ToolMeasurement> measured_tool() const;
 
   // Returns the parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
   SavedParameters saved_parameters() const;

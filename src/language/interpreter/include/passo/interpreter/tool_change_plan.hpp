@@ -61,7 +61,9 @@ struct ToolChangePlan {
   double window_high = 0;
   MmPerSecond seek{0};
   MmPerSecond latch{0};
-  double retract = 0;  // between the two touches
+  double retract = 0;        // between the touches
+  std::int32_t touches = 1;  // slow ones; their mean counts
+  double agreement = 0.1;    // the largest difference between all touches of a measurement, the fast one included
   LengthUse use = LengthUse::reference;
   double setter_z = 0;  // for absolute lengths
   FirstTool first = FirstTool::change;
@@ -70,6 +72,17 @@ struct ToolChangePlan {
   bool measures = true;        // false: only with a macro or a rack that needs no measuring
   ToolRack rack;
   std::string macro;  // lines, each with its end; without "O" and M99
+  Seconds macro_collet_wait{1};
 };
+
+// From an output of the coolant to motion, if the output was switched off in the middle of a change, because it may
+// open the collet: a door, a lost connection, a new host.
+inline Seconds collet_wait(const ToolChangePlan& plan) {
+  switch (plan.way) {
+    case ToolChangeWay::rack: return plan.rack.wait;
+    case ToolChangeWay::macro: return plan.macro_collet_wait;
+    default: return Seconds(0);
+  }
+}
 
 }  // namespace passo

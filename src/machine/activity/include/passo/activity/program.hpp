@@ -44,7 +44,7 @@ struct ProgramCheck {
 // only a probe result can end is cut off.
 //
 // The observers, and the time, know M6 as a stop. On a machine whose M6 moves ([tool_change]), a program without errors
-// is then checked once more with these moves, for errors alone.
+// is then checked once more with these moves, for errors alone. So are the hooks of the machine file.
 class ProgramChecker {
  public:
   // `diagnostics` must outlive the checker.
@@ -116,6 +116,7 @@ class Program final : public Activity {
   const Frame& frame() const { return stages_.path_builder().frame(); }
   SavedParameters saved_parameters() const { return stages_.interpreter().saved_parameters(); }
   const ToolTable& tools() const { return stages_.interpreter().tools(); }
+  std::optional<ToolMeasurement> measured_tool() const { return stages_.interpreter().measured_tool(); }
   OperatorMessages& operator_messages() { return operator_messages_; }
   // The nominal time of the path planned so far.
   Seconds nominal_time() const { return nominal_time_; }

@@ -23,6 +23,7 @@ struct DriveOptions {
   Seconds not_before{0};            // no motion before this time on the board's side
   Seconds spindle_wait{0};          // before motion continues, after the board had switched its outputs off
   Seconds spindle_run_up{0};        // from standstill to 1000 rpm; the wait is at least as long as the run-up
+  Seconds coolant_wait{0};          // from the coolant's outputs to motion, where these were off; see collet_wait()
   int counts_per_turn = 0;          // counts per revolution of the spindle's encoder; 0: nothing follows the spindle
   bool guards_by_probe = false;     // a probe contact outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)

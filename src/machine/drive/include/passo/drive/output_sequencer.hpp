@@ -1,5 +1,6 @@
 // OutputSequencer: switches outputs while the machine is stopped, one after the other: first the spindle, then a wait
-// for its run-up, then the coolant. The steps are added to the drive's script.
+// for its run-up, then the coolant, whose output may open the collet of a tool changer. The steps are added to the
+// drive's script.
 #pragma once
 
 #include "passo/drive/commanded_outputs.hpp"
@@ -21,6 +22,7 @@ class OutputSequencer {
     Seconds not_before{0};      // the first pause ends at this time on the board's side
     Seconds spindle_wait{0};    // after the board had switched its outputs off
     Seconds spindle_run_up{0};  // from standstill to 1000 rpm; the wait is at least as long as the run-up
+    Seconds coolant_wait{0};    // before motion continues, after the coolant
   };
   // All parts must outlive this object.
   OutputSequencer(const Parts& parts, const Times& times)

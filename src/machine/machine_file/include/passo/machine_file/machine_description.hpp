@@ -19,6 +19,7 @@
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/geometry/axes.hpp"
+#include "passo/interpreter/program_hooks.hpp"
 #include "passo/machine_file/axis_motor.hpp"
 #include "passo/motor/excitation.hpp"
 #include "passo/units/units.hpp"
@@ -207,6 +208,7 @@ struct MachineDescription {
   std::vector<Axis> homing = {};       // the axes that are homed, in the order of homing
   std::vector<int> homing_turns = {};  // group of each of them: axes with the same number seek their switches together
   std::shared_ptr<const ToolChangePlan> tool_change = {};  // what M6 does; null: it waits for the operator
+  ProgramHooks hooks = {};
 
   bool has_rotary_axis() const {
     return std::ranges::any_of(axes, [](const AxisDescription& axis) { return is_rotary(axis.axis); });

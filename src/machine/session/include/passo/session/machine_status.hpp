@@ -9,6 +9,7 @@
 #include "passo/activity/homing_path.hpp"
 #include "passo/base/sentence.hpp"
 #include "passo/drive/holds.hpp"
+#include "passo/interpreter/active_modes.hpp"
 #include "passo/link/link.hpp"
 #include "passo/session/known_position.hpp"
 #include "passo/session/machine_state.hpp"
@@ -76,7 +77,8 @@ struct MachineStatus {
   Overrides overrides;
   ChosenStops stops;
   std::optional<OperatorWait> waits_for;
-  std::optional<HomingStage> homing;  // the stage of homing; the next member is its axis
+  std::optional<ToolMeasurement> measured_tool;  // in a program: by its last M6, if that measures
+  std::optional<HomingStage> homing;             // the stage of homing; the next member is its axis
   std::optional<Axis> homing_axis;
   std::optional<LinkError> trouble;  // the error of an alarm or a fault
   Sentence trouble_sentence;
