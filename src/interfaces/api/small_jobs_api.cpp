@@ -35,7 +35,11 @@ Json as_json(const Macro& macro) {
                       {"whole", one.is_whole},
                       {"default", one.usual ? Json(*one.usual) : Json()}});
   }
-  return {{"name", macro.name}, {"title", macro.title}, {"key", macro.key}, {"values", std::move(values)}};
+  return {{"name", macro.name},
+          {"title", macro.title},
+          {"key", macro.key},
+          {"input", macro.input},
+          {"values", std::move(values)}};
 }
 
 // Empty: the body has something other than numbers.
@@ -123,7 +127,8 @@ const MacroFolder& SmallJobsApi::macros() {
 WebAnswer SmallJobsApi::list_macros(const ApiCall&) {
   Json list = Json::array();
   for (const Macro& one : macros().macros) list.push_back(as_json(one));
-  return json_answer(200, {{"macros", std::move(list)}, {"findings", as_json(macros_.findings)}});
+  const Json refused = refused_macro_.empty() ? Json() : Json({{"name", refused_macro_}, {"error", refusal_}});
+  return json_answer(200, {{"macros", std::move(list)}, {"findings", as_json(macros_.findings)}, {"refused", refused}});
 }
 
 WebAnswer SmallJobsApi::run_macro(const ApiCall& call) {
@@ -138,9 +143,42 @@ WebAnswer SmallJobsApi::run_macro(const ApiCall& call) {
   const auto& all = macros().macros;
   const auto macro = std::ranges::find(all, *name, &Macro::name);
   if (macro == all.end()) return error_answer(404, "macro.none", "there is no macro of this name");
-  auto text = macro_program(*macro, *values);
+  return run(*macro, *values);
+}
+
+WebAnswer SmallJobsApi::run(const Macro& macro, const MacroValues& values) {
+  auto text = macro_program(macro, values);
   if (!text) return error_answer(409, text.error().code, text.error());
-  return run("macro " + macro->name, std::move(*text));
+  return run("macro " + macro.name, std::move(*text));
+}
+
+// A button has a meaning of its own in a hold, and while a job waits for the operator. An alarm of a drive is no
+// button.
+void SmallJobsApi::poll() {
+  const Seconds now = shared_.session.now();
+  if (shared_.options.macro_folder.empty() || now - looked_at_ < between_looks) return;
+  looked_at_ = now;
+  const MachineStatus status = shared_.session.status();
+  if (status.state == MachineState::offline || status.state == MachineState::fault) return buttons_.forget();
+  const std::uint16_t pressed = buttons_.update(status.inputs, now);
+  if (pressed == 0 || status.state != MachineState::idle || jobs_.is_checking() || jobs_.parked()) return;
+  const auto is_alarm = [&](int input) {
+    return std::ranges::any_of(shared_.machine.axes,
+                               [&](const AxisDescription& axis) { return axis.alarm_input == input; });
+  };
+  if ((pressed & input_start) != 0 && !is_alarm(alarm_at_cycle_start)) return start_macro_of("cycle_start");
+  if ((pressed & input_hold) != 0 && !is_alarm(alarm_at_feed_hold)) start_macro_of("feed_hold");
+}
+
+void SmallJobsApi::start_macro_of(std::string_view input) {
+  const auto& all = macros().macros;
+  const auto macro = std::ranges::find(all, input, &Macro::input);
+  if (macro == all.end()) return;
+  auto refused = refuse();
+  const WebAnswer answer = refused ? std::move(*refused) : run(*macro, {});
+  const bool is_started = answer.status == 202;
+  refused_macro_ = is_started ? std::string() : macro->name;
+  refusal_ = is_started ? Json() : Json::parse(answer.body, nullptr, false).value("error", Json());
 }
 
 WebAnswer SmallJobsApi::run(std::string name, std::string text) {

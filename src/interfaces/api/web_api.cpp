@@ -207,6 +207,7 @@ void WebApi::poll() {
   parts_->times.poll();
   parts_->machine_api.poll();
   parts_->jobs.poll();
+  parts_->small_jobs_api.poll();
   if (!parts_->shared.session.busy()) parts_->keep_all();
 }
 

@@ -21,6 +21,7 @@ constexpr std::string_view first_key = "title";
 constexpr std::string_view value_table = "value";
 constexpr std::size_t longest_title = 100;
 constexpr std::array<std::string_view, 7> units{"", "mm", "mm/min", "deg", "rpm", "s", "%"};
+constexpr std::array<std::string_view, 2> inputs{"cycle_start", "feed_hold"};
 constexpr int function_keys = 12;
 
 constexpr SentenceRow missing_value{"macro.missing-value", "{title}: a value from {low} to {high} is needed"};
@@ -71,6 +72,11 @@ class MacroReader {
     macro.key = top.text("key", "F6", Need::optional).value_or("");
     if (!macro.key.empty() && !is_key(macro.key)) {
       top.error("macro.key", "key", fmt::format("key = \"{}\"", macro.key.substr(0, 40)), "\"F1\" to \"F12\"");
+    }
+    macro.input = top.text("input", "cycle_start", Need::optional).value_or("");
+    if (!macro.input.empty() && std::ranges::find(inputs, macro.input) == inputs.end()) {
+      top.error("macro.input", "input", fmt::format("input = \"{}\"", macro.input.substr(0, 40)),
+                fmt::format("\"{}\"", fmt::join(inputs, "\" or \"")));
     }
     if (const TomlEntry* const values = top.table(value_table, "a table [value.NAME] for each value", Need::optional)) {
       read_values(*values, macro);

@@ -6,6 +6,7 @@
 #include "../job_log.hpp"
 #include "../json_members.hpp"
 #include "../kept_offsets.hpp"
+#include "../pressed_buttons.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -35,6 +36,33 @@ TEST(Findings, carry_the_sentences_of_their_texts) {
   EXPECT_EQ(json["message_sentence"]["arguments"], Json({{"key", "X"}, {"value", "0"}}));
   EXPECT_EQ(json["expected"], "a plain text");
   EXPECT_EQ(json["expected_sentence"]["code"], "");
+}
+
+// The times at which button 3 is pressed, in milliseconds. `closed`: when it is closed.
+std::string presses(PressedButtons& buttons, const std::vector<std::pair<int, int>>& closed, int from, int to) {
+  std::string all;
+  for (int time = from; time < to; time += 5) {
+    std::uint16_t inputs = 0x10;  // another one is closed
+    for (const auto& [begin, end] : closed) inputs |= time >= begin && time < end ? 8 : 0;
+    const std::uint16_t pressed = buttons.update(inputs, Seconds(time * 1e-3));
+    EXPECT_EQ(pressed & ~8, 0);
+    if (pressed != 0) all += std::to_string(time) + " ";
+  }
+  return all;
+}
+
+TEST(PressedButtons, count_once_however_they_bounce) {
+  PressedButtons buttons;
+  EXPECT_EQ(presses(buttons, {{2000, 2010}, {2020, 2300}, {2310, 2320}, {2400, 2500}}, 0, 3000), "2000 2400 ");
+}
+
+TEST(PressedButtons, do_not_count_if_they_are_held_at_the_beginning) {
+  PressedButtons held;
+  EXPECT_EQ(presses(held, {{0, 2000}, {2500, 2600}}, 0, 3000), "2500 ");
+  PressedButtons late;
+  EXPECT_EQ(presses(late, {{200, 2000}, {2500, 2600}}, 0, 3000), "2500 ") << "the board reports it late";
+  late.forget();
+  EXPECT_EQ(presses(late, {{3000, 5000}}, 3000, 6000), "");
 }
 
 TEST(JsonMembers, are_read_and_nothing_else_is_there) {

@@ -85,6 +85,8 @@ TEST(Macro, tells_what_is_wrong_with_its_head) {
   EXPECT_EQ(codes_of("; title = \"a\"\nG0 X1\n"), "");
   EXPECT_EQ(codes_of("; title = 5\n"), "macro.wrong-type ");
   EXPECT_EQ(codes_of("; title = \"a\"\n; key = \"Enter\"\n"), "macro.key ");
+  EXPECT_EQ(codes_of("; title = \"a\"\n; input = \"cycle_start\"\n"), "");
+  EXPECT_EQ(codes_of("; title = \"a\"\n; input = \"limit 3\"\n"), "macro.input ");
   EXPECT_EQ(codes_of("; title = \"a\"\n; colour = 1\n"), "macro.unknown-key ");
   EXPECT_EQ(codes_of("; title = \"a\"\n; [value.A]\n; least = 0\n; most = 1\n"), "macro.value-name ");
   EXPECT_EQ(codes_of("; title = \"a\"\n; [value.a]\n; least = 0\n"), "macro.missing-key ");

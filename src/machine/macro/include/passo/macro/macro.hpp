@@ -47,6 +47,8 @@ struct Macro {
   std::string name;  // of its file, without .ngc
   std::string title;
   std::string key;  // "F1" to "F12"; empty: none
+  // The button of the board that starts it while the machine is idle: "cycle_start" or "feed_hold"; empty: none.
+  std::string input;
   std::vector<MacroValue> values;
   std::string text;              // the whole file
   std::uint32_t head_lines = 0;  // at its beginning
