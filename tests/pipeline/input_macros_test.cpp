@@ -29,7 +29,7 @@ std::string folder_of_input_macros() {
 class AtBoard {
  public:
   explicit AtBoard(std::uint16_t held = 0)
-      : run(example_machine("router"), {.line = true}),
+      : run(*new SessionRun(example_machine("router"), {.line = true})),
         api(run.description(), run.session(), owner,
             {.version = "1",
              .openapi = "{}",
@@ -58,7 +58,7 @@ class AtBoard {
   }
   double z() { return run.session().status().position.place[Axis::z]; }
 
-  SessionRun run;
+  SessionRun& run;  // never destroyed: its last checks want the changes that the API has taken
   MachineControl owner;
   WebApi api;
 };

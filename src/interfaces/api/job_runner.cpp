@@ -63,7 +63,8 @@ std::string_view name_of(JobState state) {
 
 JobRunner::JobRunner(const ApiShared& shared, MdiLines& mdi) : shared_(shared), mdi_(mdi) {
   const ApiOptions& options = shared.options;
-  if (options.workshop.records != nullptr) cuts_ = std::make_unique<CutRecorder>(*options.workshop.records, "passo serve");
+  if (options.workshop.records != nullptr)
+    cuts_ = std::make_unique<CutRecorder>(*options.workshop.records, "passo serve");
   BoardMachineSession* const own = shared.session.as_board_session();
   if (own == nullptr || options.keeper == nullptr || options.history == nullptr) return;
   kept_ = std::make_unique<KeptJob>(

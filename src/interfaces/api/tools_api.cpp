@@ -39,7 +39,8 @@ Json ToolsApi::tools() const {
   }
   Json all = Json::array();
   for (const std::int32_t number : numbers) {
-    const CuttingTool* const tool = options.workshop.library != nullptr ? options.workshop.library->find(number) : nullptr;
+    const CuttingTool* const tool =
+        options.workshop.library != nullptr ? options.workshop.library->find(number) : nullptr;
     const Tool* const entry = has_table ? table.find(number) : nullptr;
     const ToolRecord record = records.contains(number) ? records.at(number) : ToolRecord();
     const auto remark = table.remarks.find(number);
