@@ -269,27 +269,28 @@ TEST_F(Tools, of_a_library_engrave_drill_and_carve) {
   }
 }
 
-const std::string examples = checkout + "/examples/tools/";
+const std::string tool_files = checkout + "/examples/tools/";
 
 TEST_F(Tools, of_other_programs_are_imported_with_a_list_of_what_was_not) {
   const std::string made = path("made.toml");
-  const json fusion = json_of("tools import " + examples + "fusion-export.json --json -o " + made);
+  const json fusion = json_of("tools import " + tool_files + "fusion-export.json --json -o " + made);
   EXPECT_EQ(fusion["format"], "fusion");
   EXPECT_EQ(fusion["tools"].size(), 5U);
   EXPECT_EQ(fusion["left_out"][0]["place"], "/data/5");
   EXPECT_EQ(json_of("tools list --json " + made)["tools"][1]["diameter_mm"], 3.175);
-  const Outcome twice = passo("tools import " + examples + "fusion-export.json -o " + made);
+  const Outcome twice = passo("tools import " + tool_files + "fusion-export.json -o " + made);
   EXPECT_EQ(twice.code, 2);
   EXPECT_THAT(twice.err, HasSubstr("[tools.exists]"));
-  const Outcome library = passo("tools import --force " + examples + "freecad/Library/Router.fctl -o " + made);
+  const Outcome library = passo("tools import --force " + tool_files + "freecad/Library/Router.fctl -o " + made);
   EXPECT_EQ(library.code, 0) << library.err;
   EXPECT_THAT(library.out, HasSubstr("2 tools of "));
   EXPECT_THAT(library.out, HasSubstr("missing.fctb is missing next to the library"));
-  const Outcome shapeless = passo("tools import " + examples + "linuxcnc.tbl --units mm -o " + path("none.toml"));
+  const Outcome shapeless = passo("tools import " + tool_files + "linuxcnc.tbl --units mm -o " + path("none.toml"));
   EXPECT_EQ(shapeless.code, 2);
   EXPECT_THAT(shapeless.err, HasSubstr("[tool-import.none]"));
   EXPECT_FALSE(std::filesystem::exists(path("none.toml")));
-  EXPECT_EQ(passo("tools import " + examples + "linuxcnc.tbl --units mm --shape flat -o " + path("mill.toml")).code, 0);
+  EXPECT_EQ(passo("tools import " + tool_files + "linuxcnc.tbl --units mm --shape flat -o " + path("mill.toml")).code,
+            0);
 }
 
 TEST_F(Tools, are_exported_to_linuxcnc_and_json_and_read_again) {

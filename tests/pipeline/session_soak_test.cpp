@@ -24,9 +24,9 @@
 namespace passo::test {
 namespace {
 
-constexpr std::array names = {"start", "stream",       "drop lines", "jog",   "renew",    "home",   "probe",
-                              "check", "hold",         "resume",     "stop",  "override", "switch", "stops",
-                              "done",  "set position", "reset",      "sleep", "wake"};
+constexpr std::array names = {"start", "stream",     "drop lines",   "jog",    "renew", "home",     "probe",
+                              "check", "board file", "hold",         "resume", "stop",  "override", "switch",
+                              "stops", "done",       "set position", "reset",  "sleep", "wake"};
 static_assert(names.size() == std::variant_size_v<Request>);
 
 constexpr LinkTimeouts care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
@@ -97,6 +97,7 @@ class SessionSoak : public testing::Test {
       bool operator()(const request::Home&) const { return lacks(MachineEvent::begin_home); }
       bool operator()(const request::Probe&) const { return lacks(MachineEvent::begin_probe); }
       bool operator()(const request::Check&) const { return lacks(MachineEvent::begin_check); }
+      bool operator()(const request::RunBoardFile&) const { return true; }  // the board stores no files
       bool operator()(const request::Hold&) const { return !busy || status.state == MachineState::check; }
       bool operator()(const request::Resume&) const {
         return !runs || status.holds.has(HoldReason::stop) ||

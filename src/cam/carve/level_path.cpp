@@ -76,8 +76,8 @@ std::vector<double> distances_of_fit(const std::vector<FlatPlace>& points, const
 class PathFitter {
  public:
   // `near`: how far the path may be from each point.
-  PathFitter(std::vector<FlatPlace> points, std::vector<double> near, double height, const TipSurface& surface, const NodeLattice& lattice,
-             const LevelPathFit& fit)
+  PathFitter(std::vector<FlatPlace> points, std::vector<double> near, double height, const TipSurface& surface,
+             const NodeLattice& lattice, const LevelPathFit& fit)
       : points_(std::move(points)),
         near_(std::move(near)),
         height_(height),

@@ -3,8 +3,8 @@
 // The points of the toolpath lie on the boundary of the free area, where a chord between two points would cut a convex
 // wall. Therefore the toolpath is first moved by half of the tolerance to the free side, which is the left one. Lines
 // and arcs then stay within half of the tolerance of its points; along walls, whose position a map knows to one of its
-// cells only, within a cell. Each line and arc, as rounded for the program, is checked against the map of gouge-free tip
-// heights; if even the shortest one gouges, the tool is lifted over it.
+// cells only, within a cell. Each line and arc, as rounded for the program, is checked against the map of gouge-free
+// tip heights; if even the shortest one gouges, the tool is lifted over it.
 #pragma once
 
 #include <vector>

@@ -14,15 +14,6 @@ constexpr Seconds longest_begin{10};
 constexpr Seconds shortest_end{1};
 constexpr std::uint64_t reports_of_end = 5;
 
-OutputState outputs_of(std::string_view letters) {
-  OutputState outputs;
-  if (letters.find('S') != std::string_view::npos) outputs.spindle = SpindleDirection::clockwise;
-  if (letters.find('C') != std::string_view::npos) outputs.spindle = SpindleDirection::counterclockwise;
-  outputs.flood = letters.find('F') != std::string_view::npos;
-  outputs.mist = letters.find('M') != std::string_view::npos;
-  return outputs;
-}
-
 }  // namespace
 
 // Nothing may be sent from here on but real-time commands: grblHAL drops other bytes, or ends the file at them.
@@ -80,7 +71,6 @@ void GrblMachineSession::hear_board_file(std::string_view line) {
 void GrblMachineSession::tell_board_file(MachineStatus& status) const {
   status.executes.board_file = work_->board_file.path;
   if (work_->board_file.is_running) status.progress = work_->board_file.share;
-  status.outputs = outputs_of(heard_.outputs);
 }
 
 }  // namespace passo

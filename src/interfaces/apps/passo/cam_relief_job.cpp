@@ -6,6 +6,7 @@
 #include <numbers>
 #include <thread>
 
+#include "cam_program.hpp"
 #include "program_input.hpp"
 #include <nlohmann/json.hpp>
 

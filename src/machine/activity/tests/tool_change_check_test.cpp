@@ -37,11 +37,11 @@ ProgramCheck check(const std::string& program, const MachineDescription& machine
   return check_program(ProgramReader::from_text("t", program), machine, options, findings);
 }
 
-constexpr const char* part = "G21 G90 G54\nG0 Z5\nT1 M6\nS9000 M3\nG4 P2\nG1 Z-1 F600\nG1 X10\nG0 Z5\n";
+constexpr const char* first_cut = "G21 G90 G54\nG0 Z5\nT1 M6\nS9000 M3\nG4 P2\nG1 Z-1 F600\nG1 X10\nG0 Z5\n";
 
 TEST(ToolChangeCheck, finds_nothing_wrong_in_a_change) {
   Diagnostics findings;
-  EXPECT_TRUE(check(std::string(part) + "M2\n", measuring_machine({}), findings).good);
+  EXPECT_TRUE(check(std::string(first_cut) + "M2\n", measuring_machine({}), findings).good);
   EXPECT_TRUE(findings.all().empty()) << render(findings, false);
 }
 
@@ -50,14 +50,14 @@ TEST(ToolChangeCheck, finds_errors_in_the_lines_of_a_changer_before_anything_mov
   plan.way = ToolChangeWay::macro;
   plan.macro = "G53 G0 X170\n";
   Diagnostics findings;
-  EXPECT_FALSE(check(std::string(part) + "M2\n", measuring_machine(plan), findings).good);
+  EXPECT_FALSE(check(std::string(first_cut) + "M2\n", measuring_machine(plan), findings).good);
   ASSERT_TRUE(findings.any_error());
   EXPECT_EQ(findings.all().front().code, "travel.exceeded");
 }
 
 TEST(ToolChangeCheck, finds_a_change_inside_cutter_compensation) {
   Diagnostics findings;
-  EXPECT_FALSE(check(std::string(part) + "G41.1 D2 G1 X20\nT2 M6\nG40\nM2\n", measuring_machine({}), findings).good);
+  EXPECT_FALSE(check(std::string(first_cut) + "G41.1 D2 G1 X20\nT2 M6\nG40\nM2\n", measuring_machine({}), findings).good);
 }
 
 }  // namespace
