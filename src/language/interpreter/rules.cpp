@@ -53,7 +53,7 @@ constexpr Rule table[] = {
     {"gcode.g53-without-move", "RS274/NGC 3.5.12, move in absolute coordinates"},
     {"gcode.grbl-command", "Passo, docs/gcode.md: Differences from grbl"},
     {"gcode.hidden-comment", "RS274/NGC 3.3.5, item repeats"},
-    {"gcode.hook", "Passo, docs/manual/tool-changes.md: Hooks at the start and the end"},
+    {"gcode.hook", "Passo, docs/gcode.md: Machine"},
     {"gcode.impossible-arc", "RS274/NGC 3.5.3.1, radius format arc"},
     {"gcode.line-too-long", "Passo, docs/gcode.md: Limits"},
     {"gcode.macro-argument", "grblHAL, G65: macro call"},

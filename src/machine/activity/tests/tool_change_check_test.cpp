@@ -57,7 +57,8 @@ TEST(ToolChangeCheck, finds_errors_in_the_lines_of_a_changer_before_anything_mov
 
 TEST(ToolChangeCheck, finds_a_change_inside_cutter_compensation) {
   Diagnostics findings;
-  EXPECT_FALSE(check(std::string(first_cut) + "G41.1 D2 G1 X20\nT2 M6\nG40\nM2\n", measuring_machine({}), findings).good);
+  EXPECT_FALSE(
+      check(std::string(first_cut) + "G41.1 D2 G1 X20\nT2 M6\nG40\nM2\n", measuring_machine({}), findings).good);
 }
 
 }  // namespace
