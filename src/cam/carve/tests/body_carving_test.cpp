@@ -176,7 +176,7 @@ TEST(BodyCarving, contours_do_not_copy_the_stairs_of_a_wall) {
     farthest = std::max(farthest, std::hypot(std::max(along - 6, 0.0), std::max(across - 6, 0.0)) - 1.5);
   }
   EXPECT_GT(moves, 16U);
-  EXPECT_LT(moves, 400U);  // a line for each cell would be 1,600 a level
+  EXPECT_LT(moves, 400U);          // a line for each cell would be 1,600 a level
   EXPECT_LT(farthest, 4 * pitch);  // as the stairs
 }
 
