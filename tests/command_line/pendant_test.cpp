@@ -90,6 +90,7 @@ TEST_F(Pendants, that_are_wrong_are_refused_with_the_reason) {
   EXPECT_THAT(passo("serve --check --pendant mouse").err, testing::HasSubstr("[pendant.name]"));
   EXPECT_EQ(passo("serve --check --pendant mouse").code, 2);
   EXPECT_THAT(passo("serve --check --pendant auto --grbl-tcp 127.0.0.1:0").err, testing::HasSubstr("[serve.pendant]"));
+  fs::create_directories(path("nothing"));
   EXPECT_THAT(passo("pendant watch --system " + path("nothing")).err, testing::HasSubstr("[pendant.none]"));
   const std::string table = write("mine.toml",
                                   "name = \"Mine\"\n[usb]\nvendor = 1\nproduct = 2\n[report]\nlength = 4\n"
@@ -112,6 +113,7 @@ TEST_F(Pendants, are_watched) {
 }
 
 TEST_F(PendantServed, jogs_until_its_cable_is_pulled_and_again_when_it_is_back) {
+  fs::create_directories(system());
   serve({"--pendant", "auto", "--system", system()});
   EXPECT_TRUE(comes([](const auto& now) { return now["pendant"].is_null(); }));
   plug_in();

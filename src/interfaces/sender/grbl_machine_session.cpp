@@ -53,10 +53,12 @@ std::optional<Point> contact_of(std::string_view value, const GrblMachine& board
 
 }  // namespace
 
+GrblMachineSession::Loan::Loan(GrblMachineSession& session)
+    : storage(std::make_unique<GrblBoardStorage>(session)), settings(session) {}
+
 GrblMachineSession::GrblMachineSession(const MachineDescription& machine, GrblPort& port, Seconds ahead)
     : machine_(machine), port_(port), sender_(port.now()) {
   connection_.ahead = ahead;
-  loan_.storage = std::make_unique<GrblBoardStorage>(*this);
   connect_again(false);
 }
 

@@ -60,8 +60,8 @@ class GrblMachineSession final : public MachineSession {
   std::optional<Refusal> lost_place() const override;
   MachineAbilities abilities() const override;
   BoardStorage* storage() override;
-  NumberedSettings* numbered_settings() override { return &settings_; }
-  const NumberedSettings* numbered_settings() const override { return &settings_; }
+  NumberedSettings* numbered_settings() override { return &loan_.settings; }
+  const NumberedSettings* numbered_settings() const override { return &loan_.settings; }
 
   // What the board has reported about itself.
   const GrblMachine& board() const { return board_; }
@@ -128,8 +128,10 @@ class GrblMachineSession final : public MachineSession {
   };
   // Of the sender, for the settings or files of the board.
   struct Loan {
+    explicit Loan(GrblMachineSession& session);
     bool lent = false;
     std::unique_ptr<GrblBoardStorage> storage;
+    SessionSettings settings;
   };
   struct Trouble {
     Sentence words;
@@ -235,8 +237,7 @@ class GrblMachineSession final : public MachineSession {
   Connection connection_;
   bool locked_ = false;  // the board is in an alarm that $X or $H ends
   Recovery recovery_;
-  Loan loan_;
-  SessionSettings settings_{*this};
+  Loan loan_{*this};
   KnownPosition position_;
   LivePosition live_;
   Heard heard_;
