@@ -72,14 +72,15 @@ class ToolCodes final : public CycleCodes {
   bool only_checks_ = false;
   bool begun_ = false;
   bool calls_macro_ = false;
-  // Set while the macro runs, and until its change is over.
+  // Set while the macro runs, and until its change is over. It has no initializers, since
+  // clang 14 would read them too late for std::optional; emplace() sets all to zero.
   struct MacroCall {
-    Point back;         // the machine position before the change
-    bool mist = false;  // that of the program; off while the macro runs
-    bool flood = false;
+    Point back;  // the machine position before the change
+    bool mist;   // that of the program; off while the macro runs
+    bool flood;
     MachineLines::Before before;
-    bool spindle_turns = false;  // the macro has left it so
-    std::string fault = {};
+    bool spindle_turns;  // the macro has left it so
+    std::string fault;
   };
   std::optional<MacroCall> macro_;
   MachineLines lines_;
