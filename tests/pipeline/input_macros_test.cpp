@@ -29,12 +29,13 @@ std::string folder_of_input_macros() {
 class AtBoard {
  public:
   explicit AtBoard(std::uint16_t held = 0)
-      : run(*new SessionRun(example_machine("router"), {.line = true})),
+      : run(example_machine("router"), {.line = true}),
         api(run.description(), run.session(), owner,
             {.version = "1",
              .openapi = "{}",
              .make_key = [] { return std::string("key"); },
              .macro_folder = folder_of_input_macros()}) {
+    run.another_takes_changes = true;
     run.board().set_switch(held, true);
     pass(Seconds(3));
     EXPECT_EQ(run.state(), MachineState::idle);
@@ -58,7 +59,7 @@ class AtBoard {
   }
   double z() { return run.session().status().position.place[Axis::z]; }
 
-  SessionRun& run;  // never destroyed: its last checks want the changes that the API has taken
+  SessionRun run;
   MachineControl owner;
   WebApi api;
 };

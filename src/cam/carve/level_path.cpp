@@ -65,6 +65,7 @@ std::vector<double> distances_of_fit(const std::vector<FlatPlace>& points, const
     const FlatPlace& from = points[i > 0 ? i - 1 : 0];
     const FlatPlace& to = points[i > 0 ? i : 1];
     const double way = distance_between(from, to);
+    if (way == 0) continue;
     const FlatPlace across{(to.y - from.y) / way * cell, (from.x - to.x) / way * cell};
     const double rise = surface.at({points[i].x + across.x, points[i].y + across.y}) -
                         surface.at({points[i].x - across.x, points[i].y - across.y});
@@ -269,7 +270,7 @@ LevelPath fit_level_path(const LevelLine& line, double height, const TipSurface&
   if (points.size() < 2) return {};
   std::vector<double> near(points.size(), PathFitter::near(fit));
   if (fit.is_on_edge && fit.tolerance > 0) {
-    near = distances_of_fit(points, surface, fit.tolerance / 2);
+    near = distances_of_fit(points, surface, PathFitter::near(fit));
     // In a pit that is narrower than the tolerance, a point would come out on the other side.
     std::vector<double> aside = near;
     for (double& distance : aside) distance = std::max(distance / 2, fit.tolerance / 2);
