@@ -71,9 +71,7 @@ class FreecadBit {
       source_.use(bit_);
       return tools_.leave_out(place_, why);
     }
-    if (const auto name = source_.text(bit_, "name"); name && !draft_.set_name(*name)) {
-      tools_.note_change(place_, "its name was changed, so that it fits into comments of programs");
-    }
+    if (const auto name = source_.text(bit_, "name")) tools_.name(draft_, *name, place_);
     if (const auto height = quantity("CuttingEdgeHeight", false); height && *height > 0)
       draft_.set("flute_length_mm", *height);
     if (const auto stick_out = quantity("Stickout", false); stick_out && *stick_out > 0)
@@ -168,7 +166,7 @@ void read_library(JsonSource& source, const Json& list, const ToolImportOptions&
     if (tools.is_full()) {
       return tools.leave_out(place, fmt::format("only {} tools are read", ImportedTools::most_tools));
     }
-    const auto number = source.number(list[i], "nr");
+    const auto number = source.tool_number(list[i], "nr");
     const auto name = source.text(list[i], "path");
     if (!name || !is_file_name(*name)) {
       tools.leave_out(place, "it does not name a tool bit: the name of a file that ends in .fctb");
@@ -186,9 +184,7 @@ void read_library(JsonSource& source, const Json& list, const ToolImportOptions&
       tools.leave_out(place, fmt::format("{}:{}:{}: {}", *name, first.place.line, first.place.column, first.message));
       continue;
     }
-    const bool is_whole = number && *number == std::floor(*number) && *number > 0 && *number < 100'000;
-    FreecadBit(*bit, bit->root(), *name, tools)
-        .read(is_whole ? std::optional(static_cast<std::int32_t>(*number)) : std::nullopt);
+    FreecadBit(*bit, bit->root(), *name, tools).read(number == 0 ? std::nullopt : number);
     tools.add_unused(bit->unused(), *name);
   }
 }

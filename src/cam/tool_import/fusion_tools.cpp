@@ -30,9 +30,7 @@ class FusionTool {
       source_.use(tool_);
       return tools_.leave_out(place_, why);
     }
-    if (const auto name = source_.text(tool_, "description"); name && !draft_.set_name(*name)) {
-      tools_.note_change(place_, "its name was changed, so that it fits into comments of programs");
-    }
+    if (const auto name = source_.text(tool_, "description")) tools_.name(draft_, *name, place_);
     const auto flutes = source_.number(*geometry_, "NOF");
     if (flutes && *flutes > 0) draft_.set("flutes", *flutes);
     set_length("flute_length_mm", "LCF");
@@ -40,9 +38,8 @@ class FusionTool {
     set_material();
     read_presets(flutes.value_or(0));
     const Json* const post = JsonSource::find(tool_, "post-process");
-    const auto number = post != nullptr ? source_.number(*post, "number") : std::nullopt;
-    const bool is_whole = number && *number == std::floor(*number) && *number > 0 && *number < 100'000;
-    tools_.add(draft_, is_whole ? std::optional(static_cast<std::int32_t>(*number)) : std::nullopt, place_);
+    const auto number = post != nullptr ? source_.tool_number(*post, "number") : std::nullopt;
+    tools_.add(draft_, number == 0 ? std::nullopt : number, place_);
   }
 
  private:

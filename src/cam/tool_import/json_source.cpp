@@ -127,6 +127,12 @@ std::optional<double> JsonSource::number(const Json& object, const char* key) {
   return number;
 }
 
+std::optional<std::int32_t> JsonSource::tool_number(const Json& object, const char* key) {
+  const auto value = number(object, key);
+  const bool is_one = value && *value == std::floor(*value) && *value >= 0 && *value < 100'000;
+  return is_one ? std::optional(static_cast<std::int32_t>(*value)) : std::nullopt;
+}
+
 std::optional<std::string> JsonSource::text(const Json& object, const char* key) {
   const Json* const value = find(object, key);
   if (value == nullptr || !value->is_string()) return std::nullopt;

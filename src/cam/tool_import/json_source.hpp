@@ -4,6 +4,7 @@
 // The file is hostile: its size and depth are limited before anything is kept.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ class JsonSource {
   static const Json* find(const Json& object, const char* key);
   // Read a member and record it as used. Empty: there is none, or it has another type.
   std::optional<double> number(const Json& object, const char* key);
+  // The number of a tool: whole, 0 to 99,999.
+  std::optional<std::int32_t> tool_number(const Json& object, const char* key);
   std::optional<std::string> text(const Json& object, const char* key);
   std::optional<bool> flag(const Json& object, const char* key);
   // Records a value with all that is in it as used.

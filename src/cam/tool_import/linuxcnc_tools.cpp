@@ -60,9 +60,7 @@ bool read_linuxcnc_tools(std::string_view text, const std::string& file, const T
     draft.set_shape(*options.shape);
     draft.set("diameter_mm", std::abs(tool.diameter.value()));
     const auto remark = table.remarks.find(number);
-    if (remark != table.remarks.end() && !draft.set_name(remark->second)) {
-      tools.note_change(place, "its name was changed, so that it fits into comments of programs");
-    }
+    if (remark != table.remarks.end()) tools.name(draft, remark->second, place);
     tools.add(draft, number, place);
   }
   words.add_to(unused);

@@ -1,7 +1,6 @@
 // Our own JSON: {"format": "passo-tool-library", "version": 1, "units": "mm", "tools": [{"number": 1, "shape": …}]}.
 //
 // The members of a tool are the keys of [tool.N]. null: unknown.
-#include <cmath>
 #include <numbers>
 
 #include "format_readers.hpp"
@@ -42,10 +41,9 @@ void read_tool(JsonSource& source, const Json& tool, const std::string& place, T
     }
   }
   read_chip_loads(source, tool, draft);
-  const auto number = source.number(tool, "number");
-  const bool is_whole = number && *number == std::floor(*number) && *number >= 0 && *number < 100'000;
-  if (!is_whole) return tools.leave_out(place, "it has no whole number");
-  tools.add(draft, static_cast<std::int32_t>(*number), place);
+  const auto number = source.tool_number(tool, "number");
+  if (!number) return tools.leave_out(place, "it has no whole number");
+  tools.add(draft, *number, place);
 }
 
 }  // namespace

@@ -20,6 +20,11 @@ void ToolCollector::note_change(const std::string& place, std::string what) {
   if (imported_.changed.size() < most_notes) imported_.changed.push_back({place, std::move(what)});
 }
 
+void ToolCollector::name(ToolDraft& draft, std::string_view name, const std::string& place) {
+  if (draft.set_name(name)) return;
+  note_change(place, "its name was changed, so that it fits into comments of programs");
+}
+
 void ToolCollector::add(const ToolDraft& draft, std::optional<std::int32_t> number, const std::string& place) {
   const bool has_number = number && *number >= 1 && *number <= largest_number;
   Result<CuttingTool, std::string> tool = draft.finish(has_number ? *number : 1);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,8 @@ class ToolCollector {
   void add(const ToolDraft& draft, std::optional<std::int32_t> number, const std::string& place);
   void leave_out(const std::string& place, std::string why);
   void note_change(const std::string& place, std::string what);
+  // Sets the name of a tool, and notes if it had to be changed.
+  void name(ToolDraft& draft, std::string_view name, const std::string& place);
   // Adds the unused fields of a file that belongs to the library.
   void add_unused(const std::vector<UnusedField>& fields, const std::string& file);
   // No further tools are added.
