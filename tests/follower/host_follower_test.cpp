@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "kit/scratch_folder.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TEST(FollowerVectors, tell_what_differs) {
 }
 
 TEST(FollowerVectors, say_where_their_text_is_wrong) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "follower_vector_wrong.txt";
+  const std::filesystem::path file = test::scratch_folder() / "vector.txt";
   for (const char* wrong :
        {"1000 in clock.x", "1000 in clock.x 2", "1000 out relay 1", "1000 maybe relay 1", "drive"}) {
     std::ofstream(file) << "# comment\n" << wrong << "\n2000 end\n";

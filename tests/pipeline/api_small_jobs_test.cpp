@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "api_kit.hpp"
+#include "kit/scratch_folder.hpp"
 #include <gmock/gmock.h>
 
 namespace passo::test {
@@ -150,9 +151,7 @@ TEST(ApiGoing, is_refused_with_the_reason) {
 
 // A folder with a macro that moves by a value, one that leaves the travel, one that calls itself, and a subroutine.
 std::string macro_folder() {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_api_macros";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = scratch_folder();
   std::ofstream(folder / "move.ngc") << "; title = \"Move\"\n; key = \"F6\"\n; [value.way]\n; unit = \"mm\"\n"
                                         "; least = 1\n; most = 500\nG21 G91\nM110 P#<way>\n";
   std::ofstream(folder / "again.ngc")

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kit/example_machine.hpp"
+#include "kit/scratch_folder.hpp"
 #include "pipeline/session_kit.hpp"
 #include <nlohmann/json.hpp>
 
@@ -16,9 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string folder_of_input_macros() {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_input_macros";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = scratch_folder();
   std::ofstream(folder / "up.ngc")
       << "; title = \"Up\"\n; input = \"cycle_start\"\n; [value.way]\n; least = 1\n; most = 9\n"
          "; default = 4\nG21 G91 G0 Z#<way>\n";

@@ -11,6 +11,7 @@
 
 #include "api_kit.hpp"
 #include "kit/grbl_session_run.hpp"
+#include "kit/scratch_folder.hpp"
 #include "kit/seed.hpp"
 #include <gmock/gmock.h>
 
@@ -367,8 +368,7 @@ TEST(Pendant, sets_the_zero_of_the_selected_axis) {
 }
 
 std::string folder_of_macros() {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_pendant_macros";
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = scratch_folder();
   std::ofstream(folder / "probe-z.ngc") << "; title = \"Probe Z\"\nG21 G91\nG0 Y7\n";
   return folder.string();
 }

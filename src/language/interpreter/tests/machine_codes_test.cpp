@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "interpreted.hpp"
+#include "kit/scratch_folder.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,8 +62,7 @@ TEST(UserCodes, carry_their_number_and_words_where_they_are_allowed) {
 
 // A folder with the subroutine of M123.
 InterpreterOptions with_m123(const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_user_codes";
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = test::scratch_folder();
   std::ofstream(folder / "m123.ngc") << text;
   InterpreterOptions options;
   options.sub_folders = {folder.string()};
@@ -81,15 +81,15 @@ TEST(UserCodes, call_the_subroutine_of_their_name_with_p_and_q) {
 
 TEST(UserCodes, with_a_subroutine_stand_alone_and_do_not_call_themselves_endlessly) {
   const InterpreterOptions options = with_m123("o<m123> sub\nM123 P#1\no<m123> endsub\n");
-  const auto code = [&](const std::string& text) {
-    const Interpreted result = interpret_text(text, options);
+  const auto code = [](const std::string& text, const InterpreterOptions& with) {
+    const Interpreted result = interpret_text(text, with);
     return result.diagnostics.any_error() ? result.diagnostics.all().front().code : std::string();
   };
-  EXPECT_EQ(code("G21\nM123 P7\nM2\n"), "gcode.calls-too-deep");
-  EXPECT_EQ(code("G21\nG1 X1 F100 M123\nM2\n"), "gcode.unused-word");
-  EXPECT_EQ(code("G21\nM124 P7\nM2\n"), "gcode.user-code") << "no file";
-  with_m123("o<m124> sub\no<m124> endsub\n");
-  EXPECT_EQ(code("G21\nM123 P7\nM2\n"), "gcode.unknown-sub") << "the file has another subroutine";
+  EXPECT_EQ(code("G21\nM123 P7\nM2\n", options), "gcode.calls-too-deep");
+  EXPECT_EQ(code("G21\nG1 X1 F100 M123\nM2\n", options), "gcode.unused-word");
+  EXPECT_EQ(code("G21\nM124 P7\nM2\n", options), "gcode.user-code") << "no file";
+  const InterpreterOptions other = with_m123("o<m124> sub\no<m124> endsub\n");
+  EXPECT_EQ(code("G21\nM123 P7\nM2\n", other), "gcode.unknown-sub") << "the file has another subroutine";
 }
 
 TEST(Probing, a_preview_stops_before_the_end_as_rs274_does) {

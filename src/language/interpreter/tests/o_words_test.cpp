@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "interpreted.hpp"
+#include "kit/scratch_folder.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -109,8 +110,7 @@ TEST(OWords, calls_nest_a_hundred_deep) {
 }
 
 TEST(OWords, a_sub_is_found_in_a_file_beside_the_program) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_subs";
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = test::scratch_folder();
   std::ofstream(folder / "main.ngc") << "o<other> call [4]\no<other> call [5]\n(debug,#<_value>)\nM2\n";
   std::ofstream(folder / "other.ngc")
       << "(a file with a sub)\no<other> sub\nG0 X#1\no<inner> call\no<other> endsub [#1]\n"
@@ -125,8 +125,7 @@ TEST(OWords, a_sub_is_found_in_a_file_beside_the_program) {
 }
 
 TEST(OWords, errors_in_a_sub_of_another_file_name_that_file) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_wrong_sub";
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = test::scratch_folder();
   std::ofstream(folder / "main.ngc") << "o<faulty> call\nG0 X[1/0]\nM2\n";
   std::ofstream(folder / "faulty.ngc") << "o<faulty> sub\nG0 K1\no<faulty> endsub\n";
   auto reader = ProgramReader::open((folder / "main.ngc").string());
@@ -149,9 +148,8 @@ std::string stack_of(const Diagnostic& diagnostic) {
   return stack;
 }
 
-Interpreted run_files(const std::string& folder_name, const std::vector<std::pair<const char*, const char*>>& files) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / folder_name;
-  std::filesystem::create_directories(folder);
+Interpreted run_files(const std::vector<std::pair<const char*, const char*>>& files) {
+  const std::filesystem::path folder = test::scratch_folder();
   for (const auto& [name, text] : files) std::ofstream(folder / name) << text;
   Interpreted result;
   auto reader = ProgramReader::open((folder / files.front().first).string());
@@ -174,7 +172,7 @@ TEST(OWords, an_error_tells_through_which_calls_the_program_came_there) {
 }
 
 TEST(OWords, the_calls_of_an_error_name_the_files_they_stand_in) {
-  const Interpreted result = run_files("passo_stack", {{"main.ngc", "G0 X1\no<one> call\nM2\n"},
+  const Interpreted result = run_files({{"main.ngc", "G0 X1\no<one> call\nM2\n"},
                                                        {"one.ngc", "o<one> sub\no<two> call\no<one> endsub\n"},
                                                        {"two.ngc", "o<two> sub\no1 while [1]\no<two> endsub\n"}});
   ASSERT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
@@ -199,7 +197,7 @@ TEST(OWords, what_is_never_closed_is_told_at_its_opener) {
 
 TEST(OWords, a_sub_that_is_nowhere_tells_where_it_was_looked_for_and_the_run_goes_on) {
   const Interpreted result =
-      run_files("passo_nowhere", {{"main.ngc", "o<half> call\no<lost> call\nM98 P8\nM98 P\nG0 X1 K1\nM2\n"},
+      run_files({{"main.ngc", "o<half> call\no<lost> call\nM98 P8\nM98 P\nG0 X1 K1\nM2\n"},
                                   {"half.ngc", "o<other> sub\no<other> endsub\n"}});
   const auto& found = result.diagnostics.all();
   ASSERT_EQ(found.size(), 5U) << result.rendered();

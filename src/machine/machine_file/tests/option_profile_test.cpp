@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "kit/scratch_folder.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,11 +14,9 @@ namespace {
 class OptionProfile : public testing::Test {
  protected:
   std::optional<std::vector<OptionSection>> read(const std::string& text) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "option_profile.toml";
+    const std::filesystem::path path = test::scratch_folder() / "profile.toml";
     std::ofstream(path) << text;
-    const auto sections = read_option_profile(path.string(), {"isolate", "outline"}, found_);
-    std::filesystem::remove(path);
-    return sections;
+    return read_option_profile(path.string(), {"isolate", "outline"}, found_);
   }
   Diagnostics found_;
 };

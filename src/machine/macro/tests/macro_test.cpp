@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include "kit/scratch_folder.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,9 +100,7 @@ TEST(Macro, tells_what_is_wrong_with_its_head) {
 }
 
 TEST(MacroFolder, has_the_macros_in_order_and_what_is_wrong_with_the_others) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_macros";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = test::scratch_folder();
   std::ofstream(folder / "b.ngc") << face;
   std::ofstream(folder / "a.ngc") << "; title = \"A\"\nG4 P0\n";
   std::ofstream(folder / "wrong.ngc") << "; title = \"\n";

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "kit/scratch_folder.hpp"
 #include <gmock/gmock.h>
 
 #include "passo/emulator/hex_file.hpp"
@@ -109,7 +110,7 @@ TEST(OutputFault, is_the_first_in_time_of_all_outputs) {
 }
 
 TEST(HexFile, has_whole_records_up_to_its_last_one) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "passo_hex_test.hex";
+  const std::filesystem::path file = test::scratch_folder() / "test.hex";
   const auto fault_of = [&](const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
     return find_hex_fault(file);
