@@ -373,7 +373,7 @@ TEST(ToolChangeRestart, ends_with_the_right_tool_length_and_place) {
 }
 
 TEST(ToolChangeRestart, goes_on_whenever_the_host_dies) {
-  for (const ToolChangeWay way : all_ways) die_amid_changes(way, test::fewer(3));
+  for (const ToolChangeWay way : all_ways) die_amid_changes(way, 1);
 }
 
 class ToolChangeRestartInFull : public test::InFull<testing::Test> {};
