@@ -47,17 +47,24 @@ std::ostream& operator<<(std::ostream& out, const ExamplePart& part) {
 constexpr double through = -100;
 
 // The relief of the coaster: the centres of the outermost pixels are 80 mm apart. Scallops are 0.05 mm high.
+constexpr FlatPoint ripples_low{10, 10};
+constexpr FlatPoint ripples_high{90, 90};
+
+// Calculated by the test that needs it: every test of this program lists the parts.
+const passo::test::DrawnRelief& relief_of_ripples() {
+  static const passo::test::DrawnPicture picture(checkout + "/examples/jobs/coaster.png", ripples_low, ripples_high,
+                                                 -2);
+  static const passo::test::DrawnRelief relief(picture, ripples_low, ripples_high, 2, 0.06);
+  return relief;
+}
+
 DrawnCut ripples() {
-  const FlatPoint low{10, 10};
-  const FlatPoint high{90, 90};
-  const passo::test::DrawnPicture picture(checkout + "/examples/jobs/coaster.png", low, high, -2);
-  const passo::test::DrawnRelief relief(picture, low, high, 2, 0.06);
   return {.kind = passo::test::DrawnCut::Kind::relief,
           .cutter = 4,
-          .low = low,
-          .high = high,
-          .surface = [relief](FlatPoint at) { return relief.surface(at); },
-          .left = [relief](FlatPoint at) { return relief.left(at); }};
+          .low = ripples_low,
+          .high = ripples_high,
+          .surface = [](FlatPoint at) { return relief_of_ripples().surface(at); },
+          .left = [](FlatPoint at) { return relief_of_ripples().left(at); }};
 }
 
 const std::vector<ExamplePart>& parts() {
