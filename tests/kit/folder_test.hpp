@@ -6,9 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include <gtest/gtest.h>
-
 #include "kit/scratch_folder.hpp"
+#include <gtest/gtest.h>
 
 namespace passo::test {
 

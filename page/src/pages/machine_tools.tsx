@@ -41,8 +41,8 @@ function ToolsTable({ tools, counts }: { tools: MachineTool[]; counts: boolean }
       <table>
         <thead>
           <tr>
-            {heads.map((head) => (
-              <th scope="col" key={head}>
+            {heads.map((head, i) => (
+              <th scope="col" key={head} class={i === 1 ? 'words' : ''}>
                 {head}
               </th>
             ))}
@@ -64,7 +64,7 @@ function ToolRow({ tool, counts }: { tool: MachineTool; counts: boolean }) {
   return (
     <tr class={used !== null && used >= 1 ? 'refusal' : ''}>
       <th scope="row">T{tool.number}</th>
-      <td>{tool.name}</td>
+      <td class="words">{tool.name}</td>
       <td>{cutWords(tool)}</td>
       <td>{timeWords(tool)}</td>
       <td>{used === null ? '–' : `${Math.round(used * 100)} %`}</td>

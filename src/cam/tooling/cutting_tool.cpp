@@ -54,6 +54,10 @@ std::string describe(const CuttingTool& tool) {
                            : fmt::format("T{} \"{}\", {}", tool.number, tool.name, words);
 }
 
+std::string describe_without_number(const CuttingTool& tool) {
+  return tool.name.empty() ? words_of(tool) : fmt::format("{}, {}", tool.name, words_of(tool));
+}
+
 Mm diameter_at(const CuttingTool& tool, Mm depth) {
   const Cutter cutter = cutter_of(tool);
   if (cutter.height(cutter.radius) <= depth) return tool.diameter;

@@ -46,7 +46,7 @@ Json ToolsApi::tools() const {
     const auto remark = table.remarks.find(number);
     const bool has_remark = has_table && remark != table.remarks.end();
     all.push_back({{"number", number},
-                   {"name", tool != nullptr ? describe(*tool)
+                   {"name", tool != nullptr ? describe_without_number(*tool)
                             : has_remark    ? remark->second
                                             : std::string()},
                    {"pocket", entry != nullptr ? Json(entry->pocket) : Json()},

@@ -77,6 +77,7 @@ TEST(ToolLibrary, knows_more_than_the_shape) {
   const CuttingTool* const drill = library->find(12);
   ASSERT_NE(drill, nullptr);
   EXPECT_EQ(describe(*drill), "T12 \"pilot holes\", drill, 3.2 mm");
+  EXPECT_EQ(describe_without_number(*drill), "pilot holes, drill, 3.2 mm");
   EXPECT_EQ(drill->material, ToolMaterial::hss);
   EXPECT_EQ(drill->most_rpm, 8000);
   const CuttingTool* const ball = library->find(3);

@@ -173,8 +173,8 @@ TEST(OWords, an_error_tells_through_which_calls_the_program_came_there) {
 
 TEST(OWords, the_calls_of_an_error_name_the_files_they_stand_in) {
   const Interpreted result = run_files({{"main.ngc", "G0 X1\no<one> call\nM2\n"},
-                                                       {"one.ngc", "o<one> sub\no<two> call\no<one> endsub\n"},
-                                                       {"two.ngc", "o<two> sub\no1 while [1]\no<two> endsub\n"}});
+                                        {"one.ngc", "o<one> sub\no<two> call\no<one> endsub\n"},
+                                        {"two.ngc", "o<two> sub\no1 while [1]\no<two> endsub\n"}});
   ASSERT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
   const Diagnostic& error = result.diagnostics.all().front();
   EXPECT_THAT(error.file, testing::EndsWith("two.ngc"));
@@ -196,9 +196,8 @@ TEST(OWords, what_is_never_closed_is_told_at_its_opener) {
 }
 
 TEST(OWords, a_sub_that_is_nowhere_tells_where_it_was_looked_for_and_the_run_goes_on) {
-  const Interpreted result =
-      run_files({{"main.ngc", "o<half> call\no<lost> call\nM98 P8\nM98 P\nG0 X1 K1\nM2\n"},
-                                  {"half.ngc", "o<other> sub\no<other> endsub\n"}});
+  const Interpreted result = run_files({{"main.ngc", "o<half> call\no<lost> call\nM98 P8\nM98 P\nG0 X1 K1\nM2\n"},
+                                        {"half.ngc", "o<other> sub\no<other> endsub\n"}});
   const auto& found = result.diagnostics.all();
   ASSERT_EQ(found.size(), 5U) << result.rendered();
   EXPECT_THAT(found[0].expected, testing::AllOf(testing::HasSubstr("o<half> sub in this file"),

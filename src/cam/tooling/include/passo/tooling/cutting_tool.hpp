@@ -67,6 +67,8 @@ ToolShape shape_of(const CuttingTool& tool);
 // Describes a tool for comments and messages: "T2 ball nose 3 mm", with its name if it has one:
 // "T2 \"finishing\", ball nose 3 mm".
 std::string describe(const CuttingTool& tool);
+// For tables with a column of numbers: "finishing, ball nose, 3 mm".
+std::string describe_without_number(const CuttingTool& tool);
 
 // Returns the diameter of the cut at this depth below the surface: narrower near the tip of a vee, a taper or a ball.
 Mm diameter_at(const CuttingTool& tool, Mm depth);
