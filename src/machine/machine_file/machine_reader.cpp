@@ -7,6 +7,7 @@
 
 #include "axis_keys.hpp"
 #include "board_reader.hpp"
+#include "camera_reader.hpp"
 #include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
@@ -65,6 +66,7 @@ class MachineReader {
   void read_spindle(const TomlEntry& entry);
   void read_silence(const TomlEntry& entry);
   void look_at_work(const TomlEntry& entry) const;
+  void look_at_camera(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_park_of(const TomlEntry& entry);
   void read_hooks_of(const TomlEntry& entry);
@@ -116,6 +118,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* hooks = top.table("hooks", "a table [hooks]", Need::optional);
+  const TomlEntry* camera = top.table("camera", "a table [camera]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -124,6 +127,7 @@ MachineDescription MachineReader::read() {
   if (spindle != nullptr) read_spindle(*spindle);
   if (silence != nullptr) read_silence(*silence);
   if (work != nullptr) look_at_work(*work);
+  if (camera != nullptr) look_at_camera(*camera);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   if (machine_.is_core_xy && axes != nullptr) check_kinematics(top.place_of(kinematics_key));
@@ -187,6 +191,13 @@ void MachineReader::read_silence(const TomlEntry& entry) {
 void MachineReader::look_at_work(const TomlEntry& entry) const {
   TableReader reader(std::get<TomlTable>(entry.value.content), "work", entry.place, reporter_);
   check_work(reader);
+  finish(reader);
+}
+
+// See parse_camera().
+void MachineReader::look_at_camera(const TomlEntry& entry) const {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "camera", entry.place, reporter_);
+  static_cast<void>(read_camera(reader));
   finish(reader);
 }
 
