@@ -12,7 +12,7 @@ let folder: string;
 let camera: MjpegCamera;
 const pictures = process.env.PASSO_WORK_PICTURES; // a folder, for whoever wants to look
 const look = async (page: Page, name: string): Promise<void> => {
-  if (pictures !== undefined) await page.screenshot({ path: `${pictures}/${name}.png`, fullPage: true });
+  if (pictures !== undefined) await page.screenshot({ path: `${pictures}/${name}.png` });
 };
 // A sheet with a bright dot beside its middle.
 async function cameraPicture(): Promise<Buffer> {
@@ -213,6 +213,7 @@ describe('the camera', () => {
     await expect.poll(width, { timeout: patience }).toBe(640);
     await expect.poll(() => page.getByTestId('camera-state').innerText(), { timeout: patience }).toBe('');
     expect(await violations(page)).toEqual([]);
+    await expect.poll(width, { timeout: patience }).toBe(640);
     await look(page, 'camera-run');
     await page.goto(`${daemon.address}#/jog`);
     await expect.poll(width, { timeout: patience }).toBe(640);

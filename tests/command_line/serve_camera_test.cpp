@@ -10,6 +10,7 @@
 namespace {
 
 using passo::test::FakeCamera;
+using passo::test::read;
 using Habit = FakeCamera::Habit;
 using testing::HasSubstr;
 using testing::Not;

@@ -21,7 +21,7 @@ struct ApiShared {
   const ApiOptions& options;
   ProgramStore& programs;
   KeptOffsets& offsets;
-  const std::optional<MachineCamera>& camera;  // empty: the machine has none
+  std::optional<MachineCamera> camera = {};  // empty: the machine has none
 
   double wall_time() const { return options.wall_time ? options.wall_time() : 0; }
 };

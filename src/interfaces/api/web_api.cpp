@@ -7,7 +7,6 @@
 #include "board_files_api.hpp"
 #include "cam_api.hpp"
 #include "camera_api.hpp"
-#include "job_stills.hpp"
 #include "jobs_api.hpp"
 #include "machine_api.hpp"
 #include "machine_file_api.hpp"
@@ -72,10 +71,12 @@ std::size_t longest_of(BodyKind kind) {
 class WebApi::Parts {
  public:
   Parts(const MachineDescription& machine, MachineSession& session, MachineControl& owner, ApiOptions all_options)
-      : options(std::move(all_options)),
-        mdi(machine, session, programs),
-        offsets(programs, options),
-        shared{machine, session, owner, options, programs, offsets, camera} {
+      : options(std::move(all_options)), mdi(machine, session, programs), offsets(programs, options), shared{machine,
+                                                                                                             session,
+                                                                                                             owner,
+                                                                                                             options,
+                                                                                                             programs,
+                                                                                                             offsets} {
     programs.judge_paths(options.path_judge);
     if (options.workshop.library != nullptr) {
       programs.set_lives([this] {
@@ -115,8 +116,7 @@ class WebApi::Parts {
   ProgramStore programs;
   MdiLines mdi;
   KeptOffsets offsets;
-  std::optional<MachineCamera> camera;
-  const ApiShared shared;
+  ApiShared shared;
   JobRunner jobs{shared, mdi};
   ProgramTimes times{shared, jobs};
   BoardFilesApi board_files_api{shared, jobs};
@@ -132,7 +132,6 @@ class WebApi::Parts {
   SmallJobsApi small_jobs_api{shared, jobs};
   StudiesApi studies_api{shared};
   ToolsApi tools_api{shared};
-  JobStills stills{shared};
 
  private:
   // Another method, or a path of the page's.
@@ -230,7 +229,7 @@ void WebApi::poll() {
   parts_->machine_api.poll();
   parts_->jobs.poll();
   parts_->small_jobs_api.poll();
-  parts_->stills.poll(parts_->jobs.job());
+  parts_->camera_api.poll(parts_->jobs.job());
   if (!parts_->shared.session.busy()) parts_->keep_all();
 }
 
@@ -272,7 +271,7 @@ void WebApi::watch(const PendantStatus& pendant) {
 }
 
 void WebApi::use(const MachineCamera& camera) {
-  parts_->camera = camera;
+  parts_->shared.camera = camera;
 }
 
 const ApiJob& WebApi::job() const {

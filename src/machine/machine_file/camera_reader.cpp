@@ -43,8 +43,6 @@ int read_rotation(TableReader& reader) {
   return 0;
 }
 
-}  // namespace
-
 CameraDescription read_camera(TableReader& reader) {
   CameraDescription camera;
   if (auto url = read_url(reader, url_key, "http://192.168.1.20:8080/stream", Need::required)) camera.stream = *url;
@@ -56,6 +54,14 @@ CameraDescription read_camera(TableReader& reader) {
   camera.rotation = read_rotation(reader);
   camera.is_mirrored = reader.flag(mirrored_key).value_or(false);
   return camera;
+}
+
+}  // namespace
+
+void check_camera(const TomlEntry& entry, const TomlReporter& reporter, const std::function<void(TableReader&)>& end) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "camera", entry.place, reporter);
+  static_cast<void>(read_camera(reader));
+  end(reader);
 }
 
 std::optional<CameraDescription> parse_camera(std::string_view machine_file) {

@@ -66,7 +66,6 @@ class MachineReader {
   void read_spindle(const TomlEntry& entry);
   void read_silence(const TomlEntry& entry);
   void look_at_work(const TomlEntry& entry) const;
-  void look_at_camera(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_park_of(const TomlEntry& entry);
   void read_hooks_of(const TomlEntry& entry);
@@ -127,7 +126,6 @@ MachineDescription MachineReader::read() {
   if (spindle != nullptr) read_spindle(*spindle);
   if (silence != nullptr) read_silence(*silence);
   if (work != nullptr) look_at_work(*work);
-  if (camera != nullptr) look_at_camera(*camera);
   read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   if (machine_.is_core_xy && axes != nullptr) check_kinematics(top.place_of(kinematics_key));
@@ -135,6 +133,7 @@ MachineDescription MachineReader::read() {
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (hooks != nullptr) read_hooks_of(*hooks);
+  if (camera != nullptr) check_camera(*camera, reporter_, end);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
@@ -191,13 +190,6 @@ void MachineReader::read_silence(const TomlEntry& entry) {
 void MachineReader::look_at_work(const TomlEntry& entry) const {
   TableReader reader(std::get<TomlTable>(entry.value.content), "work", entry.place, reporter_);
   check_work(reader);
-  finish(reader);
-}
-
-// See parse_camera().
-void MachineReader::look_at_camera(const TomlEntry& entry) const {
-  TableReader reader(std::get<TomlTable>(entry.value.content), "camera", entry.place, reporter_);
-  static_cast<void>(read_camera(reader));
   finish(reader);
 }
 
