@@ -1,9 +1,14 @@
 // A camera with a server of its own, for tests: an MJPEG stream, good or with one of the faults of real ones.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <arpa/inet.h>
@@ -52,9 +57,12 @@ class FakeCamera {
     return "http://127.0.0.1:" + std::to_string(port_) + path;
   }
   void change(Habit habit) { habit_ = habit; }
-  int connections() const { return connections_; }            // so far
-  int open() const { return open_; }                          // now
-  std::string last_request() const { return last_request_; }  // after open() is 0
+  int connections() const { return connections_; }  // so far
+  int open() const { return open_; }                // now
+  std::string last_request() const {
+    const std::lock_guard lock(mutex_);
+    return last_request_;
+  }
 
   // Switched off: nobody listens at the port.
   void go() {
@@ -114,14 +122,18 @@ class FakeCamera {
   void serve(int client) {
     char bytes[4096];
     const ssize_t got = recv(client, bytes, sizeof bytes, 0);
-    last_request_.assign(bytes, static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    const std::string request(bytes, static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    {
+      const std::lock_guard lock(mutex_);
+      last_request_ = request;
+    }
     const Habit habit = habit_;
     if (habit == Habit::silent) return void(wait(client, 600'000));
     if (habit == Habit::redirects) {
       return void(send_all(client, "HTTP/1.1 302 Found\r\nLocation: http://127.0.0.1:1/secret\r\n\r\n"));
     }
     if (habit == Habit::text) return void(send_all(client, "HTTP/1.1 200 OK\r\nContent-Type: text/html\r\n\r\nhello"));
-    if (habit == Habit::still || last_request_.starts_with("GET /snapshot")) {
+    if (habit == Habit::still || request.starts_with("GET /snapshot")) {
       const std::string picture = fake_jpeg(++number_);
       return void(send_all(client, "HTTP/1.1 200 OK\r\nContent-Type: image/jpeg\r\nContent-Length: " +
                                        std::to_string(picture.size()) + "\r\n\r\n" + picture));
@@ -172,6 +184,7 @@ class FakeCamera {
   std::atomic<int> number_ = 0;  // of the last picture
   unsigned port_ = 0;
   int listener_ = -1;
+  mutable std::mutex mutex_;  // for the next
   std::string last_request_;
   std::thread thread_;
 };
