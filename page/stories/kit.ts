@@ -1,7 +1,9 @@
 // What the stories share: the real daemon with its virtual machine, and the real browser.
 import { spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { createServer, type Server } from 'node:http';
 import { createRequire } from 'node:module';
+import type { AddressInfo } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
@@ -88,6 +90,33 @@ export class Peer {
     this.process.stdin?.write(`${line}\n`);
   }
   end = (): Promise<void> => kill(this.process, 'SIGKILL');
+}
+
+// A camera in the network: a stream with one picture again and again, as ustreamer sends it.
+export class MjpegCamera {
+  private constructor(
+    private readonly server: Server,
+    readonly url: string,
+  ) {}
+  static async start(jpeg: Buffer): Promise<MjpegCamera> {
+    const server = createServer((_, answer) => {
+      answer.writeHead(200, { 'Content-Type': 'multipart/x-mixed-replace;boundary=boundarydonotcross' });
+      answer.write('--boundarydonotcross\r\n');
+      const send = (): void => {
+        answer.write(`Content-Type: image/jpeg\r\nContent-Length: ${jpeg.length}\r\n\r\n`);
+        answer.write(jpeg);
+        answer.write('\r\n--boundarydonotcross\r\n');
+      };
+      const timer = setInterval(send, 100);
+      answer.on('close', () => clearInterval(timer));
+    });
+    await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
+    return new MjpegCamera(server, `http://127.0.0.1:${(server.address() as AddressInfo).port}/stream`);
+  }
+  end(): void {
+    this.server.close();
+    this.server.closeAllConnections();
+  }
 }
 
 interface FakePort {

@@ -4,26 +4,42 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Daemon, example, openBrowser, violations, visit } from './kit';
+import { Daemon, example, MjpegCamera, openBrowser, violations, visit } from './kit';
 
 let browser: Browser;
 let daemon: Daemon;
 let folder: string;
+let camera: MjpegCamera;
+const pictures = process.env.PASSO_WORK_PICTURES; // a folder, for whoever wants to look
+const look = async (page: Page, name: string): Promise<void> => {
+  if (pictures !== undefined) await page.screenshot({ path: `${pictures}/${name}.png` });
+};
+// A sheet with a bright dot beside its middle.
+async function cameraPicture(): Promise<Buffer> {
+  const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
+  await page.setContent('<body style="margin:0;background:#567"><div style="position:absolute;left:150px;top:120px;width:340px;height:240px;background:#b98"></div><div style="position:absolute;left:330px;top:210px;width:40px;height:40px;border-radius:50%;background:#ffd"></div></body>');
+  const jpeg = await page.screenshot({ type: 'jpeg', quality: 70 });
+  await page.close();
+  return jpeg;
+}
 const patience = 60_000; // ms, on a busy computer; what runs at a low priority gets more
 beforeAll(async () => {
   folder = mkdtempSync(join(tmpdir(), 'passo-story-'));
   const machine = join(folder, 'machine.toml');
-  writeFileSync(machine, `${readFileSync(example('machines/strong-router.toml'), 'utf8')}\n[park]\nplace_mm = [-30, 40]\n`);
+  browser = await openBrowser();
+  camera = await MjpegCamera.start(await cameraPicture());
+  const more = `[park]\nplace_mm = [-30, 40]\n[camera]\nurl = "${camera.url}"\noffset_mm = [20, -15]\n`;
+  writeFileSync(machine, `${readFileSync(example('machines/strong-router.toml'), 'utf8')}\n${more}`);
   const macros = join(folder, 'macros');
   mkdirSync(macros);
   writeFileSync(join(macros, 'aside.ngc'), '; title = "Move aside"\n; key = "F6"\n; [value.way]\n; title = "Distance"\n; unit = "mm"\n; least = 1\n; most = 50\nG21 G91 G0 X#<way>\n');
-  browser = await openBrowser();
   // A block whose corner is 8 and 9 mm beside the probe, its top 11.2 mm below.
   daemon = await Daemon.start({ machine, touch: ['X-8:90,Y-9:70,Z-50:-11.2'], macros });
 });
 afterAll(async () => {
   await browser?.close();
   await daemon?.end();
+  camera?.end();
   rmSync(folder, { recursive: true, force: true });
 });
 
@@ -183,6 +199,59 @@ describe('at the press of a button', () => {
     await way.blur();
     await run.click();
     expect((await ends('macro aside')).place.x).toBeCloseTo(-17.5, 2);
+    expect(errors).toEqual([]);
+    await context.close();
+  });
+});
+
+describe('the camera', () => {
+  it('is seen beside the toolpath, and its cross-hair is where the zero is set and where the tool goes', async () => {
+    const { page, context, errors } = await visit(browser, daemon, 'run');
+    page.setDefaultTimeout(patience);
+    const picture = page.getByRole('img', { name: 'Picture of the camera' });
+    const width = (): Promise<number> => picture.evaluate((one) => (one as HTMLImageElement).naturalWidth);
+    await expect.poll(width, { timeout: patience }).toBe(640);
+    await expect.poll(() => page.getByTestId('camera-state').innerText(), { timeout: patience }).toBe('');
+    expect(await violations(page)).toEqual([]);
+    await expect.poll(width, { timeout: patience }).toBe(640);
+    await look(page, 'camera-run');
+    await page.goto(`${daemon.address}#/jog`);
+    await expect.poll(width, { timeout: patience }).toBe(640);
+    const before = await daemon.status();
+    await page.getByRole('button', { name: 'Zero X and Y at the cross-hair' }).click();
+    expect(await page.getByRole('dialog').innerText()).toContain('The cross-hair is now at');
+    await agree(page, 'Work zero');
+    const zeroed = await daemon.until((status) => Math.abs((status.work_offset?.x ?? 0) - (before.place.x ?? 0) - 20) < 1e-3, patience);
+    expect(zeroed.work_offset?.y).toBeCloseTo((before.place.y ?? 0) - 15, 3);
+    expect(zeroed.work_offset?.z).toBe(before.work_offset?.z);
+    await page.getByText('Find the offset of the camera').click();
+    await page.getByRole('button', { name: 'Spindle is at the dot' }).click();
+    await page.getByRole('button', { name: 'Move the tool to the cross-hair' }).click();
+    await agree(page, 'Go');
+    const moved = await daemon.until((status) => status.job?.name === 'go to the cross-hair' && status.job.state === 'done', patience * 2);
+    expect([moved.place.x, moved.place.y]).toEqual([expect.closeTo((before.place.x ?? 0) + 20, 2), expect.closeTo((before.place.y ?? 0) - 15, 2)]);
+    await expect.poll(() => page.getByTestId('camera-offset').innerText(), { timeout: patience }).toMatch(/X [-−]20\.000\s+Y 15\.000/);
+    await page.getByRole('button', { name: '2×' }).click();
+    expect(await violations(page)).toEqual([]);
+    await look(page, 'camera-jog');
+    // A job that is not a small one has its pictures in the history.
+    const { key } = (await daemon.post('/owner', '{}')) as { key: string };
+    const { id } = (await daemon.post('/programs?name=seen.ngc', 'G21 G90\nG1 X1 F3000\nM2\n')) as { id: number };
+    await daemon.post(`/programs/${id}/run`, '', key);
+    await daemon.until((status) => status.job?.name === 'seen.ngc' && status.job.state === 'done', patience);
+    await page.goto(`${daemon.address}#/files`);
+    const still = page.getByRole('img', { name: 'seen.ngc at the end' });
+    await still.waitFor({ timeout: patience });
+    await still.scrollIntoViewIfNeeded();
+    await expect.poll(() => still.evaluate((one) => (one as HTMLImageElement).naturalWidth), { timeout: patience }).toBe(640);
+    expect(await violations(page)).toEqual([]);
+    await look(page, 'camera-files');
+    // The camera vanishes: the page says so, and the machine works on.
+    await page.goto(`${daemon.address}#/run`);
+    await expect.poll(width, { timeout: patience }).toBe(640);
+    camera.end();
+    await expect.poll(() => page.getByTestId('camera-state').innerText(), { timeout: patience }).toMatch(/^No picture for \d+ s: the camera (cannot be reached|has closed the connection)/);
+    await look(page, 'camera-gone');
     expect(errors).toEqual([]);
     await context.close();
   });

@@ -46,6 +46,14 @@ export interface Pendant {
   refusal_sentence: Sentence;
 }
 
+// The camera of the machine file.
+export interface CameraState {
+  state: 'off' | 'connecting' | 'live' | 'waiting';
+  age: number | null; // s since the newest picture; null: there is none yet
+  problem: string; // of the last attempt; empty: it succeeded
+  problem_sentence: Sentence;
+}
+
 export interface Status {
   change: number;
   time: number;
@@ -76,6 +84,7 @@ export interface Status {
   unkept_sentences?: Sentence[];
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
   pendant?: Pendant | null; // null: none has been connected
+  camera?: CameraState | null; // null: there is none
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.
   mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string; trouble_sentence: Sentence };
@@ -108,6 +117,11 @@ export interface MachineAbility {
   why: string; // empty: it can
   sentence: Sentence | null;
 }
+export interface MachineCamera {
+  offset: { x: number; y: number }; // from the spindle's axis to the point under the cross-hair
+  rotation: 0 | 90 | 180 | 270; // clockwise
+  mirrored: boolean; // before the rotation
+}
 export interface Machine {
   name: string;
   version: string;
@@ -117,6 +131,7 @@ export interface Machine {
   highest_rpm: number;
   top: number | null; // machine Z; null: no axis Z
   park: { x: number; y: number } | null;
+  camera?: MachineCamera | null;
   abilities: MachineAbility[];
 }
 
@@ -160,6 +175,7 @@ export interface HistoryJob {
   begun_at: number;
   ended_at: number;
   waits?: (Omit<Waits, 'free'> & { at: number })[];
+  stills?: { id: number; at: number; moment: 'start' | 'end' }[];
 }
 export interface Alarm {
   at: number;

@@ -10,7 +10,8 @@ import { lengthText, lengthUnit } from '../core/units';
 import { whyNoJob, whyNot } from '../machine/actions';
 import type { HistoryJob, Program } from '../machine/api';
 import { ask, post, remove, upload } from '../machine/api';
-import { isLive, status } from '../machine/connection';
+import { stillAddress } from '../machine/camera';
+import { isLive, machine, status } from '../machine/connection';
 import { alarms, ended, keeps, queue, refreshHistory } from '../machine/history';
 import { needOperations } from '../machine/cam';
 import { frameJob, whyNoFrame } from '../machine/framing';
@@ -224,6 +225,15 @@ function JobList({ jobs, none, queued }: { jobs: readonly HistoryJob[]; none: st
               {one.message === '' ? '' : `: ${one.message.replaceAll('\n', ' · ')}`}
             </span>
           ))}
+          {(job.stills ?? []).length > 0 && (
+            <span class="job-stills">
+              {(job.stills ?? []).map((one) => (
+                <a key={one.id} href={stillAddress(one.id)} target="_blank" rel="noreferrer">
+                  <img src={stillAddress(one.id)} loading="lazy" alt={say(`files.still.${one.moment}`, { name: job.name })} />
+                </a>
+              ))}
+            </span>
+          )}
           {queued && (
             <span class="row">
               <Button icon="run" why={whyNoJob.value} onClick={() => runQueued(job)}>
@@ -249,11 +259,17 @@ function JobList({ jobs, none, queued }: { jobs: readonly HistoryJob[]; none: st
   );
 }
 
+const stillsAfter = 2000; // ms
+
 export function FilesPage() {
   const job = status.value?.job;
+  const hasCamera = Boolean(machine.value?.camera);
   useEffect(() => {
     void refreshHistory();
-  }, [job?.id, job?.state, isLive.value]);
+    // The picture of its end comes a little later.
+    const later = hasCamera ? setTimeout(() => void refreshHistory(), stillsAfter) : undefined;
+    return () => clearTimeout(later);
+  }, [job?.id, job?.state, isLive.value, hasCamera]);
   const all = programs.value.filter(isListed).reverse();
   return (
     <div class="files">

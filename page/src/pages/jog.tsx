@@ -12,6 +12,7 @@ import { pendantWords } from '../machine/pendant';
 import { axes } from '../machine/place';
 import { goToPlace, home, homeAxis, makeZero, places, vouchForPlace, whyNotPlace } from '../machine/set_up';
 import { Button } from '../parts/button';
+import { CameraView } from '../parts/camera_view';
 import { Icon } from '../parts/icon';
 import { Macros } from '../parts/macros';
 import { Position } from '../parts/position';
@@ -206,6 +207,7 @@ export function JogPage() {
     <div class="jog-page">
       <div class="jog-side">
         <Position />
+        <CameraView sets />
         <SetUpPanel />
         <GoToPanel />
         <Macros />

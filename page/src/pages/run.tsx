@@ -1,4 +1,5 @@
 // Run: the position, the program on its way, and the scene.
+import { CameraView } from '../parts/camera_view';
 import { FirstStart } from '../parts/first_start';
 import { InterruptedCard } from '../parts/interrupted_card';
 import { JobProgress } from '../parts/job_progress';
@@ -18,6 +19,7 @@ export function RunPage() {
         <Overrides />
         <div class="panel scene-panel">
           <SceneView />
+          <CameraView />
         </div>
         <ProgramView />
       </div>

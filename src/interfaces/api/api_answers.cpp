@@ -76,6 +76,10 @@ WebAnswer job_begins() {
                       Sentence{.code = "machine.busy.job-begins", .text = "a job is about to start"});
 }
 
+WebAnswer no_camera() {
+  return error_answer(404, "camera.none", "the machine file has no camera: the table [camera]");
+}
+
 WebAnswer no_history() {
   return error_answer(404, "data.none", "passo serve stores nothing: start it with --data DIR");
 }

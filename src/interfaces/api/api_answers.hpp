@@ -32,6 +32,7 @@ Sentence sentence_of_unwritten(std::string_view what, std::string_view finer, st
 
 WebAnswer not_idle(MachineState state);
 WebAnswer job_begins();
+WebAnswer no_camera();
 WebAnswer no_history();
 WebAnswer no_maker();
 WebAnswer no_place();

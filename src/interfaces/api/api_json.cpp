@@ -227,6 +227,10 @@ Json as_json(const HistoryJob& job) {
                      {"tool", wait.tool ? Json(*wait.tool) : Json()},
                      {"message", wait.words}});
   }
+  Json stills = Json::array();
+  for (const HistoryStill& still : job.stills) {
+    stills.push_back({{"id", still.id}, {"at", still.at}, {"moment", still.moment}});
+  }
   return {{"id", job.id},
           {"name", job.name},
           {"dialect", job.dialect},
@@ -237,7 +241,8 @@ Json as_json(const HistoryJob& job) {
           {"queued_at", job.queued_at},
           {"begun_at", job.begun_at},
           {"ended_at", job.ended_at},
-          {"waits", std::move(waits)}};
+          {"waits", std::move(waits)},
+          {"stills", std::move(stills)}};
 }
 
 // With the text: words that an older program has written since are not those of the sentence.
@@ -341,6 +346,13 @@ Json as_json(const StoredProgram& program, bool with_findings) {
 
 namespace {
 
+Json camera_json(const CameraDescription* camera) {
+  if (camera == nullptr) return {};
+  return {{"offset", {{"x", camera->offset_x.value()}, {"y", camera->offset_y.value()}}},
+          {"rotation", camera->rotation},
+          {"mirrored", camera->is_mirrored}};
+}
+
 Json park_json(const ParkDescription& park) {
   if (!park.place) return {};
   return {{"x", (*park.place)[Axis::x]}, {"y", (*park.place)[Axis::y]}};
@@ -348,7 +360,16 @@ Json park_json(const ParkDescription& park) {
 
 }  // namespace
 
-Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version) {
+Json as_json(const CameraStatus& camera) {
+  constexpr const char* states[] = {"off", "connecting", "live", "waiting"};  // in the order of State
+  return {{"state", states[static_cast<std::size_t>(camera.state)]},
+          {"age", camera.age ? Json(rounded(camera.age->value())) : Json()},
+          {"problem", camera.problem.text},
+          {"problem_sentence", as_json(camera.problem)}};
+}
+
+Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version,
+                  const CameraDescription* camera) {
   Json axes = Json::array();
   for (const AxisDescription& axis : machine.axes) {
     axes.push_back({{"axis", axis_key(axis.axis)},
@@ -367,6 +388,7 @@ Json machine_json(const MachineDescription& machine, const MachineAbilities& abi
           {"highest_rpm", machine.tool.highest_rpm},
           {"top", machine.top_of_travel() ? Json(*machine.top_of_travel()) : Json()},
           {"park", park_json(machine.park)},
+          {"camera", camera_json(camera)},
           {"abilities", abilities_json(abilities)}};
 }
 

@@ -11,6 +11,7 @@
 #include "passo/activity/homing_repeats.hpp"
 #include "passo/api/api_job.hpp"
 #include "passo/api/api_routes.hpp"
+#include "passo/api/camera.hpp"
 #include "passo/api/machine_control.hpp"
 #include "passo/api/mdi_lines.hpp"
 #include "passo/api/pendant_status.hpp"
@@ -64,7 +65,9 @@ WebAnswer height_map_answer(const HeightMap& map, std::string_view query);
 using WayBack = Result<Reentry, Sentence>;
 Json as_json(const MachineDescription& machine, const WayBack& way);
 Json as_json(const MachineDescription& machine, const InterruptedJob& job, const WayBack& way);
-Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version);
+Json machine_json(const MachineDescription& machine, const MachineAbilities& abilities, std::string_view version,
+                  const CameraDescription* camera = nullptr);
+Json as_json(const CameraStatus& camera);
 
 // Returns {"severity", "code", "line", …} for each finding.
 Json as_json(const Diagnostics& findings);

@@ -5,6 +5,7 @@
 
 #include "board_files_api.hpp"
 #include "cam_api.hpp"
+#include "camera_api.hpp"
 #include "jobs_api.hpp"
 #include "machine_api.hpp"
 #include "machine_file_api.hpp"
@@ -60,6 +61,11 @@ constexpr ApiRoute routes[] = {
     {"GET", "/cam/page", "getCamPage", anybody, none, &CamApi::page, Needs::maker},
     {"GET", "/cam/picture", "getCamPicture", anybody, none, &CamApi::picture, Needs::maker},
     {"GET", "/cam/shapes", "getCamShapes", anybody, none, &CamApi::shapes, Needs::maker},
+
+    {"GET", "/camera/still", "getCameraStill", anybody, none, &CameraApi::still, Needs::camera},
+    {"GET", "/camera/stream", "openCameraStream", anybody, none, &CameraApi::stream, Needs::camera},
+
+    {"GET", "/history/stills/{id}", "getJobStill", anybody, none, &CameraApi::job_still, Needs::history},
 
     {"GET", "/interrupted", "getInterrupted", anybody, none, &JobsApi::get_interrupted, Needs::history},
     {"DELETE", "/interrupted", "dropInterrupted", owner, none, &JobsApi::drop_interrupted, Needs::history},

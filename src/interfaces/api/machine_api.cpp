@@ -39,7 +39,8 @@ WebAnswer MachineApi::health(const ApiCall&) {
 }
 
 WebAnswer MachineApi::description(const ApiCall&) {
-  return json_answer(200, machine_json(shared_.machine, shared_.session.abilities(), shared_.options.version));
+  const CameraDescription* const camera = shared_.camera ? &shared_.camera->description : nullptr;
+  return json_answer(200, machine_json(shared_.machine, shared_.session.abilities(), shared_.options.version, camera));
 }
 
 WebAnswer MachineApi::homing(const ApiCall&) {
@@ -149,7 +150,7 @@ WebAnswer MachineApi::set_position(const ApiCall& call) {
   return members.end() ? ask(wanted) : bad_body(members.reason());
 }
 
-// The tool stands at this place of the work.
+// The tool, or the point under the camera's cross-hair, stands at this place of the work.
 WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
   jobs_.step_aside();
   const MachineStatus status = shared_.session.status();
@@ -160,8 +161,12 @@ WebAnswer MachineApi::set_work_zero(const ApiCall& call) {
                                  .text = "a job was interrupted, and needs its zero: resume it or discard it first"});
   }
   const Frame frame = shared_.programs.work_frame();
-  const Point& at = status.position.place;
+  Point at = status.position.place;
   JsonMembers members(call.body);
+  if (members.flag("cross_hair").value_or(false)) {
+    if (!shared_.camera) return no_camera();
+    at = under_cross_hair(shared_.camera->description, at);
+  }
   const Point place = members.place("place", shared_.machine, frame.work_from_machine(at));
   if (!members.end()) return bad_body(members.reason());
   const auto is_far = [](double value) { return std::abs(value) > farthest_zero; };
@@ -250,6 +255,7 @@ std::string MachineApi::status_text() const {
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(shared_.owner);
   json["pendant"] = pendant_ != nullptr ? as_json(*pendant_) : Json();
+  json["camera"] = shared_.camera ? as_json(shared_.camera->pictures->status()) : Json();
   json["job"] = as_json(jobs_.job());
   std::string unkept_words;
   Json sentences = Json::array();

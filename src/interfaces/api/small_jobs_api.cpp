@@ -102,10 +102,12 @@ WebAnswer SmallJobsApi::frame(const ApiCall& call) {
 WebAnswer SmallJobsApi::go_to(const ApiCall& call) {
   Json body = call.members();
   const auto name = take_text(body, "to");
+  if (name == "cross_hair" && body.empty()) return go_to_cross_hair();
   const auto destination = name ? destination_named(*name) : std::nullopt;
   if (!destination || !body.empty()) {
     std::vector<std::string_view> known;
     for (const Destination one : all_destinations()) known.push_back(name_of(one));
+    known.emplace_back("cross_hair");
     return bad_body(fmt::format("expected {{\"to\": …}} with one of {}", fmt::join(known, ", ")));
   }
   jobs_.step_aside();
@@ -114,6 +116,16 @@ WebAnswer SmallJobsApi::go_to(const ApiCall& call) {
   auto text = go_to_program(*destination, shared_.machine, programs.parameters(), programs.work_frame());
   if (!text) return error_answer(409, text.error().code, text.error());
   return run("go to " + std::string(name_of(*destination)), std::move(*text));
+}
+
+WebAnswer SmallJobsApi::go_to_cross_hair() {
+  if (!shared_.camera) return no_camera();
+  jobs_.step_aside();
+  if (auto refused = refuse()) return std::move(*refused);
+  const Point place = under_cross_hair(shared_.camera->description, shared_.session.status().position.place);
+  auto text = go_over_program(place, shared_.machine);
+  if (!text) return error_answer(409, text.error().code, text.error());
+  return run("go to the cross-hair", std::move(*text));
 }
 
 const MacroFolder& SmallJobsApi::macros() {

@@ -31,6 +31,7 @@ class SmallJobsApi {
  private:
   static constexpr Seconds between_looks{0.01};
 
+  WebAnswer go_to_cross_hair();
   void start_macro_of(std::string_view input);
   WebAnswer run(const Macro& macro, const MacroValues& values);
 

@@ -6,6 +6,7 @@
 #include "api_json.hpp"
 #include "board_files_api.hpp"
 #include "cam_api.hpp"
+#include "camera_api.hpp"
 #include "jobs_api.hpp"
 #include "machine_api.hpp"
 #include "machine_file_api.hpp"
@@ -35,7 +36,9 @@ WebAnswer not_the_owner() {
 }
 
 // Why this server has nothing at such a path. Empty: it has all that is needed.
-std::optional<WebAnswer> what_lacks(Needs needs, const ApiOptions& options) {
+std::optional<WebAnswer> what_lacks(Needs needs, const ApiShared& shared) {
+  const ApiOptions& options = shared.options;
+  if (needs == Needs::camera && !shared.camera) return no_camera();
   if (needs == Needs::history && options.history == nullptr) return no_history();
   if (needs == Needs::maker && options.maker == nullptr) return no_maker();
   if (needs == Needs::ports && options.contact == nullptr) return no_ports();
@@ -95,7 +98,7 @@ class WebApi::Parts {
     if (route.moves && !shared.owner.is_client(request.key)) return not_the_owner();
     auto body = read_body(route.body, request, std::move(said));
     if (!body) return body.error();
-    if (auto lacks = what_lacks(route.needs, options)) return std::move(*lacks);
+    if (auto lacks = what_lacks(route.needs, shared)) return std::move(*lacks);
     const ApiCall call{.request = request, .id = found.id, .rest = found.rest, .body = std::move(*body)};
     return std::visit([&](auto handler) { return ask(handler, call); }, route.handler);
   }
@@ -113,11 +116,12 @@ class WebApi::Parts {
   ProgramStore programs;
   MdiLines mdi;
   KeptOffsets offsets;
-  const ApiShared shared;
+  ApiShared shared;
   JobRunner jobs{shared, mdi};
   ProgramTimes times{shared, jobs};
   BoardFilesApi board_files_api{shared, jobs};
   CamApi cam_api{shared, jobs};
+  CameraApi camera_api{shared};
   JobsApi jobs_api{shared, jobs};
   MachineApi machine_api{shared, jobs, times, mdi};
   MachineFileApi machine_file_api{shared, jobs};
@@ -147,6 +151,7 @@ class WebApi::Parts {
   }
   WebAnswer ask(AnswerOf<BoardFilesApi> handler, const ApiCall& call) { return (board_files_api.*handler)(call); }
   WebAnswer ask(AnswerOf<CamApi> handler, const ApiCall& call) { return (cam_api.*handler)(call); }
+  WebAnswer ask(AnswerOf<CameraApi> handler, const ApiCall& call) { return (camera_api.*handler)(call); }
   WebAnswer ask(AnswerOf<JobsApi> handler, const ApiCall& call) { return (jobs_api.*handler)(call); }
   WebAnswer ask(AnswerOf<MachineApi> handler, const ApiCall& call) { return (machine_api.*handler)(call); }
   WebAnswer ask(AnswerOf<MachineFileApi> handler, const ApiCall& call) { return (machine_file_api.*handler)(call); }
@@ -169,10 +174,11 @@ WebApi::~WebApi() = default;
 WebService WebApi::find(const WebRequest& head) {
   FoundRoute found = find_route(head.method, head.path);
   const ApiRoute* const route = found.route;
-  const bool is_served = route != nullptr && !what_lacks(route->needs, parts_->options);
+  const bool is_served = route != nullptr && !what_lacks(route->needs, parts_->shared);
   return {
       .longest_body = is_served ? longest_of(route->body) : small_body,
       .is_stream = route != nullptr && route->handler == ApiHandler(&MachineApi::stream),
+      .is_pictures = is_served && route->handler == ApiHandler(&CameraApi::stream),
       .answer = [this, found = std::move(found)](const WebRequest& request) { return parts_->answer(request, found); }};
 }
 
@@ -223,6 +229,7 @@ void WebApi::poll() {
   parts_->machine_api.poll();
   parts_->jobs.poll();
   parts_->small_jobs_api.poll();
+  parts_->camera_api.poll(parts_->jobs.job());
   if (!parts_->shared.session.busy()) parts_->keep_all();
 }
 
@@ -261,6 +268,10 @@ void WebApi::watch(const WebServer& server) {
 
 void WebApi::watch(const PendantStatus& pendant) {
   parts_->machine_api.watch(pendant);
+}
+
+void WebApi::use(const MachineCamera& camera) {
+  parts_->shared.camera = camera;
 }
 
 const ApiJob& WebApi::job() const {

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "picture_viewer.hpp"
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
@@ -33,6 +34,7 @@ constexpr int send_buffer = 65'536;
 constexpr std::size_t most_answers = 16;
 constexpr int usual_rate = 10;
 constexpr int highest_rate = 60;
+constexpr auto before_next_look = std::chrono::milliseconds(10);
 constexpr auto before_next_accept = std::chrono::milliseconds(20);
 // Where no file is left, newcomers would push one another out before they are heard.
 constexpr auto time_to_ask = std::chrono::milliseconds(50);
@@ -58,7 +60,9 @@ class WebServer::Implementation {
   class Watcher;
 
   Implementation(WebAccess who_may, WebHandler& answers, const WebLimits& bounds)
-      : access(std::move(who_may)), handler(answers), limits(bounds), acceptor(context), pause(context) {}
+      : access(std::move(who_may)), handler(answers), limits(bounds), acceptor(context), pause(context) {
+    viewers.read_within = limits.answer_read_within;
+  }
   ~Implementation();
 
   void accept();
@@ -68,6 +72,7 @@ class WebServer::Implementation {
   // context.
   std::unordered_set<Connection*> open;
   std::unordered_set<Watcher*> watching;
+  PictureViewers viewers;
   std::size_t large_bodies = 0;
   asio::io_context context{1};
   WebAccess access;
@@ -180,7 +185,7 @@ class WebServer::Implementation::Watcher : public std::enable_shared_from_this<W
 class WebServer::Implementation::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Implementation& server, tcp::socket socket)
-      : server_(server), stream_(std::move(socket)), buffer_(read_buffer) {
+      : server_(server), stream_(std::move(socket)), later_(server.context), buffer_(read_buffer) {
     server_.open.insert(this);
   }
   ~Connection() {
@@ -189,10 +194,16 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   }
 
   void start() { read_header(); }
-  void close() { stream_.close(); }
+  void close() {
+    later_.cancel();
+    stream_.close();
+  }
   // Who goes first where there is no room: those who have not asked yet, then those who have waited longest.
   std::pair<bool, std::chrono::steady_clock::time_point> standing() const { return {asks_, since_}; }
-  pollfd awaited() { return {.fd = stream_.socket().native_handle(), .events = awaits_, .revents = 0}; }
+  // Without an event that it waits for, one that has gone would wake the loop again and again.
+  pollfd awaited() {
+    return {.fd = awaits_ != 0 ? stream_.socket().native_handle() : -1, .events = awaits_, .revents = 0};
+  }
 
  private:
   using Parser = http::request_parser<http::string_body>;
@@ -236,6 +247,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
     if (status && !(*status == 401 && server_.handler.is_public(request_))) return refuse(*status);
     service_ = server_.handler.find(request_);
     if (websocket::is_upgrade(header)) return upgrade();
+    if (service_.is_pictures) return view_pictures();
     const std::size_t longest = service_.longest_body;
     const auto length = parser_->content_length();
     if (length && *length > longest) return refuse(413);
@@ -273,7 +285,27 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
     WebAnswer answer = service_.answer(request_);
     request_.body = std::string();
     give_back_body();
+    if (answer.later) return send_later(std::move(answer));
     send(std::move(answer), parser_->get().keep_alive());
+  }
+
+  // Nothing is awaited of the client meanwhile.
+  void send_later(WebAnswer answer) {
+    awaits_ = 0;
+    stream_.expires_never();
+    later_.expires_after(before_next_look);
+    later_.async_wait([self = shared_from_this(), answer = std::move(answer)](Error cancelled) mutable {
+      if (cancelled || !self->stream_.socket().is_open()) return;
+      WebAnswer known;
+      if (!answer.later(known)) return self->send_later(std::move(answer));
+      self->send(std::move(known), self->parser_->get().keep_alive());
+    });
+  }
+
+  void view_pictures() {
+    if (server_.viewers.all.size() >= server_.limits.viewers) return refuse(503);
+    ++server_.requests;
+    std::make_shared<PictureViewer>(server_.viewers, std::move(stream_))->start();
   }
 
   void upgrade() {
@@ -298,6 +330,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
     response_.set(http::field::content_type, answer.type);
     response_.set(http::field::cache_control, answer.cache.empty() ? "no-store" : answer.cache);
     response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("Cross-Origin-Resource-Policy", "same-origin");
     response_.set("Content-Security-Policy", answer.policy.empty() ? "frame-ancestors 'none'" : answer.policy);
     if (!answer.version.empty()) response_.set(http::field::etag, answer.version);
     if (!answer.cache.empty()) response_.set(http::field::vary, "Accept-Encoding");
@@ -322,6 +355,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   Implementation& server_;
   beast::tcp_stream stream_;
+  asio::steady_timer later_;
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
   http::response<http::string_body> response_;
@@ -340,6 +374,7 @@ WebServer::Implementation::~Implementation() {
   pause.cancel();
   for (Connection* const one : open) one->close();
   for (Watcher* const one : watching) one->close();
+  for (PictureViewer* const one : viewers.all) one->close();
   context.restart();
   context.poll();
 }
@@ -368,7 +403,7 @@ void WebServer::Implementation::accept() {
       });
       return;
     }
-    if (open.size() + watching.size() >= limits.connections) make_room();
+    if (open.size() + watching.size() + viewers.all.size() >= limits.connections) make_room();
     Error ignored;
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(send_buffer), ignored);
@@ -418,6 +453,7 @@ void WebServer::add_to(std::vector<pollfd>& all) const {
   if (implementation_->accepts) add({.fd = implementation_->acceptor.native_handle(), .events = POLLIN, .revents = 0});
   for (Implementation::Connection* const one : implementation_->open) add(one->awaited());
   for (Implementation::Watcher* const one : implementation_->watching) add(one->awaited());
+  for (PictureViewer* const one : implementation_->viewers.all) add(one->awaited());
 }
 
 void WebServer::publish(std::string message) {
@@ -427,8 +463,17 @@ void WebServer::publish(std::string message) {
   for (Implementation::Watcher* const one : all) one->offer();
 }
 
+void WebServer::show(std::shared_ptr<const std::string> jpeg) {
+  implementation_->viewers.newest = std::move(jpeg);
+  const std::vector<PictureViewer*> all(implementation_->viewers.all.begin(), implementation_->viewers.all.end());
+  for (PictureViewer* const one : all) one->offer();
+}
+
 std::size_t WebServer::connections() const {
-  return implementation_->open.size() + implementation_->watching.size();
+  return implementation_->open.size() + implementation_->watching.size() + viewers();
+}
+std::size_t WebServer::viewers() const {
+  return implementation_->viewers.all.size();
 }
 std::size_t WebServer::watchers() const {
   return implementation_->watching.size();

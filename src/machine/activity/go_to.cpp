@@ -25,6 +25,8 @@ constexpr DestinationRow destination_rows[] = {
 };
 constexpr std::array destinations{park, first_home, second_home, work_zero};
 
+constexpr std::string_view purpose_of_cross_hair =
+    "move the tool over the point under the camera's cross-hair, Z first";
 constexpr SentenceRow no_park{"goto.no-park", "the machine file has no park position: the table [park] with place_mm"};
 
 const DestinationRow& row_of(Destination destination) {
@@ -43,12 +45,20 @@ Way home_way(const Point& place, AxisSet axes) {
   return {.place = place, .axes = axes, .lowers = place != Point()};
 }
 
-Way way_of(Destination destination, const MachineDescription& machine, const SavedParameters& saved,
-           const Frame& frame) {
+// The axes X and Y of the machine.
+AxisSet plane_of(const MachineDescription& machine) {
   AxisSet plane;
-  AxisSet all;
   for (const AxisDescription& axis : machine.axes) {
     if (axis.axis == Axis::x || axis.axis == Axis::y) plane.add(axis.axis);
+  }
+  return plane;
+}
+
+Way way_of(Destination destination, const MachineDescription& machine, const SavedParameters& saved,
+           const Frame& frame) {
+  const AxisSet plane = plane_of(machine);
+  AxisSet all;
+  for (const AxisDescription& axis : machine.axes) {
     if (axis.axis != Axis::z) all.add(axis.axis);
   }
   switch (destination) {
@@ -58,6 +68,24 @@ Way way_of(Destination destination, const MachineDescription& machine, const Sav
     case work_zero: break;
   }
   return {.place = frame.machine_from_work({}), .axes = plane};
+}
+
+Result<std::string, Sentence> program_of(const Way& way, const MachineDescription& machine, std::string_view purpose) {
+  const std::optional<double> top = machine.top_of_travel();
+  std::string words;
+  for (const AxisDescription& axis : machine.axes) {
+    if (!way.axes.has(axis.axis)) continue;
+    if (auto outside = outside_travel(machine, axis.axis, way.place[axis.axis])) return Failure{std::move(*outside)};
+    words += fmt::format(" {}{:.4f}", letter_of(axis.axis), way.place[axis.axis]);
+  }
+  SmallProgram program(purpose);
+  if (top) program.line("G53 G0 Z{:.4f}", *top);
+  if (!words.empty()) program.line("G53 G0{}", words);
+  if (!top || !way.lowers) return program.finish();
+  const double z = way.place[Axis::z];
+  if (auto outside = outside_travel(machine, Axis::z, z)) return Failure{std::move(*outside)};
+  program.line("G53 G0 Z{:.4f}", z);
+  return program.finish();
 }
 
 }  // namespace
@@ -82,22 +110,11 @@ std::optional<Destination> destination_named(std::string_view name) {
 Result<std::string, Sentence> go_to_program(Destination destination, const MachineDescription& machine,
                                             const SavedParameters& saved, const Frame& frame) {
   if (destination == park && !machine.park.place) return Failure{no_park.with()};
-  const Way way = way_of(destination, machine, saved, frame);
-  const std::optional<double> top = machine.top_of_travel();
-  std::string words;
-  for (const AxisDescription& axis : machine.axes) {
-    if (!way.axes.has(axis.axis)) continue;
-    if (auto outside = outside_travel(machine, axis.axis, way.place[axis.axis])) return Failure{std::move(*outside)};
-    words += fmt::format(" {}{:.4f}", letter_of(axis.axis), way.place[axis.axis]);
-  }
-  SmallProgram program(purpose_of(destination));
-  if (top) program.line("G53 G0 Z{:.4f}", *top);
-  if (!words.empty()) program.line("G53 G0{}", words);
-  if (!top || !way.lowers) return program.finish();
-  const double z = way.place[Axis::z];
-  if (auto outside = outside_travel(machine, Axis::z, z)) return Failure{std::move(*outside)};
-  program.line("G53 G0 Z{:.4f}", z);
-  return program.finish();
+  return program_of(way_of(destination, machine, saved, frame), machine, purpose_of(destination));
+}
+
+Result<std::string, Sentence> go_over_program(const Point& place, const MachineDescription& machine) {
+  return program_of({.place = place, .axes = plane_of(machine)}, machine, purpose_of_cross_hair);
 }
 
 }  // namespace passo

@@ -24,6 +24,11 @@ constexpr const char* table_of_waits = R"(
   CREATE TABLE IF NOT EXISTS waits (
     job INTEGER NOT NULL, number INTEGER NOT NULL, at REAL NOT NULL, code TEXT NOT NULL, line INTEGER NOT NULL,
     tool INTEGER NOT NULL, words TEXT NOT NULL, PRIMARY KEY (job, number)) WITHOUT ROWID;)";
+constexpr const char* table_of_stills = R"(
+  CREATE TABLE IF NOT EXISTS stills (
+    id INTEGER PRIMARY KEY AUTOINCREMENT, job INTEGER NOT NULL, at REAL NOT NULL, moment TEXT NOT NULL,
+    jpeg BLOB NOT NULL);
+  CREATE INDEX IF NOT EXISTS stills_by_job ON stills (job, id);)";
 // Younger, too. Older programs write no sentence beside their words.
 constexpr const char* column_of_sentence = "ALTER TABLE {} ADD COLUMN sentence TEXT NOT NULL DEFAULT ''";
 constexpr std::string_view killed = "passo serve was killed, or the computer lost power";
@@ -68,7 +73,7 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
   }
   if (known > version) return failed(fmt::format("its version is {}, but this program supports {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
-  if (!history->run(table_of_waits)) return failed(reason());
+  if (!history->run(table_of_waits) || !history->run(table_of_stills)) return failed(reason());
   for (const char* const table : {"jobs", "alarms"}) {
     SqliteStatement column(database, fmt::format("SELECT sentence FROM {} LIMIT 0", table).c_str());
     if (column.is_good()) continue;
@@ -148,6 +153,7 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     job.ended_at = end->at;
   }
   add_waits(found, where, value);
+  add_stills(found, where, value);
   return found;
 }
 
@@ -170,6 +176,24 @@ void JobHistory::add_waits(std::vector<HistoryJob>& jobs, const char* where, std
     const std::int64_t tool = select.number();
     if (tool != no_tool) wait.tool = static_cast<std::int32_t>(tool);
     wait.words = select.text();
+  }
+}
+
+// The same for the stills, without the pictures.
+void JobHistory::add_stills(std::vector<HistoryJob>& jobs, const char* where, std::int64_t value) const {
+  std::map<std::int64_t, HistoryJob*> by_id;
+  for (HistoryJob& job : jobs) by_id[job.id] = &job;
+  const std::string sql = fmt::format(
+      "SELECT job, id, at, moment FROM stills WHERE job IN (SELECT id FROM jobs {}) ORDER BY job, id", where);
+  SqliteStatement select(database_, sql.c_str());
+  select.with(value);
+  while (select.step()) {
+    const auto job = by_id.find(select.number());
+    if (job == by_id.end()) continue;
+    HistoryStill& still = job->second->stills.emplace_back();
+    still.id = select.number();
+    still.at = select.real();
+    still.moment = select.text();
   }
 }
 
@@ -214,7 +238,8 @@ bool JobHistory::write(const End& end) {
   // What is too old is forgotten the next time, if not now.
   SqliteStatement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
   SqliteStatement forget_waits(database_, "DELETE FROM waits WHERE job < (SELECT min(id) FROM jobs)");
-  static_cast<void>(forget.with(most_ended).run() && forget_waits.run());
+  SqliteStatement forget_stills(database_, "DELETE FROM stills WHERE job < (SELECT min(id) FROM jobs)");
+  static_cast<void>(forget.with(most_ended).run() && forget_waits.run() && forget_stills.run());
   return true;
 }
 
@@ -227,6 +252,26 @@ bool JobHistory::record_wait(std::int64_t id, const HistoryWait& wait) {
                          "INSERT INTO waits (job, number, at, code, line, tool, words) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.with(id).with(noted).with(wait.at).with(wait.code).with(std::int64_t{wait.line});
   return judge(insert.with(std::int64_t{wait.tool.value_or(no_tool)}).with(wait.words).run());
+}
+
+bool JobHistory::record_still(std::int64_t id, std::string_view moment, double now, std::string_view jpeg) {
+  if (jpeg.size() > largest_still) return false;
+  is_kept_ = false;
+  SqliteStatement insert(database_,
+                         "INSERT INTO stills (job, at, moment, jpeg) SELECT ?1, ?2, ?3, ?4"
+                         " WHERE (SELECT count(*) FROM jobs WHERE id = ?1) = 1"
+                         " AND (SELECT count(*) FROM stills WHERE job = ?1) < ?5");
+  insert.with(id).with(now).with(moment).with_bytes(jpeg).with(most_stills);
+  if (!judge(insert.run()) || sqlite3_changes(database_) != 1) return false;
+  SqliteStatement forget(database_, "DELETE FROM stills WHERE id <= (SELECT max(id) FROM stills) - ?");
+  static_cast<void>(forget.with(most_kept_stills).run());
+  return true;
+}
+
+std::optional<std::string> JobHistory::still(std::int64_t id) const {
+  SqliteStatement select(database_, "SELECT jpeg FROM stills WHERE id = ?");
+  select.with(id);
+  return select.step() ? std::optional(select.text()) : std::nullopt;
 }
 
 bool JobHistory::remove(std::int64_t id) {

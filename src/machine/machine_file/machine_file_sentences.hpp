@@ -41,5 +41,6 @@ inline constexpr SentenceRow park_without_plane{"machine.park.no-plane", "a park
 inline constexpr SentenceRow park_without_place{"machine.park.no-place", "at_end = \"park\" needs a park position"};
 inline constexpr SentenceRow end_without_z{"machine.park.no-z",
                                            "Z moves first at the end of a program, but the machine has no axis Z"};
+inline constexpr SentenceRow camera_url{"machine.camera.url", "{key} is not a plain http address"};
 
 }  // namespace passo::machine_file_says

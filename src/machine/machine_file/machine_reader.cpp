@@ -7,6 +7,7 @@
 
 #include "axis_keys.hpp"
 #include "board_reader.hpp"
+#include "camera_reader.hpp"
 #include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
 #include "homing_reader.hpp"
@@ -116,6 +117,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* hooks = top.table("hooks", "a table [hooks]", Need::optional);
+  const TomlEntry* camera = top.table("camera", "a table [camera]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -131,6 +133,7 @@ MachineDescription MachineReader::read() {
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (hooks != nullptr) read_hooks_of(*hooks);
+  if (camera != nullptr) check_camera(*camera, reporter_, end);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }

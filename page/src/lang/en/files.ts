@@ -41,6 +41,8 @@ export const files = {
   'files.job.stopped': 'Stopped',
   'files.job.failed': 'Failed',
   'files.job.interrupted': 'Interrupted',
+  'files.still.start': '{name} at the start',
+  'files.still.end': '{name} at the end',
   'files.alarms': 'Alarms',
   'files.alarms.none': 'No alarms so far.',
   // Proposals

@@ -44,6 +44,8 @@ export const files: Same<typeof en> = {
   'files.job.stopped': 'Arrêté',
   'files.job.failed': 'En échec',
   'files.job.interrupted': 'Interrompu',
+  'files.still.start': '{name} au début',
+  'files.still.end': '{name} à la fin',
   'files.alarms': 'Alarmes',
   'files.alarms.none': 'Aucune alarme jusqu’ici.',
   // Proposals

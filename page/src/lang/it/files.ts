@@ -44,6 +44,8 @@ export const files: Same<typeof en> = {
   'files.job.stopped': 'Fermato',
   'files.job.failed': 'Fallito',
   'files.job.interrupted': 'Interrotto',
+  'files.still.start': '{name} all’inizio',
+  'files.still.end': '{name} alla fine',
   'files.alarms': 'Allarmi',
   'files.alarms.none': 'Finora nessun allarme.',
   // Proposals

@@ -44,6 +44,8 @@ export const files: Same<typeof en> = {
   'files.job.stopped': '已停止',
   'files.job.failed': '失败',
   'files.job.interrupted': '已中断',
+  'files.still.start': '{name} 开始时',
+  'files.still.end': '{name} 结束时',
   'files.alarms': '报警',
   'files.alarms.none': '至今没有报警。',
   // Proposals

@@ -24,6 +24,7 @@
 #include "passo/grbl/grbl_controller.hpp"
 #include "passo/job/job_identity.hpp"
 #include "passo/job/state_file.hpp"
+#include "passo/machine_file/camera_description.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/transport/service_notice.hpp"
 
@@ -184,6 +185,7 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
       web->follow_board(*things.grbl_board, rate);
     }
     web->share_offsets(grbl);
+    if (const auto camera = parse_camera(things.text)) web->show(*camera);
     if (const auto place = web->broken_off_at(); place && things.simulated != nullptr) {
       things.simulated->stand_in_truth_at(*place);
     }

@@ -170,6 +170,7 @@ void ServedWeb::poll() {
   server_->poll();
   api_.poll();
   boards_.settings.poll();
+  if (camera_) camera_->poll(*server_);
   if (server_->watchers() > 0) publish();
 }
 
@@ -187,6 +188,11 @@ void ServedWeb::publish() {
   told_job_ = api_.job();
   told_mdi_ = api_.mdi_version();
   server_->publish(api_.status_text());
+}
+
+void ServedWeb::show(const CameraDescription& camera) {
+  camera_ = std::make_unique<ServedCamera>(camera);
+  api_.use(camera_->machine_camera());
 }
 
 void ServedWeb::share_offsets(GrblController& grbl) {

@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "page_folder.hpp"
 #include "serve_addresses.hpp"
+#include "served_camera.hpp"
 #include "served_contact.hpp"
 #include "served_journal.hpp"
 #include "served_maker.hpp"
@@ -62,6 +63,8 @@ class ServedWeb {
   void leave() { api_.leave(); }
   const WebApi& api() const { return api_; }
   WebApi& api() { return api_; }
+  // Shows the pictures of the machine's camera.
+  void show(const CameraDescription& camera);
   // Makes senders and programs share the same offsets. `grbl` must outlive this object.
   void share_offsets(GrblController& grbl);
   // The board keeps the work offsets: takes over its own, and writes changed ones to it. It plans the motion, too:
@@ -88,6 +91,7 @@ class ServedWeb {
   ServedMaker maker_;
   ServedStudies studies_;
   ServedTimer timer_;
+  std::unique_ptr<ServedCamera> camera_;  // null: the machine has none
   WebApi api_;
   std::unique_ptr<WebServer> server_;
   std::chrono::steady_clock::time_point published_;

@@ -85,6 +85,43 @@ TEST_F(JobHistoryTest, gives_each_of_many_jobs_its_own_waits) {
   }
 }
 
+TEST_F(JobHistoryTest, keeps_few_stills_of_each_job) {
+  const std::string jpeg("\xff\xd8\0\xff\xd9", 5);
+  {
+    const auto history = open();
+    history->add_running("a.ngc", "linuxcnc", "M2\n", 10);
+    history->add_running("b.ngc", "linuxcnc", "M2\n", 10);
+    EXPECT_TRUE(history->record_still(1, "start", 11, jpeg));
+    EXPECT_TRUE(history->record_still(2, "start", 12, jpeg + "2"));
+    EXPECT_TRUE(history->record_still(1, "end", 13, std::string(JobHistory::largest_still, 'x')));
+    EXPECT_FALSE(history->record_still(1, "end", 14, std::string(JobHistory::largest_still + 1, 'x')));
+    EXPECT_FALSE(history->record_still(3, "start", 15, jpeg)) << "there is no such job";
+    for (int i = 0; i < 20; ++i) history->record_still(2, "end", 16, jpeg);
+  }
+  const auto history = open();
+  const std::vector<HistoryStill> stills = history->find(1)->stills;
+  ASSERT_EQ(stills.size(), 2U);
+  EXPECT_EQ(stills[0].moment, "start");
+  EXPECT_EQ(stills[0].at, 11);
+  EXPECT_EQ(stills[1].moment, "end");
+  EXPECT_EQ(history->still(stills[0].id), jpeg);
+  EXPECT_EQ(history->still(stills[1].id)->size(), JobHistory::largest_still);
+  EXPECT_EQ(history->find(2)->stills.size(), std::size_t{JobHistory::most_stills});
+  EXPECT_FALSE(history->still(999));
+}
+
+TEST_F(JobHistoryTest, deletes_old_stills) {
+  const auto history = open();
+  for (std::int64_t job = 1; job <= JobHistory::most_kept_stills / 2 + 5; ++job) {
+    history->add_running("part.ngc", "linuxcnc", "M2\n", 1);
+    EXPECT_TRUE(history->record_still(job, "start", 1, "jpeg"));
+    EXPECT_TRUE(history->record_still(job, "end", 1, "jpeg"));
+  }
+  EXPECT_EQ(history->find(5)->stills.size(), 0U);
+  EXPECT_EQ(history->find(6)->stills.size(), 2U);
+  EXPECT_FALSE(history->still(1));
+}
+
 TEST_F(JobHistoryTest, keeps_what_waits_and_what_has_ended) {
   {
     const auto history = open();

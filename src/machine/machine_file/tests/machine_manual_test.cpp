@@ -64,6 +64,7 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
                             "[spindle]\n",
                             "[silence]\n",
                             "[work]\n",
+                            "[camera]\n",
                             "[park]\n",
                             "[homing]\n",
                             "[hooks]\n",
@@ -100,7 +101,8 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   EXPECT_GE(seen.size(), 49U);
 
   for (const char* source :
-       {"machine/machine_file/board_reader", "machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
+       {"machine/machine_file/board_reader", "machine/machine_file/camera_reader",
+        "machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
         "machine/machine_file/machine_reader", "machine/machine_file/homing_reader",
         "machine/machine_file/hooks_reader", "machine/machine_file/pins_reader", "machine/machine_file/park_reader",
         "machine/machine_file/screw_reader", "machine/machine_file/tool_change_reader",

@@ -13,6 +13,7 @@ namespace passo {
 
 class BoardFilesApi;
 class CamApi;
+class CameraApi;
 class JobsApi;
 class MachineApi;
 class MachineFileApi;
@@ -28,15 +29,15 @@ struct WebAnswer;
 
 template <class Part>
 using AnswerOf = WebAnswer (Part::*)(const ApiCall& call);
-using ApiHandler =
-    std::variant<AnswerOf<BoardFilesApi>, AnswerOf<CamApi>, AnswerOf<JobsApi>, AnswerOf<MachineApi>,
-                 AnswerOf<MachineFileApi>, AnswerOf<OwnerApi>, AnswerOf<PortsApi>, AnswerOf<ProgramsApi>,
-                 AnswerOf<SettingsApi>, AnswerOf<SmallJobsApi>, AnswerOf<StudiesApi>, AnswerOf<ToolsApi>>;
+using ApiHandler = std::variant<AnswerOf<BoardFilesApi>, AnswerOf<CamApi>, AnswerOf<CameraApi>, AnswerOf<JobsApi>,
+                                AnswerOf<MachineApi>, AnswerOf<MachineFileApi>, AnswerOf<OwnerApi>, AnswerOf<PortsApi>,
+                                AnswerOf<ProgramsApi>, AnswerOf<SettingsApi>, AnswerOf<SmallJobsApi>,
+                                AnswerOf<StudiesApi>, AnswerOf<ToolsApi>>;
 
 // The type of a request's body. `bytes`: any file except JSON.
 enum class BodyKind : std::uint8_t { none, json, program, table, bytes };
 // A service that a server may lack; the request then gets 404.
-enum class Needs : std::uint8_t { nothing, history, maker, ports, settings, studies };
+enum class Needs : std::uint8_t { nothing, camera, history, maker, ports, settings, studies };
 
 struct ApiRoute {
   std::string_view method;

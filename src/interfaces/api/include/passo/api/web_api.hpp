@@ -20,6 +20,7 @@
 
 #include "passo/api/api_job.hpp"
 #include "passo/api/api_options.hpp"
+#include "passo/api/camera.hpp"
 #include "passo/api/machine_control.hpp"
 #include "passo/api/pendant_status.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -66,6 +67,8 @@ class WebApi final : public WebHandler {
   void watch(const WebServer& server);
   // Sets the pendant that the status shows; must outlive the API.
   void watch(const PendantStatus& pendant);
+  // Sets the camera of the machine. Its pictures must outlive the API.
+  void use(const MachineCamera& camera);
   const ApiJob& job() const;
   // Returns the remaining time of the running job, if it is known.
   std::optional<Seconds> time_left() const;

@@ -49,12 +49,16 @@ struct WebAnswer {
   std::string cache = {};     // Cache-Control
   std::string policy = {};    // Content-Security-Policy
   std::string allow = {};     // Allow; empty: none
+  // Not empty: the response is not known yet. The server calls this function often, until it has filled in the response
+  // and returns true. It must do so within a limited time.
+  std::function<bool(WebAnswer& answer)> later = {};
 };
 
 // What a handler does with a request. Found once, when the header is known.
 struct WebService {
   std::size_t longest_body = 0;                                     // bytes; a longer body is refused, and not read
   bool is_stream = false;                                           // the stream for WebSocket clients is here
+  bool is_pictures = false;                                         // the stream of pictures is here
   std::function<WebAnswer(const WebRequest& request)> answer = {};  // called once the body is read
 };
 
@@ -77,6 +81,7 @@ struct WebLimits {
   std::size_t connections = 700;
   std::size_t watchers = 600;                     // maximum number of stream clients; the other connections are
                                                   // reserved for requests
+  std::size_t viewers = 8;                        // maximum number of clients of the picture stream
   std::size_t large_bodies = 4;                   // maximum number of large bodies at the same time
   std::size_t small_body = std::size_t{1} << 16;  // bytes; a longer body is a large body
   std::size_t message = std::size_t{1} << 14;     // maximum message length of a stream client, bytes
@@ -104,9 +109,13 @@ class WebServer {
   void poll(int steps = 256);
   // Sends a new message to all stream clients, each at most as often as it has requested (?hz=1 to 60, default 10).
   void publish(std::string message);
+  // Sends a JPEG to all clients of the picture stream (multipart/x-mixed-replace). A client that has not read the
+  // previous one yet skips pictures, and gets the newest one then.
+  void show(std::shared_ptr<const std::string> jpeg);
 
   std::size_t connections() const;
   std::size_t watchers() const;  // number of stream connections
+  std::size_t viewers() const;   // number of connections of the picture stream
   std::uint64_t requests() const;
   std::uint64_t refused() const;  // number of refused requests and connections
   std::uint64_t skipped() const;  // number of messages skipped for slow clients

@@ -34,4 +34,7 @@ std::optional<Destination> destination_named(std::string_view name);
 Result<std::string, Sentence> go_to_program(Destination destination, const MachineDescription& machine,
                                             const SavedParameters& saved, const Frame& frame);
 
+// The same to X and Y of a place that is seen by the camera: Z to the top, then X and Y.
+Result<std::string, Sentence> go_over_program(const Point& place, const MachineDescription& machine);
+
 }  // namespace passo

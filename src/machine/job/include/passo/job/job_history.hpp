@@ -37,6 +37,13 @@ struct HistoryWait {
   friend bool operator==(const HistoryWait&, const HistoryWait&) = default;
 };
 
+// A picture that a camera has taken of a job.
+struct HistoryStill {
+  std::int64_t id = 0;
+  double at = 0;
+  std::string moment;  // "start" or "end"
+};
+
 struct HistoryJob {
   std::int64_t id = 0;
   std::string name;
@@ -50,6 +57,7 @@ struct HistoryJob {
   double begun_at = 0;
   double ended_at = 0;
   std::vector<HistoryWait> waits;
+  std::vector<HistoryStill> stills;
 };
 
 struct HistoryAlarm {
@@ -63,7 +71,10 @@ class JobHistory {
   static constexpr std::size_t most_queued = 256;
   static constexpr std::int64_t most_ended = 10'000;  // older ones are deleted
   static constexpr std::int64_t most_alarms = 10'000;
-  static constexpr std::int64_t most_waits = 32;  // per job; later ones are not recorded
+  static constexpr std::int64_t most_waits = 32;                       // per job; later ones are not recorded
+  static constexpr std::int64_t most_stills = 8;                       // per job; later ones are not recorded
+  static constexpr std::int64_t most_kept_stills = 400;                // of all jobs; older ones are deleted
+  static constexpr std::size_t largest_still = std::size_t{1} << 20U;  // bytes; larger ones are not recorded
 
   // Opens or creates the file. The error is a sentence with the reason: the file is damaged, belongs to a newer
   // version, or is in use by another process.
@@ -87,6 +98,10 @@ class JobHistory {
   bool begin(std::int64_t id, double now);
   bool end(std::int64_t id, HistoryState state, std::string_view why, double now, std::string_view why_sentence = {});
   bool record_wait(std::int64_t id, const HistoryWait& wait);
+  // Records a JPEG. Returns false if it is too large, the job is unknown, or it cannot be written.
+  bool record_still(std::int64_t id, std::string_view moment, double now, std::string_view jpeg);
+  // Returns the JPEG of a still. Empty: there is no such still, or it was deleted.
+  std::optional<std::string> still(std::int64_t id) const;
   // Removes a waiting job from the queue. Returns false if it is not waiting.
   bool remove(std::int64_t id);
   bool record_alarm(std::string_view words, double now, std::string_view sentence = {});
@@ -109,6 +124,7 @@ class JobHistory {
   bool run(const char* sql) const;
   std::vector<HistoryJob> jobs(const char* where, std::int64_t value) const;
   void add_waits(std::vector<HistoryJob>& jobs, const char* where, std::int64_t value) const;
+  void add_stills(std::vector<HistoryJob>& jobs, const char* where, std::int64_t value) const;
   struct End {
     std::int64_t id = 0;
     HistoryState state = HistoryState::done;
