@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { durationText } from '../src/core/time';
 import { placeText, readLength, speedText, units } from '../src/core/units';
-import { inWork, turned } from '../src/machine/place';
+import type { Status } from '../src/machine/api';
+import { status } from '../src/machine/connection';
+import { inWork, turned, workPlace } from '../src/machine/place';
 
 describe('units', () => {
   it('shows a place in mm and in inches, never a negative zero', () => {
@@ -41,5 +43,16 @@ describe('the place in the work', () => {
     expect(close(inWork({ x: 10, a: 4 }, { x: 1 }, 30))).toEqual([9, 4]);
     const [x, y] = turned(...turned(3, 4, 12.5), -12.5);
     expect([x, y]).toEqual([expect.closeTo(3, 9), expect.closeTo(4, 9)]);
+  });
+
+  it('is that of the program while one runs, with the offset of its tool', () => {
+    const told = (program_zero: Status['program_zero']): Record<string, number> => {
+      status.value = { place: { x: 5, z: 30 }, work_offset: { x: 1, z: 2 }, program_zero } as unknown as Status;
+      return workPlace.value;
+    };
+    expect(told(null)).toEqual({ x: 4, z: 28 });
+    expect(told({ x: 1, z: 27 })).toEqual({ x: 4, z: 3 });
+    expect(told(undefined)).toEqual({ x: 4, z: 28 });
+    status.value = null;
   });
 });

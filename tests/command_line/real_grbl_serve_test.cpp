@@ -23,7 +23,7 @@ class ServeOnRealGrbl : public test::ServedHttp {
   }
   // A small router, as a machine file made for such a board.
   std::vector<std::string> on(const std::string& board) const {
-    return {"--machine", PASSO_SOURCE_DIR "/examples/machines/router.toml", "--board", board};
+    return {"--machine", machine_, "--board", board, "--grbl-tcp", "127.0.0.1:0"};
   }
   bool serve_uno(const std::vector<std::string>& more = {}) {
     const std::string program = test::built_uno(path(""));
@@ -156,6 +156,7 @@ class ServeOnRealGrbl : public test::ServedHttp {
     })) << status();
   }
 
+  std::string machine_ = PASSO_SOURCE_DIR "/examples/machines/router.toml";
   std::vector<std::string> settings_;
   std::string address_;
   std::string key_;
@@ -196,6 +197,76 @@ TEST_F(ServeOnRealGrbl, grbl_on_an_uno_homes_probes_and_survives_a_power_cut_and
   EXPECT_EQ(status()["lost_place"], true);
   post("/home");
   ASSERT_TRUE(until([&] { return status()["trust"] == "homed"; })) << status();
+}
+
+// The tool setter is at the board's own probe input, 3 mm below the place after homing, which is Z-1: any tool touches
+// at Z-4, and is 0.5 mm long. The board gets no M6, no G43 and no G49.
+class ToolChangeOnRealGrbl : public ServeOnRealGrbl {
+ protected:
+  bool serve_homed() {
+    settings_ = {"$22=1", "$27=1"};
+    machine_ = write("m.toml", test::read(machine_) +
+                                   "\n[tool_change]\nway = 'setter'\nsafe_z_mm = -1.5\nchange_at_mm = [-2, -2]\n"
+                                   "measure_at_mm = [-4, -3]\nwindow_mm = [-6, -3]\nseek_mm_s = 5\nlatch_mm_s = 1\n"
+                                   "retract_mm = 0.5\nlengths = 'absolute'\nnose_z_mm = -4.5\n");
+    if (!serve_uno({"--switch-at", "X:500", "--switch-at", "Y:500", "--switch-at", "Z:250", "--probe-at", "Z:-750"})) {
+      return false;
+    }
+    key_ = new_key();
+    post("/home");
+    EXPECT_TRUE(until([&] { return status()["trust"] == "homed"; })) << status();
+    return true;
+  }
+  // Sets the probe input. The board reports it a little later.
+  void close_setter(bool is_closed) {
+    board_->write(is_closed ? "probe 1\n" : "probe 0\n");
+    EXPECT_TRUE(until([&] { return status()["inputs"]["probe"] == is_closed; })) << status();
+  }
+  void expect_at(double x, double z) const {
+    EXPECT_NEAR(status()["place"]["x"], x, 0.01);
+    EXPECT_NEAR(status()["place"]["z"], z, 0.01);
+  }
+  void run_a_job_with_two_tools() {
+    begin("G21 G90\nT1 M6\nG1 Z-2 X-3 F600\nT2 M6\nG0 Z-2.5\nM2\n");
+    ASSERT_TRUE(until_state("Tool")) << status();
+    EXPECT_EQ(status()["waits_for_tool"], 1);
+    expect_at(-2, -1);
+    // The setter is closed already: Passo asks again, and touches nothing.
+    close_setter(true);
+    post("/operator-done");
+    ASSERT_TRUE(until([&] { return status().dump().find("closed already") != std::string::npos; })) << status();
+    ASSERT_TRUE(until_state("Tool")) << status();
+    close_setter(false);
+    post("/operator-done");
+    ASSERT_TRUE(until([&] { return state() == "Tool" && status()["waits_for_tool"] == 2; })) << status();
+    EXPECT_NEAR(status()["measured_tool"]["length"], 0.5, 0.01);
+    post("/operator-done");
+    ASSERT_TRUE(until_job("done")) << status();
+    expect_at(-3, -2);  // Z-2.5 with a tool that is 0.5 mm long
+  }
+  // A sender, in Grbl's dialect: it reads the message, and continues with `~`.
+  void change_a_tool_by_a_sender() {
+    ask("DELETE", "/api/v1/owner", "", key_);
+    test::RealTalker sender(connected("tcp:127.0.0.1:"));
+    EXPECT_THAT(sender.listen(2, std::chrono::seconds(3)), HasSubstr("Grbl 1.1"));
+    std::string said = sender.ask("G21 G90\nT1 M6\nG0 X-2.5 Z-3\n", 1);
+    for (int i = 0; i < 100 && said.find("[MSG:put tool 1 into") == std::string::npos; ++i) {
+      said += sender.listen(1, std::chrono::milliseconds(200));
+    }
+    EXPECT_THAT(said, HasSubstr("[MSG:put tool 1 into the spindle, then continue]"));
+    ASSERT_TRUE(until_state("Tool")) << status();
+    said = sender.ask("~", 1);
+    ASSERT_TRUE(until([&] { return std::abs(status()["place"]["z"].get<double>() + 2.5) < 0.01; })) << said << status();
+    ASSERT_TRUE(until_state("Idle")) << status();
+    expect_at(-2.5, -2.5);
+    EXPECT_THAT(sender.ask("$#\n", 12), HasSubstr("[TLO:0.500]"));
+  }
+};
+
+TEST_F(ToolChangeOnRealGrbl, grbl_on_an_uno_measures_its_tools_in_a_job_and_for_a_sender) {
+  if (!serve_homed()) GTEST_SKIP() << "grbl_on_uno does not build here: libsimavr is missing";
+  ASSERT_NO_FATAL_FAILURE(run_a_job_with_two_tools());
+  change_a_tool_by_a_sender();
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class Resumed : public passo::test::ServedBoard {
     const pid_t run = fork();
     if (run == 0) {
       const std::string line =
-          std::string("exec ") + PASSO_PROGRAM + " " + command() + " >/dev/null 2>" + path("run.err");
+          std::string("exec ") + PASSO_PROGRAM + " " + command() + " >" + path("run.out") + " 2>" + path("run.err");
       execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
       _exit(1);
     }
@@ -116,6 +116,7 @@ TEST_F(Resumed, after_it_was_killed_twice_it_ends_where_it_would_have_ended) {
 
 TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
   EXPECT_EQ(run_until(8, SIGINT), 130);
+  EXPECT_EQ(read(path("run.out")), "") << "a script reads no summary of a run that has not ended";
   const std::string said = read(path("run.err"));
   EXPECT_NE(said.find("stopping on the path"), std::string::npos) << said;
   EXPECT_NE(said.find("interrupted; the machine is stopped at X"), std::string::npos) << said;

@@ -265,6 +265,60 @@ TEST_F(ServeKilled, at_random_moments_misses_no_job_in_its_history) {
   }
 }
 
+// Killed twice in a cut. The board outlives the server; the tool's life, the history and the place are as in a run that
+// nobody has killed.
+TEST_F(ServeKilled, in_a_cut_keeps_the_life_of_the_tool_the_history_and_the_place) {
+  const std::string machine = PASSO_SOURCE_DIR "/examples/machines/router.toml";
+  const std::string board = ServedBoard::serve("", machine);
+  const std::vector<std::string> options = {"--data", path("data"), "-m", machine, "--board", board};
+  const auto x = [&] { return json("GET", "/status")["place"]["x"].get<double>(); };
+  const auto tool = [&] {
+    const auto all = json("GET", "/tools");
+    for (const auto& one : all["tools"]) {
+      if (one["number"] == 3) return one;
+    }
+    return nlohmann::json{{"cut_mm", 0.0}, {"cut_s", 0.0}};
+  };
+  const auto cut = [&] { return tool()["cut_mm"].get<double>(); };
+  serve(options);
+  std::string key = new_key();
+  json("POST", "/position", R"({"place": {"x": 0, "y": 0, "z": 0}})", key);
+  run(key, "G21 G90 G61 T3 M6\nM3 S1000\nG1 X40 F1800\nG1 Y6\nG1 X0.5\nG0 Y0.25\nM2\n");
+  ASSERT_TRUE(until([&] { return json("GET", "/status")["waits_for_tool"] == 3; })) << json("GET", "/status");
+  json("POST", "/operator-done", "", key);
+  double cut_before = 0;
+  for (const double moment : {15.0, 30.0}) {
+    ASSERT_TRUE(until([&] { return x() > moment; })) << json("GET", "/status");
+    end(SIGKILL);
+    serve(options);
+    key = new_key();
+    const auto told = json("GET", "/interrupted")["interrupted"];
+    ASSERT_EQ(told["goes_on"], true) << told;
+    EXPECT_EQ(told["line"], 3);
+    EXPECT_EQ(json("GET", "/status")["state"], "Idle") << "nothing moves by itself";
+    const double rests_at = x();
+    EXPECT_GT(rests_at, moment);
+    EXPECT_GT(cut(), cut_before);
+    EXPECT_LE(cut(), rests_at + 0.01) << "not more than it has cut";
+    cut_before = cut();
+    json("POST", "/interrupted/resume", "", key);
+  }
+  ASSERT_TRUE(until([&] { return state_of_job() == "done"; })) << json("GET", "/status");
+  EXPECT_NEAR(cut(), 40 + 6 + 39.5, 0.01);
+  EXPECT_NEAR(tool()["cut_s"].get<double>(), (40 + 6 + 39.5) / 30, 1) << "each start and stop of the motion takes time";
+  EXPECT_EQ(json("GET", "/history")["jobs"].size(), 1U);
+  EXPECT_EQ(json("GET", "/history")["jobs"][0]["state"], "done");
+  EXPECT_TRUE(json("GET", "/interrupted")["interrupted"].is_null());
+  end(SIGKILL);
+  serve(options);
+  EXPECT_TRUE(json("GET", "/interrupted")["interrupted"].is_null()) << "nothing is left of the journal";
+  EXPECT_NEAR(cut(), 40 + 6 + 39.5, 0.01);
+  end();
+  const auto counts = nlohmann::json::parse(passo("board info --json " + board).out)["status"]["positions"];
+  EXPECT_EQ(counts[0], 320);
+  EXPECT_EQ(counts[1], 160);
+}
+
 // A name in its own letters: in the API, in the history, and of a file that is made of a drawing.
 TEST_F(ServeTroubles, keeps_names_in_their_own_letters) {
   serve({"--data", path("data")});

@@ -59,4 +59,63 @@ TEST_F(ToolChanges, end_with_the_reason_if_nothing_touches) {
   EXPECT_THAT(outcome.err, HasSubstr("stopped at X380.000 Y-280.000 Z50.000"));
 }
 
+// The probe input of the emulated chip is the tool setter or the touch plate, and its firmware captures the contacts.
+// The ways are short, because an emulated chip is slow.
+std::string with_a_change_nearby(const std::string& machine, const std::string& way) {
+  std::string text = read(checkout + "/examples/machines/" + machine + ".toml");
+  const std::size_t rate = text.find("150_000");  // events a second: too many for a Mega
+  if (rate != std::string::npos) text.replace(rate, 7, "100_000");
+  return text + "\n[tool_change]\n" + way +
+         "safe_z_mm = 0.5\nwindow_mm = [-3, -0.1]\nseek_mm_s = 10\nlatch_mm_s = 2\nretract_mm = 0.2\n";
+}
+const std::string setter_nearby =
+    "way = 'setter'\nchange_at_mm = [0, 0.5]\nmeasure_at_mm = [1, 0]\nwear_mm = 0.1\n"
+    "lengths = 'absolute'\nnose_z_mm = -1\n";
+const std::string plate_nearby = "way = 'plate'\nchange_at_mm = [0.5, 0.5]\nlengths = 'work'\n";
+
+// The plate lies at the work's X0: 0.3 mm lower for the second tool.
+TEST_F(ToolChanges, are_the_same_on_emulated_boards) {
+  struct Change {
+    std::string board;
+    std::string machine;
+    std::string way;
+    int touches;
+    int z_steps;
+  };
+  const std::string program = write("p.ngc", "G21 G90\nT1 M6\nG0 X1 Z0\nG10 L2 P1 X2\nT2 M6\nG0 X-1 Z0\nM2\n");
+  for (const Change& one : {Change{"sim:uno", "uno", setter_nearby, 8, 640 / 2},
+                            {"sim:uno", "uno", plate_nearby, 4, -640 * 3 / 10},
+                            {"sim:mega", "uno", setter_nearby, 8, 640 / 2},
+                            {"sim:mega", "uno", plate_nearby, 4, -640 * 3 / 10},
+                            {"sim:pico", "pico", setter_nearby, 8, 640 / 2}}) {
+    SCOPED_TRACE(one.board + " " + one.way);
+    const std::string run = "run " + program +
+                            " --json --yes --from-here --touch X:1.5,Z:-0.5 --touch X1.5:,Z:-0.8 -m " +
+                            write("m.toml", with_a_change_nearby(one.machine, one.way));
+    const Outcome alone = passo(run);
+    ASSERT_EQ(alone.code, 0) << alone.err;
+    const auto expected = nlohmann::json::parse(alone.out);
+    const Outcome emulated = passo(run + " --board " + one.board);
+    if (passo::test::lacks_an_emulator(emulated)) continue;
+    ASSERT_EQ(emulated.code, 0) << emulated.err;
+    const auto json = nlohmann::json::parse(emulated.out);
+    EXPECT_EQ(json["probes"]["touched"], one.touches) << "with wear_mm the used tools, too";
+    EXPECT_EQ(json["probes"]["last_contact_mm"], expected["probes"]["last_contact_mm"]);
+    EXPECT_EQ(json["steps"]["X"]["net"], 640);
+    EXPECT_EQ(json["steps"]["Y"]["net"], 0);
+    EXPECT_EQ(json["steps"]["Z"]["net"], one.z_steps) << "Z0 with the length that was found";
+  }
+}
+
+TEST_F(ToolChanges, end_on_an_emulated_board_if_the_setter_is_closed_already) {
+  const std::string program = write("p.ngc", "G21 G90\nT1 M6\nM2\n");
+  const std::string machine = write("m.toml", with_a_change_nearby("uno", setter_nearby));
+  const Outcome outcome =
+      passo("run " + program + " --yes --from-here -m " + machine + " --touch X0.9:2 --board sim:uno");
+  if (passo::test::lacks_an_emulator(outcome)) GTEST_SKIP() << outcome.err;
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("gcode.tool-not-measured"));
+  EXPECT_THAT(outcome.err, HasSubstr("the tool setter is closed already"));
+}
+
 }  // namespace

@@ -100,10 +100,13 @@ TEST_F(Waiting, what_the_program_says_is_told_where_it_waits) {
 // The first loop is never through the check; the second one is, and runs for days.
 TEST_F(Waiting, a_program_without_end_is_ended_by_ctrl_c_at_rest_and_writes_nothing) {
   for (const std::string endless : {"o1 while [1]\nG1 X1 F600\nX0\no1 endwhile\nM2\n", "G1 X1 F6\nX0\nM99\n"}) {
-    const std::string run = "run -q --passes 5000000 " + write("p.ngc", endless) + on_router + "-r " + path("r.txt");
-    const std::string line = "(sleep 2; kill -INT $$) & exec " PASSO_PROGRAM " " + run + " 2>" + path("err");
+    const std::string run =
+        "run --json --passes 5000000 " + write("p.ngc", endless) + on_router + "-r " + path("r.txt");
+    const std::string line =
+        "(sleep 2; kill -INT $$) & exec " PASSO_PROGRAM " " + run + " >" + path("out") + " 2>" + path("err");
     const int status = std::system(("sh -c '" + line + "'").c_str());
     EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
+    EXPECT_EQ(passo::test::read(path("out")), "") << "no summary of an unfinished run";
     EXPECT_THAT(passo::test::read(path("err")), HasSubstr("nothing was written"));
     EXPECT_EQ(files(), std::vector<std::string>{});
   }

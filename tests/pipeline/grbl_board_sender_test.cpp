@@ -1,4 +1,6 @@
-// A sender on a machine whose motion a Grbl board plans: the settings that it reads and writes are the board's.
+// A sender on a machine whose motion a Grbl board plans: the settings that it reads and writes are the board's, and its
+// M6 measures the tool by the board's probe moves.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "passo/grbl/grbl_controller.hpp"
+#include "passo/interpreter/tool_change_plan.hpp"
 
 namespace passo::test {
 namespace {
@@ -15,7 +18,7 @@ using testing::HasSubstr;
 
 class GrblBoardSender : public testing::Test {
  protected:
-  GrblBoardSender() {
+  explicit GrblBoardSender(const MachineDescription& machine = example_machine("router")) : run(machine) {
     EXPECT_TRUE(run.go_online());
     options_.dialect = Dialect::grbl;
     program_.emplace(run.description, options_, Point());
@@ -55,7 +58,7 @@ class GrblBoardSender : public testing::Test {
     return all;
   }
 
-  GrblSessionRun run{example_machine("router")};
+  GrblSessionRun run;
   InterpreterOptions options_;
   std::optional<StreamedProgram> program_;
   std::optional<GrblController> grbl_;
@@ -172,6 +175,57 @@ TEST_F(GrblBoardSender, hears_of_a_lost_connection) {
     all += said();
   }
   EXPECT_THAT(all, HasSubstr("error:"));
+}
+
+MachineDescription router_with_setter() {
+  ToolChangePlan plan;
+  plan.safe_z = 10;
+  plan.change_at = MachineXy{4, 0};
+  plan.measure_at = MachineXy{-6, -5};
+  plan.window_low = -20;
+  plan.window_high = 0;
+  plan.seek = MmPerSecond(25);
+  plan.latch = MmPerSecond(2);
+  plan.retract = 1;
+  plan.use = LengthUse::absolute;
+  plan.setter_z = -10;
+  MachineDescription machine = example_machine("router");
+  machine.tool_change = std::make_shared<const ToolChangePlan>(plan);
+  return machine;
+}
+
+class GrblBoardToolChange : public GrblBoardSender {
+ protected:
+  GrblBoardToolChange() : GrblBoardSender(router_with_setter()) {
+    run.grbl.probe = [](const Point& place) {
+      return std::abs(place[Axis::x] + 6) < 1 && std::abs(place[Axis::y] + 5) < 1 && place[Axis::z] <= -7;
+    };
+  }
+  // What the controller says until these words have come.
+  std::string hear(const std::string& words) {
+    std::string all;
+    for (int i = 0; i < 6000 && all.find(words) == std::string::npos; ++i) {
+      turn();
+      all += said();
+    }
+    return all;
+  }
+};
+
+TEST_F(GrblBoardToolChange, measures_after_the_senders_cycle_start_and_continues) {
+  // As the web interface does: what the board reports may never have been homed.
+  EXPECT_THAT(ask("T1 M6"), HasSubstr("error:"));
+  ASSERT_TRUE(run.session.request(request::SetPosition{{.place = run.session.status().position.place}}));
+  for (int i = 0; i < 10; ++i) turn();
+  grbl_->receive("G21 G90\nT1 M6\nG0 X1 Z2\n");
+  EXPECT_THAT(hear("then continue]"), HasSubstr("[MSG:put tool 1 into the spindle, then continue]"));
+  EXPECT_NEAR(run.grbl.place()[Axis::z], 10, 1e-6);
+  grbl_->receive("~");
+  EXPECT_TRUE(settles_at(1, 0));
+  EXPECT_NEAR(run.grbl.place()[Axis::x], 1, 5e-3) << run.session.trouble_words();
+  EXPECT_NEAR(run.grbl.place()[Axis::z], 5, 0.02) << "Z2 with a tool that is 3 mm long";
+  EXPECT_EQ(run.port.sent.find("M6"), std::string::npos);
+  EXPECT_EQ(run.port.sent.find("G43"), std::string::npos);
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ export interface Status {
   lost_place: boolean; // no program starts
   place: Place;
   work_offset?: Place;
+  program_zero?: Place | null; // of the program's coordinates, with the tool's offset; null: no program moves
   work_rotation?: number; // degrees about Z
   speed: number;
   line: number;

@@ -8,7 +8,9 @@ export const axes = stable<string[]>(() => machine.value?.axes.map((one) => one.
 export const machinePlace = stable<Place>(() => status.value?.place ?? {});
 export const workOffset = stable<Place>(() => status.value?.work_offset ?? {});
 export const workRotation = stable<number>(() => status.value?.work_rotation ?? 0); // degrees about Z
-export const workPlace = stable<Place>(() => inWork(machinePlace.value, workOffset.value, workRotation.value));
+// A program has zeros of its own: other work coordinate systems, and the offsets of its tools.
+const zeroNow = stable<Place>(() => status.value?.program_zero ?? workOffset.value);
+export const workPlace = stable<Place>(() => inWork(machinePlace.value, zeroNow.value, workRotation.value));
 
 // The work's X and Y may be turned about Z: machine = offset + turned(work).
 export function inWork(place: Place, offset: Place, degrees: number): Place {

@@ -45,7 +45,7 @@ export function Position() {
           <span class="unit">{speedUnit()}</span>
         </span>
         {measured != null && (
-          <span data-testid="measured-tool">
+          <span class="measured" data-testid="measured-tool">
             <span class="dim">{say('run.tool', { tool: measured.tool })}</span> <b class="figure">{placeText('z', measured.length)}</b>{' '}
             <span class="unit">{lengthUnit()}</span>
           </span>

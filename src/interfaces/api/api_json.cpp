@@ -138,6 +138,7 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
                {"speed", rounded(status.speed_now.value() * seconds_per_minute)},
                {"line", status.executes.line},
                {"line_to", std::max(status.executes.to, status.executes.line)},
+               {"program_zero", status.executes.work_zero ? as_json(machine, *status.executes.work_zero) : Json()},
                {"board_file", status.executes.board_file.empty() ? Json() : Json(status.executes.board_file)},
                {"progress", status.progress ? Json(rounded(*status.progress)) : Json()},
                {"outputs",

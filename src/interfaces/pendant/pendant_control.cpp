@@ -312,7 +312,8 @@ PendantView PendantControl::view() const {
       .feed = status.speed_now.value() * seconds_per_minute,
       .spindle = status.outputs.spindle == SpindleDirection::off ? 0 : status.outputs.revolutions_per_minute};
   // A display has no room for a rotation.
-  const Json offset = told.value("work_offset", Json());
+  const Json in_program = told.value("program_zero", Json());
+  const Json offset = in_program.is_object() ? in_program : told.value("work_offset", Json());
   view.is_machine_place = !offset.is_object() || told.value("work_rotation", 0.0) != 0;
   if (view.is_machine_place) return view;
   for (const AxisDescription& axis : to_.machine.axes) {

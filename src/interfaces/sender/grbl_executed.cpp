@@ -65,13 +65,20 @@ double grbl_distance(const Curve& curve, const Point& place) {
   return nearest;
 }
 
-void GrblExecuted::add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines) {
-  pieces_.push_back({.curve = curve, .source = source, .time = time, .dwell = dwell_, .lines = lines});
+void GrblExecuted::add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines,
+                       const Point& work_zero) {
+  pieces_.push_back(
+      {.curve = curve, .source = source, .time = time, .dwell = dwell_, .lines = lines, .work_zero = work_zero});
   dwell_ = Seconds(0);
 }
 
-void GrblExecuted::pass() {
+void GrblExecuted::enter() {
   now_ = pieces_.front().source;
+  work_zero_ = pieces_.front().work_zero;
+}
+
+void GrblExecuted::pass() {
+  enter();
   time_ += pieces_.front().dwell + pieces_.front().time;
   pieces_.pop_front();
   share_ = 0;
@@ -103,7 +110,7 @@ void GrblExecuted::hear(std::uint64_t answered, std::size_t blocks, const Point&
     const auto share = share_reached(pieces_[i].curve, place, i == 0 ? share_ : 0);
     if (!share) continue;
     for (std::size_t passed = 0; passed < i; ++passed) pass();
-    now_ = pieces_.front().source;
+    enter();
     share_ = *share;
     held -= i;
     break;

@@ -419,7 +419,10 @@ MachineStatus GrblMachineSession::status() const {
   if (work.feed) {
     status.executes = work.progress.executed.source();
     status.executes.to = work.progress.executed.last_line();
-    if (work.program) status.measured_tool = work.program->measured_tool();
+    if (work.program) {
+      status.measured_tool = work.program->measured_tool();
+      if (status.executes.line != 0) status.executes.work_zero = work.progress.executed.work_zero();
+    }
     if (work.start && work.start->nominal_time > Seconds(0)) {
       status.progress = std::min(1.0, work.progress.reached / work.start->nominal_time);
     }

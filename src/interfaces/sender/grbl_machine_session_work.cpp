@@ -71,7 +71,7 @@ void GrblMachineSession::make_feed() {
     const Seconds time = work.feed->leads_in() ? Seconds(0) : nominal_time_of(item, limits);
     if (const auto* segment = std::get_if<Segment>(&item)) {
       work.progress.executed.add(segment->curve, segment->source, time,
-                                 work.progress.lines_before + work.feed->lines_written());
+                                 work.progress.lines_before + work.feed->lines_written(), segment->work_zero);
     } else {
       work.progress.executed.add_dwell(time);
     }

@@ -171,6 +171,7 @@ class LeadIn {
                     .speed = speed.value_or(MmPerSecond(std::numeric_limits<double>::infinity()))};
     segment.rapid = !speed;
     segment.mode = PathMode::exact_stop;
+    segment.work_zero = at_.work_zero;
     segment.source.line = at_.line;
     way_.lead_in.emplace_back(segment);
     now_ = place;

@@ -48,6 +48,7 @@ class Passed {
       note_speed(*segment);
       point_.point = segment->curve.end();
       point_.downs = segment->downs;
+      point_.work_zero = segment->work_zero;
       waits_ = false;
       return;
     }
@@ -139,6 +140,7 @@ class PointFinder {
       if (segment == nullptr || place.s >= segment->curve.length()) return {};
       point_.point = segment->tool_at(place.s);
       point_.downs = segment->downs;
+      point_.work_zero = segment->work_zero;
       beside = segment->curve.at(place.s) - point_.point;
     }
     path_.rewind(place);
@@ -201,6 +203,7 @@ std::vector<PathItem> way_back_of_probe(const ResumePoint& point, const Point& f
   if (!point.probe || from == point.point) return {};
   Segment segment{.curve = Curve::line(from, point.point), .speed = point.probe->speed};
   segment.mode = PathMode::exact_stop;
+  segment.work_zero = point.work_zero;
   segment.source.line = point.line;
   return {segment};
 }

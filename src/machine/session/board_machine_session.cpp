@@ -236,7 +236,7 @@ void BoardMachineSession::on_standstill() {
   if (!board_.standstill() || board_.error()) return;
   if (!busy()) return board_.fail(LinkError::stood_still);
   if (!work_->is_program() || work_->checker || work_->standstill_line) return;
-  work_->standstill_line = work_->ahead.line_at(clock_of(*work_)).line;
+  work_->standstill_line = work_->ahead.line_at(clock_of(*work_)).source.line;
 }
 
 // An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
@@ -343,8 +343,12 @@ MachineStatus BoardMachineSession::status() const {
   if (!status.progress) status.progress = work_->activity->progress();
   status.committed = drive.committed();
   status.outputs = drive.outputs();
-  status.executes = work_->ahead.line_at(clock_of(*work_));
-  if (work_->program != nullptr) status.measured_tool = work_->program->measured_tool();
+  const PlannedLine& line = work_->ahead.line_at(clock_of(*work_));
+  status.executes = line.source;
+  if (work_->program != nullptr) {
+    status.measured_tool = work_->program->measured_tool();
+    if (line.source.line != 0) status.executes.work_zero = line.work_zero;
+  }
   if (const auto& wait = drive.waits_for()) {
     status.waits_for = OperatorWait{.kind = wait->kind,
                                     .tool = wait->tool,

@@ -1,5 +1,5 @@
-// PlannedAhead: the planned but not yet executed motion of a work item. The data of a planned part (its line, its share
-// of the program) take effect at the time at which the board executes that part. Private to session/.
+// PlannedAhead: the planned but not yet executed motion of a work item. The data of a planned part (its line, its zero,
+// its share of the program) take effect at the time at which the board executes that part. Private to session/.
 #pragma once
 
 #include <algorithm>
@@ -16,27 +16,37 @@
 
 namespace passo {
 
+// A program line, and the zero of the work coordinate system for its motion.
+struct PlannedLine {
+  OperationSource source;
+  Point work_zero;
+
+  bool is_as(const PlannedLine& other) const {
+    return source.line == other.source.line && source.line_number == other.source.line_number &&
+           work_zero == other.work_zero;
+  }
+};
+
 // The program lines of the planned motion, with the start times of their motion.
 class LinesAhead {
  public:
-  void plan(const OperationSource& line, Seconds begins, Seconds now) {
+  void plan(const PlannedLine& line, Seconds begins, Seconds now) {
     static_cast<void>(at(now));
-    const OperationSource& last = ahead_.empty() ? now_ : ahead_.back().line;
-    if (line.line == last.line && line.line_number == last.line_number) return;
+    if (line.is_as(ahead_.empty() ? now_ : ahead_.back().line)) return;
     ahead_.push_back({.line = line, .begins = begins});
   }
-  const OperationSource& at(Seconds time) {
+  const PlannedLine& at(Seconds time) {
     for (; !ahead_.empty() && ahead_.front().begins <= time; ahead_.pop_front()) now_ = ahead_.front().line;
     return now_;
   }
 
  private:
   struct Planned {
-    OperationSource line;
+    PlannedLine line;
     Seconds begins{0};
   };
   std::deque<Planned> ahead_;
-  OperationSource now_;
+  PlannedLine now_;
 };
 
 class PlannedAhead {
@@ -49,7 +59,7 @@ class PlannedAhead {
   }
   void plan(const PlannedMove& move, const MotionLimits& limits, Seconds begins, Seconds ends, Seconds now) {
     place_ = move.segment.tool_at(move.to);
-    lines_.plan(move.segment.source, begins, now);
+    lines_.plan({.source = move.segment.source, .work_zero = move.segment.work_zero}, begins, now);
     progress_.plan(nominal_time_of(move, limits), begins, ends, now);
   }
   void plan(const Action& action, Seconds begins, Seconds ends, Seconds now) {
@@ -59,7 +69,7 @@ class PlannedAhead {
 
   // The end of the planned path.
   const Point& place() const { return place_; }
-  const OperationSource& line_at(Seconds time) { return lines_.at(time); }
+  const PlannedLine& line_at(Seconds time) { return lines_.at(time); }
   // Returns the fraction of the program executed at that time, 0 to 1. `left_out`: the nominal time before the point
   // where the motion began. Empty: no progress is reported.
   std::optional<double> progress_at(Seconds time, Seconds left_out) {

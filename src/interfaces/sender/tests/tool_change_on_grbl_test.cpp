@@ -57,6 +57,10 @@ TEST_F(ToolChangeOnGrbl, measures_and_goes_on_with_the_length) {
   ASSERT_TRUE(ticket);
   fit(1);
   fit(2);
+  ASSERT_TRUE(run->play([&] { return run->grbl.place()[Axis::x] > 7; }));
+  const auto zero = run->session.status().executes.work_zero;
+  ASSERT_TRUE(zero);
+  EXPECT_NEAR((*zero)[Axis::z], 7.5, 0.02) << "positions are shown with the length";
   ASSERT_TRUE(run->play([&] { return run->answer_to(*ticket).has_value(); }));
   EXPECT_EQ(run->answer_to(*ticket)->outcome, Outcome::done) << run->session.trouble_words();
   EXPECT_NEAR(run->grbl.place()[Axis::x], 9, 1e-3);

@@ -11,12 +11,17 @@ Action dwell(double seconds) {
 
 TEST(PlannedAhead, tells_the_line_whose_motion_is_made) {
   LinesAhead lines;
-  lines.plan({.line = 3}, Seconds(1), Seconds(0));
-  lines.plan({.line = 3}, Seconds(2), Seconds(0));
-  lines.plan({.line = 4}, Seconds(3), Seconds(0));
-  EXPECT_EQ(lines.at(Seconds(0.5)).line, 0U);
-  EXPECT_EQ(lines.at(Seconds(2.5)).line, 3U);
-  EXPECT_EQ(lines.at(Seconds(3)).line, 4U);
+  Point zero;
+  zero[Axis::z] = 2;
+  lines.plan({.source = {.line = 3}}, Seconds(1), Seconds(0));
+  lines.plan({.source = {.line = 3}}, Seconds(2), Seconds(0));
+  lines.plan({.source = {.line = 4}}, Seconds(3), Seconds(0));
+  lines.plan({.source = {.line = 4}, .work_zero = zero}, Seconds(4), Seconds(0));
+  EXPECT_EQ(lines.at(Seconds(0.5)).source.line, 0U);
+  EXPECT_EQ(lines.at(Seconds(2.5)).source.line, 3U);
+  EXPECT_EQ(lines.at(Seconds(3)).source.line, 4U);
+  EXPECT_EQ(lines.at(Seconds(3.5)).work_zero, Point());
+  EXPECT_EQ(lines.at(Seconds(4)).work_zero, zero) << "the same line, run again with another offset";
 }
 
 TEST(PlannedAhead, tells_the_progress_of_a_program_that_has_a_nominal_time) {

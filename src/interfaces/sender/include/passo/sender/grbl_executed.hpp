@@ -26,8 +26,10 @@ class GrblExecuted {
  public:
   // Sets an observer of each piece that is executed to its end, in order.
   void watch_passed(std::function<void()> watcher) { passed_ = std::move(watcher); }
-  // Adds a piece of path, whose last line is the `lines`-th of all lines of the sender. `time`: its nominal time.
-  void add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines);
+  // Adds a piece of path, whose last line is the `lines`-th of all lines of the sender. `time`: its nominal time;
+  // `work_zero`: the zero of the work coordinate system for it.
+  void add(const Curve& curve, const OperationSource& source, Seconds time, std::uint64_t lines,
+           const Point& work_zero = {});
   // Adds a dwell before the next piece.
   void add_dwell(Seconds time) { dwell_ += time; }
   // `answered`: how many lines were answered; `blocks`: how many of them the machine may still hold.
@@ -37,6 +39,8 @@ class GrblExecuted {
 
   // The line that is executed, or that was executed last. Line 0: none yet.
   const OperationSource& source() const { return now_; }
+  // Its zero of the work coordinate system, machine coordinates.
+  const Point& work_zero() const { return work_zero_; }
   // The last line that the machine may be executing.
   std::uint32_t last_line() const { return last_line_; }
   // The nominal time of what is executed, including the part of the present piece. `dwell_left`: how long the machine
@@ -50,13 +54,16 @@ class GrblExecuted {
     Seconds time{0};
     Seconds dwell{0};  // before it
     std::uint64_t lines = 0;
+    Point work_zero;
   };
+  void enter();  // the first piece
   void pass();
   bool has_begun() const;  // the first piece
 
   std::function<void()> passed_;
   std::deque<Piece> pieces_;
   OperationSource now_;
+  Point work_zero_;
   std::uint32_t last_line_ = 0;
   Seconds time_{0};
   Seconds dwell_{0};  // after the last piece

@@ -35,6 +35,7 @@ struct ResumePoint {
   Seconds spindle_wait{0};
   bool in_thread = false;  // the path there is locked to the spindle's angle, so it cannot be entered there
   std::uint32_t line = 0;  // the program line at which the job continues; 0: at its end
+  Point work_zero{};       // zero of the work coordinate system of the last move, machine coordinates
   // The last commanded state, for the path to that point.
   std::int32_t tool = 0;                   // tool of the last tool change; 0: there was none
   MmPerSecond feed{0};                     // 0: there was no feed move

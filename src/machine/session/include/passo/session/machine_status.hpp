@@ -55,6 +55,9 @@ struct ExecutedLine : OperationSource {
   std::uint32_t to = 0;
   // The board runs this file of its own storage: its lines are not known here. Empty: there is none.
   std::string board_file = {};
+  // In a program: the zero of its coordinates at that line, machine coordinates. It includes the tool's offset. Empty:
+  // not known yet.
+  std::optional<Point> work_zero = {};
 };
 
 struct MachineStatus {
