@@ -77,7 +77,7 @@ TEST_F(PicoHandwheel, counts_every_edge_at_a_million_events_a_second) {
   EXPECT_EQ(static_cast<std::int32_t>(told.count), pico.wheel.position());
 }
 
-// Noise of 400 kHz at a line costs neither steps nor the answers of the board, and counts next to nothing.
+// Noise of 400,000 edges a second at a line costs neither steps nor the answers of the board, and counts next to nothing.
 TEST_F(PicoHandwheel, is_not_stopped_by_noise) {
   std::mt19937_64 random(test::seed());
   TurnedPico pico(1);

@@ -9,6 +9,7 @@
 #include "board_reader.hpp"
 #include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
+#include "handwheel_reader.hpp"
 #include "homing_reader.hpp"
 #include "hooks_reader.hpp"
 #include "machine_file_sentences.hpp"
@@ -68,6 +69,7 @@ class MachineReader {
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_park_of(const TomlEntry& entry);
   void read_hooks_of(const TomlEntry& entry);
+  void read_handwheel_of(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -116,6 +118,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* hooks = top.table("hooks", "a table [hooks]", Need::optional);
+  const TomlEntry* handwheel = top.table("handwheel", "a table [handwheel]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -131,6 +134,7 @@ MachineDescription MachineReader::read() {
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (hooks != nullptr) read_hooks_of(*hooks);
+  if (handwheel != nullptr) read_handwheel_of(*handwheel);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
@@ -214,6 +218,14 @@ void MachineReader::read_hooks_of(const TomlEntry& entry) {
   const TomlTable& table = std::get<TomlTable>(entry.value.content);
   TableReader reader(table, "hooks", entry.place, reporter_);
   machine_.hooks = read_hooks(reader, table);
+  finish(reader);
+}
+
+// Called when all axes are known.
+void MachineReader::read_handwheel_of(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "handwheel", entry.place, reporter_);
+  machine_.handwheel = read_handwheel(reader, machine_.axes);
+  machine_.handwheel->place = entry.place;
   finish(reader);
 }
 
