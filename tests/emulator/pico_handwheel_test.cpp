@@ -36,7 +36,7 @@ class TurnedPico {
     };
   }
   void draw(bool a, bool b) {
-    bench.press((a ? 0 : gpio_bit(pico_mpg.wheel_a)) | (b ? 0 : gpio_bit(pico_mpg.wheel_b)) | selected);
+    bench.press((a ? 0 : gpio_bit(pico_mpg.wheel.a)) | (b ? 0 : gpio_bit(pico_mpg.wheel.b)) | selected);
   }
   HandwheelCount stop_and_ask() {
     bench.at_cycle = {};
@@ -77,7 +77,8 @@ TEST_F(PicoHandwheel, counts_every_edge_at_a_million_events_a_second) {
   EXPECT_EQ(static_cast<std::int32_t>(told.count), pico.wheel.position());
 }
 
-// Noise of 400,000 edges a second at a line costs neither steps nor the answers of the board, and counts next to nothing.
+// Noise of 400,000 edges a second at a line costs neither steps nor the answers of the board, and counts next to
+// nothing.
 TEST_F(PicoHandwheel, is_not_stopped_by_noise) {
   std::mt19937_64 random(test::seed());
   TurnedPico pico(1);
@@ -99,9 +100,9 @@ TEST_F(PicoHandwheel, tells_its_selectors_and_a_missed_edge) {
   TurnedPico pico(1);
   EXPECT_EQ(pico.stop_and_ask().selected, 0);
   const std::pair<std::uint8_t, int> selectors[] = {
-      {pico_mpg.wheel_axes[0], handwheel_axis},      {pico_mpg.wheel_axes[1], handwheel_axis << 1},
-      {pico_mpg.wheel_axes[2], handwheel_axis << 2}, {pico_mpg.wheel_axes[3], handwheel_axis << 3},
-      {pico_mpg.wheel_tenfold, handwheel_tenfold},   {pico_mpg.wheel_hundredfold, handwheel_hundredfold}};
+      {pico_mpg.wheel.axes[0], handwheel_axis},      {pico_mpg.wheel.axes[1], handwheel_axis << 1},
+      {pico_mpg.wheel.axes[2], handwheel_axis << 2}, {pico_mpg.wheel.axes[3], handwheel_axis << 3},
+      {pico_mpg.wheel.tenfold, handwheel_tenfold},   {pico_mpg.wheel.hundredfold, handwheel_hundredfold}};
   for (const auto& [gpio, bit] : selectors) {
     pico.selected = gpio_bit(gpio);
     pico.draw(true, true);

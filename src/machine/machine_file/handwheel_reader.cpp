@@ -35,8 +35,10 @@ bool read_wheel_positions(std::string_view text, std::string_view letters, Handw
 
 }  // namespace
 
-HandwheelDescription read_handwheel(TableReader& reader, const std::vector<AxisDescription>& axes) {
-  HandwheelDescription wheel;
+HandwheelDescription read_handwheel(const TomlEntry& entry, const std::vector<AxisDescription>& axes,
+                                    const TomlReporter& reporter, const std::function<void(TableReader&)>& finish) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "handwheel", entry.place, reporter);
+  HandwheelDescription wheel{.place = entry.place};
   const std::string letters = letters_of_axes(axes);
   const std::string usual = letters.substr(0, HandwheelDescription::positions);
   const std::string order = reader.text(wheel_axes_key, usual, Need::optional).value_or(usual);
@@ -53,6 +55,7 @@ HandwheelDescription read_handwheel(TableReader& reader, const std::vector<AxisD
   wheel.step = reader.number(wheel_step_key, Need::optional).value_or(wheel.step);
   if (const auto percent = reader.number(wheel_speed_key, Need::optional)) wheel.share = *percent / 100;
   wheel.is_reversed = reader.flag("reversed").value_or(false);
+  finish(reader);
   return wheel;
 }
 

@@ -69,7 +69,6 @@ class MachineReader {
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_park_of(const TomlEntry& entry);
   void read_hooks_of(const TomlEntry& entry);
-  void read_handwheel_of(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -134,7 +133,7 @@ MachineDescription MachineReader::read() {
   read_homing(homing);
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (hooks != nullptr) read_hooks_of(*hooks);
-  if (handwheel != nullptr) read_handwheel_of(*handwheel);
+  if (handwheel != nullptr) machine_.handwheel = read_handwheel(*handwheel, machine_.axes, reporter_, end);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }
@@ -218,14 +217,6 @@ void MachineReader::read_hooks_of(const TomlEntry& entry) {
   const TomlTable& table = std::get<TomlTable>(entry.value.content);
   TableReader reader(table, "hooks", entry.place, reporter_);
   machine_.hooks = read_hooks(reader, table);
-  finish(reader);
-}
-
-// Called when all axes are known.
-void MachineReader::read_handwheel_of(const TomlEntry& entry) {
-  TableReader reader(std::get<TomlTable>(entry.value.content), "handwheel", entry.place, reporter_);
-  machine_.handwheel = read_handwheel(reader, machine_.axes);
-  machine_.handwheel->place = entry.place;
   finish(reader);
 }
 

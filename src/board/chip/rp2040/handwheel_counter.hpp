@@ -21,7 +21,7 @@ class HandwheelCounter {
     if (exists()) counter_.begin(lines());
   }
   static void listen() {
-    if (exists()) gpio_interrupts(pins.wheel_a) = gpio_interrupts(pins.wheel_a) | edges;
+    if (exists()) gpio_interrupts(pins.wheel.a) = gpio_interrupts(pins.wheel.a) | edges;
   }
 
   // Call in each turn of the main loop.
@@ -29,7 +29,7 @@ class HandwheelCounter {
     if (!exists()) return;
     interrupts_off();
     if (left_ == 0) {
-      gpio_edges(pins.wheel_a) = edges;
+      gpio_edges(pins.wheel.a) = edges;
       counter_.update(lines());
       listen();
     }
@@ -38,16 +38,16 @@ class HandwheelCounter {
   }
   // Handles the pin interrupt. The edges are forgotten before the pins are read, so that none is missed.
   [[gnu::always_inline]] static void moved() {
-    if (!exists() || (gpio_edges(pins.wheel_a) & edges) == 0) return;
-    gpio_edges(pins.wheel_a) = edges;
+    if (!exists() || (gpio_edges(pins.wheel.a) & edges) == 0) return;
+    gpio_edges(pins.wheel.a) = edges;
     counter_.update(lines());
     if (left_ == 0) return;
     left_ = left_ - 1;
-    if (left_ == 0) gpio_interrupts(pins.wheel_a) = gpio_interrupts(pins.wheel_a) & ~edges;
+    if (left_ == 0) gpio_interrupts(pins.wheel.a) = gpio_interrupts(pins.wheel.a) & ~edges;
   }
   // The bits of the edges that moved() forgets itself, in the register of this pin.
   static constexpr uint32_t edges_beside(uint32_t gpio) {
-    return exists() && gpio / 8 == pins.wheel_a / 8U ? edges : 0;
+    return exists() && gpio / 8 == pins.wheel.a / 8U ? edges : 0;
   }
 
   static HandwheelCount count() {
@@ -60,22 +60,22 @@ class HandwheelCounter {
  private:
   static constexpr uint32_t most_edges = 32;
   static constexpr uint32_t edges =
-      edge_bits(pins.wheel_a, edge_low | edge_high) | edge_bits(pins.wheel_b, edge_low | edge_high);
+      edge_bits(pins.wheel.a, edge_low | edge_high) | edge_bits(pins.wheel.b, edge_low | edge_high);
 
   [[gnu::always_inline]] static uint8_t lines() {
     const uint32_t levels = GpioIn::read();
-    return static_cast<uint8_t>(((levels & gpio_bit(pins.wheel_a)) != 0 ? QuadratureCounter::line_a : 0) |
-                                ((levels & gpio_bit(pins.wheel_b)) != 0 ? QuadratureCounter::line_b : 0));
+    return static_cast<uint8_t>(((levels & gpio_bit(pins.wheel.a)) != 0 ? QuadratureCounter::line_a : 0) |
+                                ((levels & gpio_bit(pins.wheel.b)) != 0 ? QuadratureCounter::line_b : 0));
   }
   // A selector that is on connects its input to ground.
   static uint8_t selected() {
     const uint32_t levels = GpioIn::read();
     uint32_t on = 0;
     for (uint32_t i = 0; i < handwheel_axes; ++i) {
-      if ((levels & gpio_bit(pins.wheel_axes[i])) == 0) on |= uint32_t{handwheel_axis} << i;
+      if ((levels & gpio_bit(pins.wheel.axes[i])) == 0) on |= uint32_t{handwheel_axis} << i;
     }
-    if ((levels & gpio_bit(pins.wheel_tenfold)) == 0) on |= handwheel_tenfold;
-    if ((levels & gpio_bit(pins.wheel_hundredfold)) == 0) on |= handwheel_hundredfold;
+    if ((levels & gpio_bit(pins.wheel.tenfold)) == 0) on |= handwheel_tenfold;
+    if ((levels & gpio_bit(pins.wheel.hundredfold)) == 0) on |= handwheel_hundredfold;
     return static_cast<uint8_t>(on);
   }
 
