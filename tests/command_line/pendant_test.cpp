@@ -1,6 +1,8 @@
 // A pendant at `passo serve`: a pseudo-terminal stands for /dev/hidraw0, in a folder with system files.
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "kit/served_http.hpp"
@@ -104,6 +106,16 @@ TEST_F(Pendants, that_are_wrong_are_refused_with_the_reason) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, testing::HasSubstr("mine.toml:8:13"));
   EXPECT_THAT(wrong.err, testing::HasSubstr("[pendant.wrong-list]"));
+}
+
+TEST_F(Pendants, at_a_board_without_pins_for_them_are_refused_with_the_place) {
+  std::ifstream example(PASSO_SOURCE_DIR "/examples/machines/uno.toml");
+  const std::string machine(std::istreambuf_iterator<char>(example), {});
+  const std::string file = write("wheel.toml", machine + "\n[handwheel]\n");
+  const auto refused = passo("serve --http 127.0.0.1:0 --board sim:uno -m " + file);
+  EXPECT_EQ(refused.code, 3) << refused.err;
+  EXPECT_THAT(refused.err, testing::HasSubstr("wheel.toml:"));
+  EXPECT_THAT(refused.err, testing::HasSubstr("the board sim:uno has no pins for a handwheel [board.no-handwheel]"));
 }
 
 TEST_F(Pendants, are_watched) {

@@ -23,11 +23,14 @@ PicoBench::PicoBench(const std::string& program, std::uint8_t motors, const Pico
 }
 
 void PicoBench::run(std::uint64_t cycles, std::uint32_t watched, std::uint32_t rises) {
-  if (!pico_->run(pico_->cycle() + cycles, {.watched = watched, .rises = rises})) {
-    throw std::runtime_error(pico_->error());
-  }
-  for (const PicoChange& change : pico_->changes()) changes_.push_back({change.cycle, change.levels ^ inverted_});
-  for (const std::uint8_t byte : pico_->said()) hear(byte);
+  const std::uint64_t end = pico_->cycle() + cycles;
+  do {
+    if (at_cycle && pico_->cycle() >= next_call_) next_call_ = at_cycle(pico_->cycle());
+    const std::uint64_t until = at_cycle ? std::min(end, next_call_) : end;
+    if (!pico_->run(until, {.watched = watched, .rises = rises})) throw std::runtime_error(pico_->error());
+    for (const PicoChange& change : pico_->changes()) changes_.push_back({change.cycle, change.levels ^ inverted_});
+    for (const std::uint8_t byte : pico_->said()) hear(byte);
+  } while (at_cycle && pico_->cycle() < end && rises == 0);
 }
 
 void PicoBench::hear(std::uint8_t byte) {
@@ -51,6 +54,7 @@ void PicoBench::hear(std::uint8_t byte) {
     case MessageType::captured: return decode(frame, motors_, captured_.emplace());
     case MessageType::pin_setup: return decode(frame, made_.emplace());
     case MessageType::status: return decode(frame, motors_, status_.emplace());
+    case MessageType::turned: return decode(frame, turned_.emplace());
     case MessageType::error: decode(frame, error_.emplace()); [[fallthrough]];
     default: ++complaints_;
   }
@@ -72,6 +76,7 @@ void PicoBench::ask(const Ask& question) {
   Ask asked = question;
   asked.motors = motors_;
   status_.reset();
+  turned_.reset();
   send({frame, encode(asked, 0, frame)});
 }
 

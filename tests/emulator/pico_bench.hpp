@@ -38,6 +38,8 @@ class PicoBench {
   // Lets time pass, whatever the board says, or until so many edges of the pins in `watched` have come.
   void run(std::uint64_t cycles, std::uint32_t watched = 0, std::uint32_t rises = 0);
   void ask(const Ask& question = {});
+  // If set, called at the cycle that its last call returned, at first soon: something happens at the pins.
+  std::function<std::uint64_t(std::uint64_t cycle)> at_cycle;
   // Says what is connected to the board's pins, now and before each hello, and connects it: all switches are off. From
   // now on press(), levels(), duty() and changes() mean what is on, and usual levels.
   void set_up(const PinSetup& setup);
@@ -59,6 +61,7 @@ class PicoBench {
   const std::optional<Fault>& fault() const { return fault_; }
   const std::optional<Captured>& captured() const { return captured_; }
   void forget_captured() { captured_.reset(); }
+  const std::optional<Turned>& turned() const { return turned_; }
   // What the board has made of set_up().
   const std::optional<PinSetup>& made() const { return made_; }
 
@@ -87,8 +90,10 @@ class PicoBench {
   std::optional<Fault> fault_;
   std::optional<Captured> captured_;
   std::optional<BoardStatus> status_;
+  std::optional<Turned> turned_;
   std::optional<ErrorReport> error_;
   std::optional<PinSetup> made_;
+  std::uint64_t next_call_ = 0;  // of at_cycle
 };
 
 }  // namespace passo

@@ -42,6 +42,7 @@ export interface Pendant {
   continuous: boolean;
   step: number; // mm or degrees for a detent; 0: none is selected
   share: number; // of the highest speed, in continuous mode
+  missed?: number; // edges that a handwheel at the board's pins made too fast to be counted
   refusal: string; // why its last action was refused; empty: it was not
   refusal_sentence: Sentence;
 }

@@ -206,6 +206,12 @@ void BoardSession::ask(Question question) {
   say(Ask{.motors = handshake_.positions(), .question = question, .limit = limit}, number);
 }
 
+void BoardSession::ask_for_handwheel() {
+  if (!ready() || awaits_handwheel()) return;
+  const std::uint8_t number = handwheel_.put(questions_.number(), now());
+  say(Ask{.motors = handshake_.positions(), .question = Question::handwheel}, number);
+}
+
 void BoardSession::handle(const WireFrame& frame) {
   switch (frame.type) {
     case MessageType::hello_reply: {
@@ -306,6 +312,7 @@ void BoardSession::handle(const BoardStatus& status) {
     error_ = LinkError::manual;
     return;
   }
+  handwheel_.record_status(status.answers);
   const bool is_asked_for_more = questions_.last() == Question::spindle && status.answers == questions_.number();
   if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder, Question::spindle);
   if (mirror_.update_inputs(status, probe_.input())) news_ = true;
@@ -353,6 +360,10 @@ void BoardSession::on_progress(const Credit& credit, std::uint8_t answers) {
 
 void BoardSession::handle(const Turned& turned) {
   if (handshake_.before_hello()) return;
+  if (handwheel_.record(turned)) {
+    news_ = true;
+    return;
+  }
   questions_.record_turned(turned);
   on_answer(turned.progress.taken);
   on_progress(turned.progress, turned.answers);

@@ -36,6 +36,7 @@ void BoardSession::forget_what_was(ItemNumber number) {
   window_.begin(number);
   questions_.forget();
   questions_.begin(number);
+  handwheel_.forget();
   mirror_.forget_events();
   probe_ = {};
   refusals_ = doubts_ = 0;

@@ -189,6 +189,7 @@ Json as_json(const PendantStatus& pendant) {
           {"continuous", pendant.is_continuous},
           {"step", rounded(pendant.step)},
           {"share", rounded(pendant.share)},
+          {"missed", pendant.missed},
           {"refusal", pendant.refusal.text},
           {"refusal_sentence", as_json(pendant.refusal)}};
 }
@@ -359,6 +360,16 @@ Json park_json(const ParkDescription& park) {
   return {{"x", (*park.place)[Axis::x]}, {"y", (*park.place)[Axis::y]}};
 }
 
+Json handwheel_json(const HandwheelDescription& wheel) {
+  Json axes = Json::array();
+  for (const auto& axis : wheel.axes) axes.push_back(axis ? Json(axis_key(*axis)) : Json());
+  return {{"axes", std::move(axes)},
+          {"counts_per_detent", wheel.counts_per_detent},
+          {"step", wheel.step},
+          {"share", wheel.share},
+          {"reversed", wheel.is_reversed}};
+}
+
 }  // namespace
 
 Json as_json(const CameraStatus& camera) {
@@ -390,6 +401,7 @@ Json machine_json(const MachineDescription& machine, const MachineAbilities& abi
           {"top", machine.top_of_travel() ? Json(*machine.top_of_travel()) : Json()},
           {"park", park_json(machine.park)},
           {"camera", camera_json(camera)},
+          {"handwheel", machine.handwheel ? handwheel_json(*machine.handwheel) : Json()},
           {"abilities", abilities_json(abilities)}};
 }
 

@@ -184,6 +184,14 @@ std::string describe_tool_change(const ToolChangePlan& plan) {
   return line + "\n";
 }
 
+std::string describe_handwheel(const HandwheelDescription& wheel) {
+  std::string axes;
+  for (const auto& axis : wheel.axes) axes += axis ? letter_of(*axis) : '-';
+  return fmt::format("handwheel       axes {}, {:g} mm or degrees for {}, times 1, 10 and 100; up to {:g} %{}\n", axes,
+                     wheel.step, counted(static_cast<std::size_t>(wheel.counts_per_detent), "count"), wheel.share * 100,
+                     wheel.is_reversed ? ", reversed" : "");
+}
+
 std::string describe_hooks(const ProgramHooks& hooks) {
   if (hooks.empty()) return "";
   const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
@@ -217,6 +225,7 @@ std::string describe(const MachineDescription& machine) {
   out += describe_homing(machine);
   if (machine.tool_change) out += describe_tool_change(*machine.tool_change);
   out += describe_hooks(machine.hooks);
+  if (machine.handwheel) out += describe_handwheel(*machine.handwheel);
   out += describe_park(machine.park);
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) {
     out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor) +

@@ -10,6 +10,7 @@
 #include "camera_reader.hpp"
 #include "core_xy_check.hpp"
 #include "encoder_reader.hpp"
+#include "handwheel_reader.hpp"
 #include "homing_reader.hpp"
 #include "hooks_reader.hpp"
 #include "machine_file_sentences.hpp"
@@ -118,6 +119,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* tool_change = top.table("tool_change", "a table [tool_change]", Need::optional);
   const TomlEntry* hooks = top.table("hooks", "a table [hooks]", Need::optional);
   const TomlEntry* camera = top.table("camera", "a table [camera]", Need::optional);
+  const TomlEntry* handwheel = top.table("handwheel", "a table [handwheel]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -134,6 +136,7 @@ MachineDescription MachineReader::read() {
   const auto end = [this](TableReader& inner) { finish(inner); };
   if (hooks != nullptr) read_hooks_of(*hooks);
   if (camera != nullptr) check_camera(*camera, reporter_, end);
+  if (handwheel != nullptr) machine_.handwheel = read_handwheel(*handwheel, machine_.axes, reporter_, end);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
   return std::move(machine_);
 }

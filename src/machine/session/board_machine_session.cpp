@@ -315,7 +315,7 @@ bool BoardMachineSession::busy() const {
 // A board that is greeted anew is waited for: the time of an emulated one passes only meanwhile.
 bool BoardMachineSession::works() const {
   const bool is_greeted = !board_.ready() && !board_.error();
-  return busy() || state_ == MachineState::offline || is_greeted;
+  return busy() || state_ == MachineState::offline || is_greeted || board_.awaits_handwheel();
 }
 
 MachineStatus BoardMachineSession::status() const {

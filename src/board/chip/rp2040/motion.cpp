@@ -28,6 +28,8 @@ struct Hardware {
   void enable() { PicoWiring::enable_motors(true); }
   static bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
+  static constexpr bool has_handwheel() { return HandwheelCounter::exists(); }
+  static HandwheelCount handwheel() { return HandwheelCounter::count(); }
   void watch();
   static bool can_watch(uint8_t limits) { return PicoWiring::can_watch(limits); }
   static PinSetup set_up(const PinSetup& wanted);
@@ -144,6 +146,7 @@ void run_once() {
   look_at_inputs();
   if (take_tick<100'000>()) board().count_silence();
   SpindleCounter::poll();
+  HandwheelCounter::poll();
   board().settle();
   PicoPlayer::end();
   PicoPlayer::refill();

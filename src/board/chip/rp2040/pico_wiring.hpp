@@ -1,6 +1,7 @@
 // PicoWiring: all pins except the motors', taken from the pin map: switches and outputs.
 #pragma once
 
+#include "handwheel_counter.hpp"
 #include "pico_player.hpp"
 #include "registers.hpp"
 #include "spindle_counter.hpp"
@@ -46,6 +47,7 @@ class PicoWiring {
     pwm(slice, pwm_csr) = 1;
     gpio_ctrl(pins.spindle_pwm) = function_pwm;
     SpindleCounter::prepare();
+    HandwheelCounter::prepare();
   }
 
   // Sets the pin levels that a host specifies, for the pins that exist. Returns the levels set. Call only at
@@ -135,6 +137,7 @@ class PicoWiring {
     was_closed_ = closed;
     for (const PicoInput& input : pico_inputs) listen(input, stopping, watched);
     SpindleCounter::listen();
+    HandwheelCounter::listen();
     interrupts_on();
   }
   // Returns the inputs that stop the motors, as bits of BoardInput.
@@ -146,6 +149,7 @@ class PicoWiring {
     if ((on & stops_) != 0 && filter_ == 0 && !StepStream::dry()) PicoPlayer::halt();
     if (watched_ != 0 && ((on & watched_) != 0) != was_closed_ && PicoPlayer::capture()) captured_ = on;
     SpindleCounter::index_moved();
+    HandwheelCounter::moved();
     forget_edges();
   }
 
@@ -200,7 +204,9 @@ class PicoWiring {
         (gpio_interrupts(input.gpio) & ~edge_bits(input.gpio, 15)) | edge_bits(input.gpio, edges);
   }
   [[gnu::always_inline]] static void forget_edges() {
-    for (uint32_t gpio = 0; gpio < gpio_count; gpio += 8) gpio_edges(gpio) = 0xcccccccc;
+    for (uint32_t gpio = 0; gpio < gpio_count; gpio += 8) {
+      gpio_edges(gpio) = 0xcccccccc & ~HandwheelCounter::edges_beside(gpio);
+    }
   }
 
   static inline volatile uint32_t stops_ = 0;

@@ -40,6 +40,19 @@ TEST(PicoPins, an_encoder_on_a_pin_that_cannot_count_is_found) {
   EXPECT_FALSE(lathe.is_sound()) << "one slice cannot do both";
 }
 
+TEST(PicoPins, a_handwheel_that_is_not_whole_is_found) {
+  PicoPins mpg = pico_mpg;
+  EXPECT_TRUE(mpg.is_sound());
+  mpg.wheel.tenfold = no_gpio;
+  EXPECT_FALSE(mpg.is_sound());
+  mpg = pico_mpg;
+  mpg.wheel.axes[3] = mpg.probe;
+  EXPECT_FALSE(mpg.is_sound()) << "a pin has two jobs";
+  mpg = pico_mpg;
+  mpg.wheel.b = 29;
+  EXPECT_FALSE(mpg.is_sound()) << "one register does not have both edges";
+}
+
 TEST(PicoPins, bits_of_motors_count_from_the_first_pin) {
   EXPECT_EQ(pico_bare.steps_of(0b000001), 1U << (2 - 2));
   EXPECT_EQ(pico_bare.steps_of(0b100000), 1U << (12 - 2));

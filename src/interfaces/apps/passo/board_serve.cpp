@@ -80,6 +80,7 @@ int board_serve(const BoardServeArguments& arguments) {
   unsigned motors = usual_motors;
   BoardDescription board{.clock = Hertz(usual_clock), .highest_event_rate = Hertz(0)};
   PinSetup wiring;
+  bool has_wheel = false;
   if (!arguments.machine.empty()) {
     Diagnostics diagnostics;
     const std::optional<MachineDescription> description = load_machine_file(arguments.machine, diagnostics);
@@ -89,6 +90,7 @@ int board_serve(const BoardServeArguments& arguments) {
     motors = std::max(motors, static_cast<unsigned>(description->motor_count()));
     board = description->board;
     wiring = pin_setup(*description);
+    has_wheel = description->handwheel.has_value();
   }
   motors = arguments.motors.value_or(motors);
   const Hertz clock{arguments.clock.value_or(board.clock.value())};
@@ -98,6 +100,7 @@ int board_serve(const BoardServeArguments& arguments) {
                          static_cast<std::size_t>(board.held_items));
   machine.connect(plant);
   machine.wire(wiring);
+  if (has_wheel) machine.fit_handwheel();
   catch_signals();
   std::signal(SIGUSR1, press_reset);
   fmt::print("Simulated board with {}, {:.0f} ticks/s, at tcp:127.0.0.1:{}\n", counted(motors, "motor"), clock.value(),

@@ -67,6 +67,7 @@ MachineConnection::MachineConnection(const MachineDescription& machine, const Ma
     plant_ = std::make_unique<IdealPlant>();
   }
   fit(*plant_, machine, Point(), wish.touchables);
+  if (machine.handwheel) machine_.fit_handwheel();
   if (rotors_ == nullptr) return;
   fit_rotors(*rotors_, machine);
   for (const Disturbance& disturbance : wish.disturbances) rotors_->disturb(disturbance);

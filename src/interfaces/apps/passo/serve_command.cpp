@@ -202,9 +202,10 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
     if (!status) return code;
   }
   std::unique_ptr<ServedPendant> pendant;
-  if (!arguments.pendant.empty()) {
+  if (machine.handwheel && !web) note("the handwheel acts through the API of --http, which is missing");
+  if (!arguments.pendant.empty() || (machine.handwheel && web)) {
     const PendantMachine moved{.machine = machine, .session = session, .owner = owner, .api = web->api()};
-    pendant = ServedPendant::open(arguments, moved, pendant_status, code);
+    pendant = ServedPendant::open(arguments, moved, pendant_status, things.text, code);
     if (!pendant) return code;
     web->api().watch(pendant_status);
   }

@@ -1,19 +1,46 @@
 #include "served_pendant.hpp"
 
+#include <sstream>
 #include <utility>
 
 #include "program_input.hpp"
 #include <fmt/format.h>
+
+#include "passo/session/board_machine_session.hpp"
 
 namespace passo {
 namespace {
 
 constexpr int most_reports = 64;  // of one look: a device that sends without end does not stop the machine's loop
 
+constexpr Seconds handwheel_answer{1};
+
+std::string line_of_file(const std::string& text, std::uint32_t number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (std::uint32_t i = 0; i < number && std::getline(lines, line); ++i) {
+  }
+  return line;
+}
+
+// The table of the machine file that describes a handwheel which the board does not have.
+Diagnostic missing_handwheel(const ServeArguments& arguments, const HandwheelDescription& wheel,
+                             const std::string& text) {
+  Diagnostic one;
+  one.code = "board.no-handwheel";
+  one.file = arguments.machine;
+  one.place = wheel.place;
+  one.message = fmt::format("the board {} has no pins for a handwheel", arguments.board);
+  one.expected = "a Pico with the image pico_mpg; for another board, remove this table";
+  one.text = line_of_file(text, wheel.place.line);
+  return one;
+}
+
 }  // namespace
 
 std::unique_ptr<ServedPendant> ServedPendant::open(const ServeArguments& arguments, const PendantMachine& machine,
-                                                   PendantStatus& status, int& code) {
+                                                   PendantStatus& status, const std::string& text, int& code) {
+  if (arguments.pendant.empty()) return open_handwheel(arguments, machine, status, text, code);
   Diagnostics diagnostics;
   auto finder = PendantFinder::make(arguments.pendant, arguments.system, diagnostics);
   show(diagnostics);
@@ -26,7 +53,24 @@ std::unique_ptr<ServedPendant> ServedPendant::open(const ServeArguments& argumen
   return pendant;
 }
 
+std::unique_ptr<ServedPendant> ServedPendant::open_handwheel(const ServeArguments& arguments,
+                                                             const PendantMachine& machine, PendantStatus& status,
+                                                             const std::string& text, int& code) {
+  const HandwheelDescription& wheel = *machine.machine.handwheel;
+  BoardMachineSession* const session = machine.session.as_board_session();
+  if (session == nullptr || has_handwheel(session->board(), handwheel_answer) == false) {
+    Diagnostics diagnostics;
+    diagnostics.add(missing_handwheel(arguments, wheel, text));
+    show(diagnostics);
+    code = exit_bad_machine;
+    return nullptr;
+  }
+  auto handwheel = std::make_unique<BoardHandwheel>(wheel, session->board(), machine, status);
+  return std::unique_ptr<ServedPendant>(new ServedPendant(std::move(handwheel), machine, status));
+}
+
 std::string ServedPendant::name() const {
+  if (handwheel_ != nullptr) return "handwheel at the pins of the board";
   return device_ != nullptr ? status_.name : "not connected yet; it may be plugged in at any time";
 }
 
@@ -41,7 +85,7 @@ void ServedPendant::add_to(std::vector<pollfd>& all) const {
 void ServedPendant::search() {
   if (searched_at_ && now() - *searched_at_ < between_searches) return;
   searched_at_ = now();
-  const auto found = finder_.find();
+  const auto found = finder_->find();
   if (!found) return;
   std::string trouble;
   if (found->table == nullptr) {
@@ -75,6 +119,7 @@ void ServedPendant::lose() {
 }
 
 void ServedPendant::poll() {
+  if (handwheel_ != nullptr) return handwheel_->poll(now());
   if (device_ == nullptr) {
     search();
   } else {

@@ -68,6 +68,7 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
                             "[park]\n",
                             "[homing]\n",
                             "[hooks]\n",
+                            "[handwheel]\n",
                             "[tool_change]\n",
                             "[tool_change.rack]\n",
                             "[inputs]\n",
@@ -104,9 +105,10 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
        {"machine/machine_file/board_reader", "machine/machine_file/camera_reader",
         "machine/machine_file/encoder_reader", "machine/machine_file/machine_file",
         "machine/machine_file/machine_reader", "machine/machine_file/homing_reader",
-        "machine/machine_file/hooks_reader", "machine/machine_file/pins_reader", "machine/machine_file/park_reader",
-        "machine/machine_file/screw_reader", "machine/machine_file/tool_change_reader",
-        "machine/machine_file/torque_reader", "core/toml/table_reader", "core/toml/toml_document"}) {
+        "machine/machine_file/hooks_reader", "machine/machine_file/handwheel_reader",
+        "machine/machine_file/pins_reader", "machine/machine_file/park_reader", "machine/machine_file/screw_reader",
+        "machine/machine_file/tool_change_reader", "machine/machine_file/torque_reader", "core/toml/table_reader",
+        "core/toml/toml_document"}) {
     const std::string code = content_of(fmt::format("src/{}.cpp", source));
     for (std::size_t i = code.find("\"machine."); i != std::string::npos; i = code.find("\"machine.", i + 1)) {
       const std::string name = code.substr(i + 1, code.find('"', i + 1) - i - 1);

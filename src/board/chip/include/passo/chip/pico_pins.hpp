@@ -6,6 +6,8 @@
 
 #include <stdint.h>
 
+#include "passo/wire/handwheel_count.hpp"
+
 namespace passo {
 
 inline constexpr uint8_t no_gpio = 0xff;
@@ -20,6 +22,15 @@ constexpr uint32_t gpio_bit(uint8_t gpio) {
 struct PicoMotor {
   uint8_t step = no_gpio;
   uint8_t direction = no_gpio;
+};
+
+// A handwheel: its two lines, and its selectors. Either all of these pins exist, or none.
+struct PicoHandwheel {
+  uint8_t a = no_gpio;
+  uint8_t b = no_gpio;
+  uint8_t axes[handwheel_axes] = {no_gpio, no_gpio, no_gpio, no_gpio};
+  uint8_t tenfold = no_gpio;
+  uint8_t hundredfold = no_gpio;
 };
 
 struct PicoPins {
@@ -42,6 +53,7 @@ struct PicoPins {
   // odd.
   uint8_t encoder_pulses = no_gpio;
   uint8_t encoder_index = no_gpio;
+  PicoHandwheel wheel = {};
   // A serial port in addition to USB.
   uint8_t line_out = no_gpio;
   uint8_t line_in = no_gpio;
@@ -65,8 +77,10 @@ struct PicoPins {
   constexpr uint32_t motor_pins() const { return (uint32_t{steps_of(0xff)} | uint32_t{directions_of(0xff)}) << first; }
   constexpr uint32_t inputs() const {
     uint32_t bits = gpio_bit(probe) | gpio_bit(emergency_stop) | gpio_bit(feed_hold) | gpio_bit(cycle_start) |
-                    gpio_bit(encoder_pulses) | gpio_bit(encoder_index);
+                    gpio_bit(encoder_pulses) | gpio_bit(encoder_index) | gpio_bit(wheel.a) | gpio_bit(wheel.b) |
+                    gpio_bit(wheel.tenfold) | gpio_bit(wheel.hundredfold);
     for (const uint8_t limit : limits) bits |= gpio_bit(limit);
+    for (const uint8_t axis : wheel.axes) bits |= gpio_bit(axis);
     return bits;
   }
   // Outputs that are on or off.
@@ -76,6 +90,13 @@ struct PicoPins {
 
   static constexpr uint8_t slice_of(uint8_t gpio) { return gpio / 2 % 8; }
   constexpr bool has_encoder() const { return encoder_pulses != no_gpio; }
+  constexpr bool has_handwheel() const { return wheel.a != no_gpio; }
+  // One register has the edges of eight pins: an interrupt reads both lines there.
+  constexpr bool has_whole_handwheel() const {
+    bool whole = wheel.b != no_gpio && wheel.tenfold != no_gpio && wheel.hundredfold != no_gpio;
+    for (const uint8_t axis : wheel.axes) whole = whole && axis != no_gpio;
+    return whole && wheel.a / 8 == wheel.b / 8;
+  }
 
   // Whether every motor has its pins within the window, and no pin has two functions.
   constexpr bool is_sound() const {
@@ -95,9 +116,12 @@ struct PicoPins {
       }
     }
     for (const uint8_t limit : limits) take(limit);
-    const uint8_t others[] = {enable, probe, emergency_stop, feed_hold,     cycle_start, spindle_pwm, spindle_direction,
-                              mist,   flood, encoder_pulses, encoder_index, line_out,    line_in};
+    const uint8_t others[] = {enable,         probe,   emergency_stop, feed_hold,         cycle_start,      spindle_pwm,
+                              mist,           flood,   line_out,       spindle_direction, encoder_index,    line_in,
+                              encoder_pulses, wheel.a, wheel.b,        wheel.tenfold,     wheel.hundredfold};
     for (const uint8_t gpio : others) take(gpio);
+    for (const uint8_t gpio : wheel.axes) take(gpio);
+    if (has_handwheel()) sound = sound && has_whole_handwheel();
     if (encoder_pulses != no_gpio) {
       const bool slice_is_free = spindle_pwm == no_gpio || slice_of(spindle_pwm) != slice_of(encoder_pulses);
       sound = sound && (encoder_pulses & 1) != 0 && encoder_index != no_gpio && slice_is_free;
@@ -134,6 +158,23 @@ constexpr PicoPins with_encoder(PicoPins pins) {
 }
 inline constexpr PicoPins pico_lathe = with_encoder(pico_bare);
 
+// The same with a handwheel on the pins of the serial port, of two motors, of the spindle's direction and of mist.
+constexpr PicoPins with_handwheel(PicoPins pins) {
+  pins.wheel.a = pins.motor[4].step;
+  pins.wheel.b = pins.motor[4].direction;
+  pins.wheel.axes[0] = pins.motor[5].step;
+  pins.wheel.axes[1] = pins.motor[5].direction;
+  pins.wheel.axes[2] = pins.line_out;
+  pins.wheel.axes[3] = pins.line_in;
+  pins.wheel.tenfold = pins.spindle_direction;
+  pins.wheel.hundredfold = pins.mist;
+  pins.motors = 4;
+  pins.motor[4] = pins.motor[5] = {};
+  pins.line_in = pins.line_out = pins.spindle_direction = pins.mist = no_gpio;
+  return pins;
+}
+inline constexpr PicoPins pico_mpg = with_handwheel(pico_bare);
+
 // Eight drivers use all but ten pins: no serial port in addition to USB, and no buttons.
 inline constexpr PicoPins pico_eight = {
     .motors = 8,
@@ -161,7 +202,8 @@ inline constexpr PicoPins picobob = {
     .spindle_pwm = 14,
     .flood = 16,
 };
-static_assert(pico_bare.is_sound() && pico_lathe.is_sound() && pico_eight.is_sound() && picobob.is_sound(),
+static_assert(pico_bare.is_sound() && pico_lathe.is_sound() && pico_mpg.is_sound() && pico_eight.is_sound() &&
+                  picobob.is_sound(),
               "a pin has two jobs, a motor's pins are too far apart, or an encoder's cannot count");
 
 // The board's name. Its image is named motion_ plus this name.
@@ -169,7 +211,10 @@ struct PicoBoardPins {
   const char* name;
   const PicoPins& pins;
 };
-inline constexpr PicoBoardPins pico_boards[] = {
-    {"pico", pico_bare}, {"pico_lathe", pico_lathe}, {"pico_eight", pico_eight}, {"picobob", picobob}};
+inline constexpr PicoBoardPins pico_boards[] = {{"pico", pico_bare},
+                                                {"pico_lathe", pico_lathe},
+                                                {"pico_mpg", pico_mpg},
+                                                {"pico_eight", pico_eight},
+                                                {"picobob", picobob}};
 
 }  // namespace passo

@@ -46,9 +46,9 @@ class EmulatedBoard : public BoardPort {
 
 // All kinds of emulated boards: with step and direction drivers, and with windings connected directly to the board's
 // pins.
-inline constexpr std::array<std::string_view, 12> emulated_boards = {
-    "uno",       "uno_two_on",     "uno_wave", "uno_half_step", "mega",       "mega_two_on",
-    "mega_wave", "mega_half_step", "pico",     "pico_lathe",    "pico_eight", "picobob"};
+inline constexpr std::array<std::string_view, 13> emulated_boards = {
+    "uno",  "uno_two_on", "uno_wave", "uno_half_step", "mega",   "mega_two_on", "mega_wave", "mega_half_step",
+    "pico", "pico_lathe", "pico_mpg", "pico_eight",    "picobob"};
 // Whether it is a Pico, whose image is a UF2 file.
 constexpr bool is_pico(std::string_view kind) {
   return kind.starts_with("pico");

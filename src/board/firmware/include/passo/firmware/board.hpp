@@ -233,6 +233,7 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
     breathe();
     const bool known = motors_ != 0 && manual_ == Manual::off;
     if (ask.question == Question::spindle && known && has_encoder(hardware_)) return send_spindle(frame.sequence);
+    if (ask.question == Question::handwheel && has_handwheel(hardware_)) return send_handwheel(frame.sequence);
     const bool kept = ask.question == Question::kept;
     const MessageType answer = ask.question == Question::about ? MessageType::about
                                : kept                          ? MessageType::captured
@@ -294,6 +295,14 @@ class Board : private ItemPlayer<Hardware, queue_capacity, SegmentPlayer, most_m
       if (!has_room()) return;
       breathe();
       send(Turned{.progress = progress(), .event = played(), .answers = question, .spindle = hardware_.spindle()});
+    }
+  }
+
+  [[gnu::noinline]] void send_handwheel(uint8_t question) {
+    if constexpr (requires { hardware_.handwheel(); }) {
+      if (!has_room()) return;
+      const SpindleCount fields = to_fields(hardware_.handwheel());
+      send(Turned{.progress = progress(), .event = played(), .answers = question, .spindle = fields});
     }
   }
 

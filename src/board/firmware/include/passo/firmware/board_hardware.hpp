@@ -19,6 +19,7 @@
 //   static int32_t high_product(int32_t, int32_t);    optional: a faster one than that of wire/segment_parts.hpp
 //   uint8_t room();                                   optional: the number of bytes that may be sent now
 //   bool has_encoder(); SpindleCount spindle();       optional, both: a spindle encoder
+//   bool has_handwheel(); HandwheelCount handwheel(); optional, both: a handwheel at its pins
 //
 // Portable.
 #pragma once
@@ -26,6 +27,7 @@
 #include <stdint.h>
 
 #include "passo/firmware/host_timeout.hpp"
+#include "passo/wire/handwheel_count.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -69,6 +71,12 @@ template <class Hardware>
 template <class Hardware>
 [[gnu::always_inline]] inline bool has_encoder(Hardware& hardware) {
   if constexpr (requires { hardware.has_encoder(); }) return hardware.has_encoder();
+  return false;
+}
+
+template <class Hardware>
+[[gnu::always_inline]] inline bool has_handwheel(Hardware& hardware) {
+  if constexpr (requires { hardware.has_handwheel(); }) return hardware.has_handwheel();
   return false;
 }
 

@@ -30,6 +30,7 @@
 #include "passo/link/board_port.hpp"
 #include "passo/link/board_queries.hpp"
 #include "passo/link/handshake.hpp"
+#include "passo/link/handwheel_query.hpp"
 #include "passo/link/link.hpp"
 #include "passo/link/send_window.hpp"
 #include "passo/link/sent_segments.hpp"
@@ -97,6 +98,10 @@ class BoardSession final : public Link {
   void ask() override;
   void ask_for_spindle(bool wanted) override { questions_.ask_usually(wanted ? Question::spindle : Question::status); }
   std::optional<Turned> take_turned() override { return questions_.take_turned(); }
+  // Queries the handwheel at the board's pins, unless such a query is open. handwheel() has the answer.
+  void ask_for_handwheel();
+  HandwheelQuery& handwheel() { return handwheel_; }
+  bool awaits_handwheel() const { return handwheel_.is_open(now()); }
   bool answered() const override { return questions_.answered(); }
   Seconds answer_time() const override { return questions_.answer_time(); }
   Seconds time_a_frame() const override { return window_.statistics().time_a_frame(); }
@@ -186,6 +191,7 @@ class BoardSession final : public Link {
   TimeoutMonitor silence_;
   SendWindow window_;
   BoardQueries questions_;
+  HandwheelQuery handwheel_;
   BoardMirror mirror_;
   TwinMotors twins_;
   ProbeWatch probe_;

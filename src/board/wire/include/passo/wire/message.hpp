@@ -90,7 +90,9 @@ enum class Question : uint8_t {
   watch = 2,  // capture the position of the first change of the probe or the given limit switch; the answer is a status
               // message
   kept = 3,   // read the captured positions; the answer is a Captured message
-  spindle = 8,  // read the spindle's angle; the answer is a Turned message, or a status if the board has no encoder
+  spindle = 8,    // read the spindle's angle; the answer is a Turned message, or a status if the board has no encoder
+  handwheel = 9,  // read the handwheel at the board's pins; the answer is a Turned message (HandwheelCount), or a
+                  // status if the board has none
 };
 struct Ask {
   uint8_t version = protocol_version;

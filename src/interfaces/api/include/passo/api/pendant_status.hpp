@@ -17,6 +17,7 @@ struct PendantStatus {
   bool is_continuous = false;
   double step = 0;   // of a detent, mm or degrees; 0: none is selected
   double share = 0;  // of the highest speed, in continuous mode
+  int missed = 0;    // edges that the board's handwheel has missed
   Sentence refusal;  // why the last action was refused; empty: it was not
 
   friend bool operator==(const PendantStatus&, const PendantStatus&) = default;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "passo/plant/ideal_plant.hpp"
 #include "passo/plant/plant.hpp"
 #include "passo/units/units.hpp"
+#include "passo/wire/handwheel_count.hpp"
 
 namespace passo {
 
@@ -46,6 +48,8 @@ class VirtualMachine final : public BoardPort {
   // Sets how the plant's switches and drivers are connected to the board's pins, at the start. The pin set-up of the
   // host must match it.
   void wire(const PinSetup& wiring);
+  // Connects a handwheel to the board's pins, at the start. Who changes its count turns it.
+  HandwheelCount& fit_handwheel() { return hardware_.wheel.emplace(); }
   // Simulates a board that cannot make its events in time: delays the next event and all later ones. Call it during
   // motion.
   void stand_still(Ticks time);
@@ -104,6 +108,8 @@ class VirtualMachine final : public BoardPort {
     static bool can_watch(std::uint8_t /*limits*/) { return true; }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
+    bool has_handwheel() const { return wheel.has_value(); }
+    HandwheelCount handwheel() const { return *wheel; }
     // Passes the pending pulses to the plant.
     void pulse_plant();
     Seconds time() const { return Seconds(static_cast<double>(now) * seconds_a_tick); }
@@ -116,6 +122,7 @@ class VirtualMachine final : public BoardPort {
     double seconds_a_tick = 0;
     std::vector<MachineObserver*> observers;
     Plant* plant = nullptr;
+    std::optional<HandwheelCount> wheel;
     PinSetup setup;   // the pin set-up of the host
     PinSetup wiring;  // the actual connections
     bool drivers_on = true;

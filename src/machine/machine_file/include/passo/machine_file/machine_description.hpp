@@ -21,6 +21,7 @@
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/program_hooks.hpp"
 #include "passo/machine_file/axis_motor.hpp"
+#include "passo/machine_file/handwheel_description.hpp"
 #include "passo/motor/excitation.hpp"
 #include "passo/units/units.hpp"
 
@@ -209,6 +210,7 @@ struct MachineDescription {
   std::vector<int> homing_turns = {};  // group of each of them: axes with the same number seek their switches together
   std::shared_ptr<const ToolChangePlan> tool_change = {};  // what M6 does; null: it waits for the operator
   ProgramHooks hooks = {};
+  std::optional<HandwheelDescription> handwheel = {};
 
   bool has_rotary_axis() const {
     return std::ranges::any_of(axes, [](const AxisDescription& axis) { return is_rotary(axis.axis); });
