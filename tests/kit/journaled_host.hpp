@@ -78,6 +78,7 @@ class JournaledHost {
   std::function<void(const Action&)> operator_works;
   std::uint64_t turns_between_holds = 0;  // the program is held that often, and resumed at rest; 0: never
   bool holds_by_door = false;             // at rest, spindle and coolant are then off
+  Seconds door_stays_open{0};
 
  private:
   void work(MortalPort& port, bool& done) {
@@ -130,7 +131,10 @@ class JournaledHost {
     const HoldReason reason = holds_by_door ? HoldReason::door : HoldReason::operator_hold;
     if (++turns_ % turns_between_holds == 0) drive.hold(reason);
     if (!drive.holds().has(reason) || drive.state() != MotionDrive::State::held) return;
-    if (holds_by_door && !std::exchange(outputs_are_off_, true)) return drive.stop_outputs();
+    if (holds_by_door && !std::exchange(outputs_are_off_, true)) {
+      drive.stop_outputs();
+      return let_pass(drive, door_stays_open);
+    }
     outputs_are_off_ = false;
     drive.resume(reason);
   }

@@ -292,6 +292,7 @@ class ChangeBench {
   void hold_each(std::uint64_t turns, bool by_door) {
     host_.turns_between_holds = turns;
     host_.holds_by_door = by_door;
+    host_.door_stays_open = valve_time * 2;  // the collet closes meanwhile
   }
   bool done = false;
   std::vector<std::int32_t> hand_tools;
