@@ -120,8 +120,9 @@ export async function checkedFromHere(id: number): Promise<PathIndex | null> {
     const index = await get<PathIndex>(`/programs/${id}/path`);
     if (index.complete || !index.growing) {
       await refreshPrograms();
-      const isGood = programs.value.find((one) => one.id === id)?.state === 'good';
-      return index.complete && isGood ? index : null;
+      const state = programs.value.find((one) => one.id === id)?.state;
+      // The tool changes of a program are checked after its toolpath.
+      if (state !== 'checking') return index.complete && state === 'good' ? index : null;
     }
     await new Promise((resolve) => setTimeout(resolve, whileChecking));
   }
