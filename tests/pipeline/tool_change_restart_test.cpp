@@ -377,11 +377,12 @@ TEST(ToolChangeRestart, goes_on_whenever_the_host_dies) {
   for (const ToolChangeWay way : all_ways) die_amid_changes(way, 1);
 }
 
-class ToolChangeRestartInFull : public test::InFull<testing::Test> {};
-TEST_F(ToolChangeRestartInFull, goes_on_whenever_the_host_dies) {
-  const int trials = static_cast<int>(300 / test::in_full());
-  for (const ToolChangeWay way : all_ways) die_amid_changes(way, trials);
+class ToolChangeRestartInFull : public test::InFull<testing::TestWithParam<ToolChangeWay>> {};
+TEST_P(ToolChangeRestartInFull, goes_on_whenever_the_host_dies) {
+  die_amid_changes(GetParam(), static_cast<int>(300 / test::in_full()));
 }
+INSTANTIATE_TEST_SUITE_P(By, ToolChangeRestartInFull, testing::ValuesIn(all_ways),
+                         [](const auto& info) { return std::string(name_of_way(info.param)); });
 
 }  // namespace
 }  // namespace passo
