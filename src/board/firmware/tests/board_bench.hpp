@@ -41,13 +41,38 @@ struct Bench {
 
 inline constexpr std::size_t capacity = 4;
 
-class BoardTest : public testing::Test {
+// Sends a message to the board, as its host does.
+template <class SomeBoard, class... What>
+void send_to(SomeBoard& board, const What&... what) {
+  std::uint8_t frame[largest_frame];
+  const std::uint8_t size = encode(what..., frame);
+  for (std::uint8_t i = 0; i < size; ++i) board.receive(frame[i]);
+}
+
+// A board on a bench of any kind.
+template <class SomeBench>
+class BoardOn : public testing::Test {
  protected:
   template <class... What>
   void send(const What&... what) {
-    std::uint8_t frame[largest_frame];
-    send_bytes(frame, encode(what..., frame));
+    send_to(board_, what...);
   }
+  // Returns the frame that answers the question of that number.
+  WireFrame answer_to(Question question, std::uint8_t number) {
+    bench_.replies.clear();
+    send(Ask{.motors = 3, .question = question}, number);
+    EXPECT_EQ(bench_.replies.size(), 1U);
+    return bench_.replies.empty() ? WireFrame() : bench_.replies.back();
+  }
+
+  SomeBench bench_;
+  Board<SomeBench, capacity> board_{
+      bench_,
+      {.motors = 4, .clock = 16'000'000, .about = {.highest_event_rate = 100'000, .baud = 500'000, .name = "bench"}}};
+};
+
+class BoardTest : public BoardOn<Bench> {
+ protected:
   void send_bytes(const std::uint8_t* frame, std::uint8_t size) {
     for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
   }
@@ -84,11 +109,6 @@ class BoardTest : public testing::Test {
     decode(bench_.replies.back(), credit);
     return credit;
   }
-
-  Bench bench_;
-  Board<Bench, capacity> board_{
-      bench_,
-      {.motors = 4, .clock = 16'000'000, .about = {.highest_event_rate = 100'000, .baud = 500'000, .name = "bench"}}};
 };
 
 }  // namespace passo

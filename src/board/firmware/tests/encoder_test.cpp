@@ -12,21 +12,10 @@ struct TurningBench : Bench {
   SpindleCount count = {.count = 0xFFFFFFF0, .tick = 0x80000001, .at_index = 0xFFFFF000, .indexes = 255};
 };
 
-class EncoderTest : public testing::Test {
+class EncoderTest : public BoardOn<TurningBench> {
  protected:
-  template <class... What>
-  void send(const What&... what) {
-    std::uint8_t frame[largest_frame];
-    const std::uint8_t size = encode(what..., frame);
-    for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
-  }
   void greet() { send(Hello{.motors = 3}, std::uint8_t{0}); }
-  WireFrame asked(std::uint8_t question) {
-    bench_.replies.clear();
-    send(Ask{.motors = 3, .question = Question::spindle}, question);
-    EXPECT_EQ(bench_.replies.size(), 1U);
-    return bench_.replies.empty() ? WireFrame() : bench_.replies.back();
-  }
+  WireFrame asked(std::uint8_t question) { return answer_to(Question::spindle, question); }
   Turned turned(std::uint8_t question) {
     const WireFrame frame = asked(question);
     EXPECT_EQ(frame.type, MessageType::turned);
@@ -34,9 +23,6 @@ class EncoderTest : public testing::Test {
     decode(frame, turned);
     return turned;
   }
-
-  TurningBench bench_;
-  Board<TurningBench, capacity> board_{bench_, {.motors = 4, .clock = 16'000'000}};
 };
 
 TEST_F(EncoderTest, tells_the_count_as_it_is_and_how_far_it_has_come) {

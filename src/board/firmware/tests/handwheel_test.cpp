@@ -69,23 +69,9 @@ struct WheelBench : Bench {
   HandwheelCount wheel = {.count = 0xFFFFFFF0, .jumps = 65535, .selected = handwheel_axis << 2 | handwheel_tenfold};
 };
 
-class HandwheelTest : public testing::Test {
+class HandwheelTest : public BoardOn<WheelBench> {
  protected:
-  template <class... What>
-  void send(const What&... what) {
-    std::uint8_t frame[largest_frame];
-    const std::uint8_t size = encode(what..., frame);
-    for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
-  }
-  WireFrame asked(std::uint8_t question) {
-    bench_.replies.clear();
-    send(Ask{.motors = 3, .question = Question::handwheel}, question);
-    EXPECT_EQ(bench_.replies.size(), 1U);
-    return bench_.replies.empty() ? WireFrame() : bench_.replies.back();
-  }
-
-  WheelBench bench_;
-  Board<WheelBench, capacity> board_{bench_, {.motors = 4, .clock = 16'000'000}};
+  WireFrame asked(std::uint8_t question) { return answer_to(Question::handwheel, question); }
 };
 
 TEST_F(HandwheelTest, is_told_as_it_is) {

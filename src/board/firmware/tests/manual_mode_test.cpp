@@ -95,9 +95,7 @@ class ManualModeTest : public testing::Test {
   }
   template <class... What>
   void send(const What&... what) {
-    std::uint8_t frame[largest_frame];
-    const std::uint8_t size = encode(what..., frame);
-    for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
+    send_to(board_, what...);
   }
   BoardStatus status() {
     send(Ask{.motors = 4}, std::uint8_t{0});

@@ -27,14 +27,8 @@ struct PinBench : Bench {
 // What the bench makes for a host that says nothing of its pins.
 constexpr PinSetup usual_setup{.timing = {.event_ticks = 5}};
 
-class PinSetupTest : public testing::Test {
+class PinSetupTest : public BoardOn<PinBench> {
  protected:
-  template <class... What>
-  void send(const What&... what) {
-    std::uint8_t frame[largest_frame];
-    const std::uint8_t size = encode(what..., frame);
-    for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
-  }
   void set_up(const PinSetup& setup) { send(setup, std::uint8_t{0}); }
   void greet() { send(Hello{.motors = 3}, std::uint8_t{0}); }
   void be_silent(int tenths) {
@@ -49,9 +43,6 @@ class PinSetupTest : public testing::Test {
     return status;
   }
   bool is_trusted() { return (status().state & board_trusted) != 0; }
-
-  PinBench bench_;
-  Board<PinBench, capacity> board_{bench_, {.motors = 4, .clock = 16'000'000}};
 };
 
 TEST_F(PinSetupTest, is_answered_by_what_the_board_can_do) {

@@ -1,12 +1,12 @@
 #include "served_pendant.hpp"
 
-#include <sstream>
 #include <utility>
 
 #include "program_input.hpp"
 #include <fmt/format.h>
 
 #include "passo/session/board_machine_session.hpp"
+#include "passo/toml/toml_reporter.hpp"
 
 namespace passo {
 namespace {
@@ -15,25 +15,15 @@ constexpr int most_reports = 64;  // of one look: a device that sends without en
 
 constexpr Seconds handwheel_answer{1};
 
-std::string line_of_file(const std::string& text, std::uint32_t number) {
-  std::istringstream lines(text);
-  std::string line;
-  for (std::uint32_t i = 0; i < number && std::getline(lines, line); ++i) {
-  }
-  return line;
-}
-
-// The table of the machine file that describes a handwheel which the board does not have.
-Diagnostic missing_handwheel(const ServeArguments& arguments, const HandwheelDescription& wheel,
-                             const std::string& text) {
-  Diagnostic one;
-  one.code = "board.no-handwheel";
-  one.file = arguments.machine;
-  one.place = wheel.place;
-  one.message = fmt::format("the board {} has no pins for a handwheel", arguments.board);
-  one.expected = "a Pico with the image pico_mpg; for another board, remove this table";
-  one.text = line_of_file(text, wheel.place.line);
-  return one;
+// The table of the machine file describes a handwheel that the board does not have.
+void show_missing_handwheel(const ServeArguments& arguments, const HandwheelDescription& wheel,
+                            const std::string& text) {
+  Diagnostics diagnostics;
+  const TomlReporter reporter(text, arguments.machine, diagnostics, {.area = "board"});
+  reporter.error("board.no-handwheel", wheel.place,
+                 fmt::format("the board {} has no pins for a handwheel", arguments.board),
+                 "a Pico with the image pico_mpg; for another board, remove this table");
+  show(diagnostics);
 }
 
 }  // namespace
@@ -59,9 +49,7 @@ std::unique_ptr<ServedPendant> ServedPendant::open_handwheel(const ServeArgument
   const HandwheelDescription& wheel = *machine.machine.handwheel;
   BoardMachineSession* const session = machine.session.as_board_session();
   if (session == nullptr || has_handwheel(session->board(), handwheel_answer) == false) {
-    Diagnostics diagnostics;
-    diagnostics.add(missing_handwheel(arguments, wheel, text));
-    show(diagnostics);
+    show_missing_handwheel(arguments, wheel, text);
     code = exit_bad_machine;
     return nullptr;
   }
