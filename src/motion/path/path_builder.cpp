@@ -40,9 +40,9 @@ template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation, operation::SetToolOffset,
               operation::ReloadTools, operation::SelectPlane, operation::SelectTool, operation::StartToolChange,
-              operation::SetToolNumber, operation::SetToolTableEntry, operation::PalletShuttle, operation::SetFeedMode,
-              operation::Finish, operation::TurnProbe, operation::Comment, operation::Message, operation::Print,
-              operation::Log, operation::Reset, operation::SetFeedReference>;
+              operation::SetToolTableEntry, operation::PalletShuttle, operation::SetFeedMode, operation::Finish,
+              operation::TurnProbe, operation::Comment, operation::Message, operation::Print, operation::Log,
+              operation::Reset, operation::SetFeedReference>;
 
 template <class... Handlers>
 struct Overloaded : Handlers... {
@@ -162,6 +162,10 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::ChangeTool& change) {
             act(Action::Kind::tool_change, Seconds(0), change.tool);
             return std::get<Action>(item).by_machine = change.by_machine, true;
+          },
+          [&](const operation::SetToolNumber& set) {
+            act(Action::Kind::tool_change, Seconds(0), set.tool);
+            return std::get<Action>(item).by_machine = true;  // the tool is in the spindle
           },
           [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop, Seconds(0), hand_.at_stop()); },
           [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
