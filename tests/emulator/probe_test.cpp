@@ -99,7 +99,7 @@ void probe_cut_before_frames(const Kind& kind, std::uint64_t stride) {
     recoveries += cut.recoveries;
   }
   std::printf("%s: %d cuts, %d rests\n", kind.name, trials, recoveries);
-  EXPECT_GT(recoveries, trials / 2);
+  EXPECT_GT(recoveries, trials / 4) << "cuts that stop no motion prove little";
 }
 
 TEST(EmulatedProbing, finds_the_step_of_contact_on_the_uno) {
