@@ -134,7 +134,7 @@ void BlockExecutor::finish(Closing closing) {
 
 void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
-  block_.source = {block.line, line_number_of(block)};
+  block_.source = {block.line, line_number_of(block), tools_.is_in_macro() || hooks_.is_in_hook()};
   block_.word = place_of_words(block);
   if (block.spaced_number) reporter_.warn_of_blank(*block.spaced_number);
   const bool readable = words_.read(block, parameters_, reporter_);

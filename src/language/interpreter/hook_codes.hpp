@@ -19,6 +19,7 @@ class HookCodes : private CodeFamily {
   // Begins the hook. Returns the number of the program to call, or 0: there is none. An error ends the program.
   std::int32_t begin_start();
   std::int32_t begin_end(CodeNumber code);
+  bool is_in_hook() const { return call_.has_value(); }
   // Whether the program that was left was a hook. `depth`: call depth of its caller.
   bool is_left(int depth) const { return call_ && depth == call_->before.depth; }
   // Ends the hook. Returns the modes to restore; spindle and coolant stay as the lines have left them.

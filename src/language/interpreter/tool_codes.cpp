@@ -79,7 +79,9 @@ void ToolCodes::begin_cycle(std::int32_t to, bool only_checks) {
   next_tool_ = to;
   only_checks_ = only_checks;
   spindles_.stop();
-  cycle_.emplace(*block_.options.tool_change, start, block_.source);
+  OperationSource source = block_.source;
+  source.inserted = true;
+  cycle_.emplace(*block_.options.tool_change, start, source);
 }
 
 // Other words would be executed before the subroutine has changed the tool.

@@ -31,6 +31,7 @@ class ToolCodes final : public CycleCodes {
   }
   // Returns whether the tool is now to be changed by the lines of the machine file. Called once after each cycle.
   bool take_macro_call() { return std::exchange(calls_macro_, false); }
+  bool is_in_macro() const { return macro_.has_value(); }
   // Whether the subroutine that was left was that of the change. `depth`: call depth of its caller.
   bool changes_by_macro(int depth) const { return macro_ && depth == macro_->before.depth; }
   // Finds what the macro has left that the program does not expect. Called before the modes are restored.

@@ -6,7 +6,10 @@
 namespace passo {
 
 Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
-  if (const auto* action = std::get_if<Action>(&item)) return action->dwell;
+  const auto* action = std::get_if<Action>(&item);
+  const OperationSource& source = action != nullptr ? action->source : std::get<Segment>(item).source;
+  if (source.inserted) return Seconds(0);
+  if (action != nullptr) return action->dwell;
   const auto& segment = std::get<Segment>(item);
   double speed = speed_within(segment.curve.steepest_bound(), segment.speed.value(), limits);
   // The exact slopes cost the trigonometry of an arc. They count only where the bound is felt.

@@ -257,6 +257,7 @@ using OperationKind =
 struct OperationSource {
   std::uint32_t line = 0;         // line number in the file, from 1
   std::int64_t line_number = -1;  // N word; -1: none
+  bool inserted = false;          // by the machine file: part of a tool change or of a hook
 };
 
 // A part of the line. The column counts from 1, in bytes. Column 0: there is no such part.

@@ -8,7 +8,8 @@
 
 namespace passo {
 
-// The time of an item at its programmed speed, within the axes' velocity limits.
+// The time of an item at its programmed speed, within the axes' velocity limits. What the machine file inserts, such as
+// a tool change, counts nothing: how long it takes depends on the operator, and the check leaves it out.
 Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits);
 // The time of a planned move: a fraction of its segment's time.
 Seconds nominal_time_of(const PlannedMove& move, const MotionLimits& limits);
