@@ -29,7 +29,6 @@ build_packages=(
   libjpeg62-turbo-dev        # photographs for passo cam relief
   zlib1g-dev                 # packed TIFF pictures
   libsqlite3-dev             # jobs and history of passo serve
-  libpq-dev libsodium-dev pkg-config  # the store of a farm: PostgreSQL; its hashes
   libboost-dev               # HTTP and WebSocket of passo serve
   libmosquitto-dev           # status of passo serve for an MQTT broker
   libpolyclipping-dev        # unions and offsets of copper in passo cam
@@ -52,7 +51,7 @@ test_packages=(
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
   gerbv                      # draws circuit boards beside passo's reader
-  postgresql                 # a server for the tests of a farm's store
+  libpq-dev libsodium-dev pkg-config postgresql  # the store of a farm, which only tests use yet; a server for them
   mosquitto                  # a broker for the tests of passo serve --mqtt
   bcnc xvfb xdotool imagemagick  # a sender, its screen, its keys and its pictures, for the tests of passo serve
   python3-ezdxf librecad-data openscad-testing-data  # reads DXF drawings beside passo's reader; 1,368 drawings
