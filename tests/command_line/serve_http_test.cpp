@@ -60,6 +60,19 @@ TEST_F(ServeHttp, runs_a_program_that_was_uploaded) {
   EXPECT_THAT(ask("GET", "/nothing"), HasSubstr("404 Not Found"));
 }
 
+// Ten minutes in real time.
+TEST_F(ServeHttp, runs_a_simulated_machine_faster_than_real_time) {
+  serve({"--virtual-speed", "1000"});
+  const std::string key = new_key();
+  const auto program = json("POST", "/programs?name=p.ngc", "G21 G90\nG1 X1 F3000\nG4 P600\nG1 X2\nM2\n");
+  json("POST", "/programs/" + std::to_string(program.value("id", 0)) + "/run", "", key);
+  EXPECT_TRUE(until([&] { return json("GET", "/status")["job"]["state"] == "done"; })) << json("GET", "/status");
+  EXPECT_EQ(json("GET", "/status")["place"]["x"], 2.0);
+  const auto refused = passo("serve --virtual-speed 2 -b serial:/dev/null --http 127.0.0.1:0");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("[serve.virtual-speed]"));
+}
+
 TEST_F(ServeHttp, brakes_before_it_ends) {
   serve();
   const std::string key = "X-Passo-Key: " + json("POST", "/owner", "{}").value("key", "") + "\r\n";

@@ -30,7 +30,6 @@ const std::map<std::string, Exception> exceptions = {
     {"RunSummary", {23, "the lines of one summary"}},
     {"CuttingTool", {21, "the keys of a tool"}},
     {"MachineStatus", {24, "what a status says of a machine"}},
-    {"ServeArguments", {21, "a field for each option of a command"}},
     {"DrillingPlan", {22, "the words of a drilling cycle"}},
     {"ProgramState", {21, "the modal state of a program"}},
     {"BlockExecutor", {22, "one family of codes each"}},

@@ -117,7 +117,7 @@ TEST(ApiBodies, are_checked_by_type_and_shape_on_each_route) {
     EXPECT_TRUE(run.get("/programs")["programs"].empty()) << to;
     EXPECT_EQ(run.get("/status")["state"], "Idle") << to;
   }
-  EXPECT_EQ(routes, 97);
+  EXPECT_EQ(routes, 99);
 }
 
 // What curl, scripts and browsers say of a program.

@@ -651,6 +651,37 @@ TEST_F(KeptApi, a_queued_job_waits_until_somebody_runs_it) {
   EXPECT_EQ(run.get("/queue")["jobs"].size(), 0U);
 }
 
+// A client that got no answer repeats its request. Whatever has become of the job, no second one comes into being.
+TEST_F(KeptApi, an_attempt_is_queued_once) {
+  const std::string text = "G21 G90 G1 X3 F600\nM2\n";
+  {
+    const auto history = open();
+    ApiRun run(GrblRun::at_zero(), history.get());
+    EXPECT_EQ(run.get("/queue/attempts/part-7")["error"]["code"], "http.not-found");
+    EXPECT_EQ(run.ask("PUT", "/queue/attempts/part-7?name=a.ngc", text)["attempt"], "part-7");
+    EXPECT_EQ(run.status, 201U);
+    EXPECT_EQ(run.ask("PUT", "/queue/attempts/part-7?name=a.ngc", text)["id"], 1);
+    EXPECT_EQ(run.status, 200U);
+    EXPECT_EQ(run.ask("PUT", "/queue/attempts/part-7?name=a.ngc", "G1 X4 F600\nM2\n")["error"]["code"],
+              "queue.other-program");
+    EXPECT_EQ(run.ask("PUT", "/queue/attempts/part.7", text)["error"]["code"], "queue.attempt");
+    EXPECT_EQ(run.get("/queue")["jobs"].size(), 1U);
+  }
+  const auto history = open();
+  ApiRun run(GrblRun::at_zero(), history.get());
+  run.own();
+  EXPECT_EQ(run.post("/queue/1/run")["state"], "checking");
+  EXPECT_EQ(run.get("/queue/attempts/part-7")["state"], "running");
+  ASSERT_TRUE(run.turn_until([&] { return run.get("/status")["job"]["state"] == "done"; }));
+  EXPECT_EQ(run.ask("PUT", "/queue/attempts/part-7?name=a.ngc", text)["state"], "done");
+  expect_members(openapi()["components"]["schemas"]["HistoryJob"], run.get("/queue/attempts/part-7"), "HistoryJob");
+  EXPECT_EQ(run.get("/queue")["jobs"].size(), 0U) << "it is not made again";
+  run.ask("PUT", "/queue/attempts/part-8", text);
+  run.ask("DELETE", "/queue/2");
+  EXPECT_EQ(run.ask("PUT", "/queue/attempts/part-8", text)["error"]["code"], "queue.attempt-removed");
+  EXPECT_EQ(run.status, 410U);
+}
+
 TEST_F(KeptApi, each_end_is_kept_with_its_reason) {
   const auto history = open();
   ApiRun run(GrblRun::at_zero(), history.get());

@@ -234,6 +234,7 @@ Json as_json(const HistoryJob& job) {
     stills.push_back({{"id", still.id}, {"at", still.at}, {"moment", still.moment}});
   }
   return {{"id", job.id},
+          {"attempt", job.attempt.empty() ? Json() : Json(job.attempt)},
           {"name", job.name},
           {"dialect", job.dialect},
           {"bytes", job.bytes},

@@ -117,6 +117,8 @@ constexpr ApiRoute routes[] = {
 
     {"GET", "/queue", "listQueue", anybody, none, &JobsApi::list_queue, Needs::history},
     {"POST", "/queue", "queueJob", anybody, program, &JobsApi::queue, Needs::history},
+    {"GET", "/queue/attempts/{path}", "getQueuedAttempt", anybody, none, &JobsApi::get_attempt, Needs::history},
+    {"PUT", "/queue/attempts/{path}", "queueAttempt", anybody, program, &JobsApi::queue_attempt, Needs::history},
     {"DELETE", "/queue/{id}", "deleteQueuedJob", owner, none, &JobsApi::delete_queued, Needs::history},
     {"POST", "/queue/{id}/run", "runQueuedJob", owner, none, &JobsApi::run_queued, Needs::history},
 

@@ -130,7 +130,13 @@ WebAnswer JobRunner::begin(const StoredProgram& program, const Wanted& wanted) {
   // A job that cannot be noted does not begin.
   std::int64_t number = wanted.history;
   if (number != 0) {
-    if (!shared_.options.history->begin(number, shared_.wall_time())) return no_room_in_history();
+    // On the disk before the first move: after a power failure, a job that has moved must not look as if it waited.
+    JobHistory& history = *shared_.options.history;
+    if (!history.begin(number, shared_.wall_time())) return no_room_in_history();
+    if (!history.keep()) {
+      history.end(number, HistoryState::failed, "its start could not be written", shared_.wall_time());
+      return no_room_in_history();
+    }
   } else {
     const std::string& name = wanted.board_file.empty() ? program.name : wanted.board_file;
     const auto noted = note_job(name, program.dialect, program.text_to_keep());

@@ -31,6 +31,15 @@ WebAnswer jobs_answer(const std::vector<HistoryJob>& jobs) {
   return json_answer(200, {{"jobs", std::move(list)}});
 }
 
+constexpr const char* bad_attempt = "the id of an attempt is 1 to 64 letters, digits, hyphens or underscores";
+bool is_attempt(std::string_view id) {
+  constexpr std::size_t longest = 64;
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  return !id.empty() && id.size() <= longest && std::ranges::all_of(id, is_plain);
+}
+
 std::optional<ProbingKind> kind_named(const std::string& name) {
   for (const ProbingKind kind : all_probing_kinds()) {
     if (name_of(kind) == name) return kind;
@@ -137,17 +146,46 @@ WebAnswer JobsApi::list_queue(const ApiCall&) {
   return jobs_answer(shared_.options.history->queue());
 }
 
+Result<JobsApi::SentProgram, WebAnswer> JobsApi::sent_program(const ApiCall& call) {
+  const auto dialect = dialect_from(call.request.query);
+  if (!dialect) return Failure{dialect.error()};
+  const auto name = name_from(call.request.query, "program");
+  if (!name) return Failure{name.error()};
+  const bool leaves_out = *dialect != Dialect::grbl && call.query("block_delete") == "true";
+  const std::string& text = call.request.body;
+  return SentProgram{.name = *name,
+                     .dialect = std::string(dialect_name(*dialect)),
+                     .text = leaves_out ? with_deleted_lines_as_comments(text) : text};
+}
+
 WebAnswer JobsApi::queue(const ApiCall& call) {
   JobHistory* const history = shared_.options.history;
-  const auto dialect = dialect_from(call.request.query);
-  if (!dialect) return dialect.error();
-  const bool leaves_out = *dialect != Dialect::grbl && call.query("block_delete") == "true";
-  const auto name = name_from(call.request.query, "program");
-  if (!name) return name.error();
-  const std::string& text = call.request.body;
-  const auto id = history->add(*name, dialect_name(*dialect), leaves_out ? with_deleted_lines_as_comments(text) : text,
-                               shared_.wall_time());
+  const auto sent = sent_program(call);
+  if (!sent) return sent.error();
+  const auto id = history->add(sent->name, sent->dialect, sent->text, shared_.wall_time());
   return id ? json_answer(201, as_json(*history->find(*id))) : jobs_.no_room_in_history();
+}
+
+// A client that got no answer repeats its request, and gets the job that it has queued before.
+WebAnswer JobsApi::queue_attempt(const ApiCall& call) {
+  JobHistory* const history = shared_.options.history;
+  if (!is_attempt(call.rest)) return error_answer(400, "queue.attempt", bad_attempt);
+  const auto sent = sent_program(call);
+  if (!sent) return sent.error();
+  const auto added = history->add_attempt(call.rest, sent->name, sent->dialect, sent->text, shared_.wall_time());
+  if (!added.job) return jobs_.no_room_in_history();
+  if (added.other_program) {
+    return error_answer(409, "queue.other-program", "this attempt has been queued with another program");
+  }
+  const auto job = history->find(*added.job);
+  return job ? json_answer(added.is_new ? 201 : 200, as_json(*job))
+             : error_answer(410, "queue.attempt-removed", "this attempt was taken out of the queue before it began");
+}
+
+WebAnswer JobsApi::get_attempt(const ApiCall& call) {
+  if (!is_attempt(call.rest)) return error_answer(400, "queue.attempt", bad_attempt);
+  const auto job = shared_.options.history->find_attempt(call.rest);
+  return job ? json_answer(200, as_json(*job)) : refusal_answer(404);
 }
 
 // The error: there is no such job in the queue, or nobody may touch it now.

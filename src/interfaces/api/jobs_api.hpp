@@ -21,6 +21,8 @@ class JobsApi {
   // A job in the queue waits until a client starts it.
   WebAnswer list_queue(const ApiCall& call);
   WebAnswer queue(const ApiCall& call);
+  WebAnswer queue_attempt(const ApiCall& call);
+  WebAnswer get_attempt(const ApiCall& call);
   WebAnswer delete_queued(const ApiCall& call);
   WebAnswer run_queued(const ApiCall& call);
 
@@ -34,6 +36,12 @@ class JobsApi {
 
  private:
   std::optional<WebAnswer> refuse_interrupted() const;
+  struct SentProgram {
+    std::string name;
+    std::string dialect;
+    std::string text;
+  };
+  static Result<SentProgram, WebAnswer> sent_program(const ApiCall& call);
   Result<HistoryJob, WebAnswer> queued(std::uint64_t id) const;
 
   const ApiShared& shared_;

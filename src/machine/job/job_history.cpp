@@ -7,6 +7,8 @@
 #include "sqlite_statement.hpp"
 #include <fmt/format.h>
 
+#include "passo/base/fingerprint.hpp"
+
 namespace passo {
 namespace {
 
@@ -31,6 +33,11 @@ constexpr const char* table_of_stills = R"(
   CREATE INDEX IF NOT EXISTS stills_by_job ON stills (job, id);)";
 // Younger, too. Older programs write no sentence beside their words.
 constexpr const char* column_of_sentence = "ALTER TABLE {} ADD COLUMN sentence TEXT NOT NULL DEFAULT ''";
+// Younger, too: the ids that clients have given to jobs, and what their programs were, also when these are deleted.
+constexpr const char* table_of_attempts = R"(
+  CREATE TABLE IF NOT EXISTS attempts (
+    attempt TEXT PRIMARY KEY, job INTEGER NOT NULL, fingerprint INTEGER NOT NULL) WITHOUT ROWID;
+  CREATE INDEX IF NOT EXISTS attempts_by_job ON attempts (job);)";
 constexpr std::string_view killed = "passo serve was killed, or the computer lost power";
 constexpr std::string_view killed_sentence =
     R"({"code":"job.killed","arguments":{},"text":"passo serve was killed, or the computer lost power"})";
@@ -73,7 +80,9 @@ Result<std::unique_ptr<JobHistory>, std::string> JobHistory::open(const std::str
   }
   if (known > version) return failed(fmt::format("its version is {}, but this program supports {}", known, version));
   if (known == 0 && !history->run(fmt::format("BEGIN;{}COMMIT;", tables).c_str())) return failed(reason());
-  if (!history->run(table_of_waits) || !history->run(table_of_stills)) return failed(reason());
+  for (const char* const table : {table_of_waits, table_of_stills, table_of_attempts}) {
+    if (!history->run(table)) return failed(reason());
+  }
   for (const char* const table : {"jobs", "alarms"}) {
     SqliteStatement column(database, fmt::format("SELECT sentence FROM {} LIMIT 0", table).c_str());
     if (column.is_good()) continue;
@@ -125,9 +134,42 @@ std::optional<std::int64_t> JobHistory::add_running(std::string_view name, std::
   return insert(HistoryState::running, name, dialect, program, now);
 }
 
+// One transaction: a job without its attempt could be queued twice.
+JobHistory::Attempt JobHistory::add_attempt(std::string_view attempt, std::string_view name, std::string_view dialect,
+                                            std::string_view program, double now) {
+  Fingerprint fingerprint;
+  fingerprint.add(dialect);
+  fingerprint.add(program);
+  const auto of_program = static_cast<std::int64_t>(fingerprint.value());
+  {
+    SqliteStatement known(database_, "SELECT job, fingerprint FROM attempts WHERE attempt = ?");
+    if (known.with(attempt).step()) {
+      const std::int64_t job = known.number();
+      return {.job = job, .other_program = known.number() != of_program};
+    }
+  }
+  if (!judge(run("BEGIN"))) return {};
+  const auto job = add(name, dialect, program, now);
+  if (job) {
+    SqliteStatement insert(database_, "INSERT INTO attempts (attempt, job, fingerprint) VALUES (?, ?, ?)");
+    if (judge(insert.with(attempt).with(*job).with(of_program).run()) && judge(run("COMMIT"))) {
+      return {.job = job, .is_new = true};
+    }
+  }
+  static_cast<void>(run("ROLLBACK"));
+  return {};
+}
+
+std::optional<HistoryJob> JobHistory::find_attempt(std::string_view attempt) const {
+  SqliteStatement known(database_, "SELECT job FROM attempts WHERE attempt = ?");
+  return known.with(attempt).step() ? find(known.number()) : std::nullopt;
+}
+
 std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) const {
   const std::string sql = fmt::format(
-      "SELECT id, name, dialect, bytes, state, why, sentence, queued_at, begun_at, ended_at FROM jobs {}", where);
+      "SELECT id, name, dialect, bytes, state, why, sentence, queued_at, begun_at, ended_at,"
+      " (SELECT attempt FROM attempts WHERE job = id) FROM jobs {}",
+      where);
   SqliteStatement select(database_, sql.c_str());
   select.with(value);
   std::vector<HistoryJob> found;
@@ -145,6 +187,7 @@ std::vector<HistoryJob> JobHistory::jobs(const char* where, std::int64_t value) 
     job.queued_at = select.real();
     job.begun_at = select.real();
     job.ended_at = select.real();
+    job.attempt = select.text();
     const auto end = std::ranges::find(unwritten_, job.id, &End::id);
     if (end == unwritten_.end()) continue;
     job.state = end->state;
@@ -239,7 +282,9 @@ bool JobHistory::write(const End& end) {
   SqliteStatement forget(database_, "DELETE FROM jobs WHERE state > 1 AND id <= (SELECT max(id) FROM jobs) - ?");
   SqliteStatement forget_waits(database_, "DELETE FROM waits WHERE job < (SELECT min(id) FROM jobs)");
   SqliteStatement forget_stills(database_, "DELETE FROM stills WHERE job < (SELECT min(id) FROM jobs)");
-  static_cast<void>(forget.with(most_ended).run() && forget_waits.run() && forget_stills.run());
+  SqliteStatement forget_attempts(database_, "DELETE FROM attempts WHERE job <= (SELECT max(id) FROM jobs) - ?");
+  static_cast<void>(forget.with(most_ended).run() && forget_waits.run() && forget_stills.run() &&
+                    forget_attempts.with(most_ended).run());
   return true;
 }
 

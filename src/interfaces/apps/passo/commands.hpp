@@ -233,17 +233,21 @@ struct ServeArguments {
   std::string http_token;               // file with the access token
   std::vector<std::string> http_names;  // other names of this server, in addition to HOST
   std::string page;                     // folder with the web interface
-  std::string mqtt;                     // HOST or HOST:PORT of a broker to which the status is published; empty: none
-  std::string mqtt_topic = "passo";     // prefix of all topics
-  std::string mqtt_login;               // file with USER:PASSWORD for the broker; empty: no login
-  bool check = false;                   // only checks whether these options can be served
-  std::string data;                     // folder for jobs and history; empty: nothing is kept
-  std::string tool_library;             // TOML; empty: the tools have no limits
-  std::string macros;                   // folder with macros and subroutines; empty: none
-  std::string pendant;                  // auto, hidraw:DEVICE or a table; empty: none
-  std::vector<std::string> touches;     // objects that the virtual machine's probe can touch, as for `run`
-  std::string system;                   // a folder with system files, as for `board list`
-  std::optional<double> ahead;          // motion that may lie in a Grbl board, s
+  struct Mqtt {
+    std::string broker;           // HOST or HOST:PORT, to which the status is published; empty: none
+    std::string topic = "passo";  // prefix of all topics
+    std::string login;            // file with USER:PASSWORD for the broker; empty: no login
+  };
+  Mqtt mqtt;
+  bool check = false;                // only checks whether these options can be served
+  std::string data;                  // folder for jobs and history; empty: nothing is kept
+  std::string tool_library;          // TOML; empty: the tools have no limits
+  std::string macros;                // folder with macros and subroutines; empty: none
+  std::string pendant;               // auto, hidraw:DEVICE or a table; empty: none
+  std::vector<std::string> touches;  // objects that the virtual machine's probe can touch, as for `run`
+  std::string system;                // a folder with system files, as for `board list`
+  std::optional<double> ahead;       // motion that may lie in a Grbl board, s
+  double virtual_speed = 1;          // time of the simulated machine, as a multiple of real time
 };
 int serve(const ServeArguments& arguments);
 

@@ -89,10 +89,10 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
                      "DEVICE[@BAUD]: serial port for senders (default: 115200 baud)");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
                    "allow --grbl-tcp on an address that other computers can reach; the Grbl protocol has no password");
-  command.add_option("--mqtt", arguments.mqtt,
+  command.add_option("--mqtt", arguments.mqtt.broker,
                      "HOST[:PORT] of an MQTT broker to publish the status to; it cannot move the machine");
-  command.add_option("--mqtt-topic", arguments.mqtt_topic, "prefix of the MQTT topics")->capture_default_str();
-  command.add_option("--mqtt-login", arguments.mqtt_login,
+  command.add_option("--mqtt-topic", arguments.mqtt.topic, "prefix of the MQTT topics")->capture_default_str();
+  command.add_option("--mqtt-login", arguments.mqtt.login,
                      "file whose first line is USER:PASSWORD for the MQTT broker");
   command.add_flag("--check", arguments.check,
                    "only check the machine file and the options; open no port and move nothing");
@@ -112,6 +112,11 @@ void add_serve_options(CLI::App& command, ServeArguments& arguments) {
       "tool library (TOML) with the names and lives of tools; a check warns where a program exceeds one");
   command.add_option("--touch", arguments.touches,
                      "object that the simulated probe can touch, e.g. Z:-1.5 or X10:60,Y10:50,Z:-2; see passo run");
+  command
+      .add_option("--virtual-speed", arguments.virtual_speed,
+                  "how many times faster than real time the simulated machine runs, e.g. to try a queue")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
   command.add_option("--page", arguments.page, "folder with the web interface (default: next to the program passo)");
   add_system(command, arguments.system);
   command.footer(

@@ -122,7 +122,7 @@ int check_serve(const ServeArguments& arguments, const std::string& machine_name
     show(diagnostics);
     if (!is_good) return exit_bad_program;
   }
-  if (!arguments.mqtt.empty() && !ServedStatus::check(arguments, code)) return code;
+  if (!arguments.mqtt.broker.empty() && !ServedStatus::check(arguments, code)) return code;
   if (const auto board = parse_board_address(arguments.board); !board) return fail(exit_bad_program, board.error());
   if (!arguments.data.empty() && !can_keep_data(arguments.data)) {
     return fail(exit_failed, fmt::format("--data {}: the folder is not writable [serve.data]", arguments.data));

@@ -197,7 +197,7 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
   }
   if (!arguments.data.empty()) remember(grbl, arguments.data);
   std::unique_ptr<ServedStatus> status;
-  if (!arguments.mqtt.empty()) {
+  if (!arguments.mqtt.broker.empty()) {
     status = ServedStatus::open(arguments, machine, code);
     if (!status) return code;
   }
@@ -266,6 +266,9 @@ int serve(const ServeArguments& given) {
                 "--ahead is only for --board grbl:; boards of Passo brake by themselves when the connection is lost "
                 "[serve.ahead]");
   }
+  if (arguments.virtual_speed != 1 && arguments.board != "virtual") {
+    return fail(exit_bad_program, "--virtual-speed is only for the simulated machine [serve.virtual-speed]");
+  }
   if (arguments.check) return check_serve(arguments, machine->name);
   int code = exit_done;
   ServiceNotice service;
@@ -299,7 +302,8 @@ int serve(const ServeArguments& given) {
                         .machine = *machine,
                         .served = {.session = opened->session(),
                                    .has_board = opened->has_board(),
-                                   .keep_place = [&] { opened->keep_place(); }},
+                                   .keep_place = [&] { opened->keep_place(); },
+                                   .speed = arguments.virtual_speed},
                         .words = opened->has_board() ? arguments.board : "a simulated board",
                         .journal = journal.get(),
                         .simulated = opened->has_board() ? nullptr : opened.get()},

@@ -26,7 +26,8 @@ ServeDaemon::ServeDaemon(ServedMachine machine, GrblController& grbl, MachineCon
       owner_(owner),
       lines_(std::move(lines)),
       web_(web),
-      service_(service) {}
+      service_(service),
+      clock_(machine_.speed) {}
 
 void ServeDaemon::serve() {
   while (interrupted_by() == 0) {

@@ -19,23 +19,26 @@
 
 namespace passo {
 
-// Makes the time of a virtual machine follow the clock of this computer.
+// Makes the time of a virtual machine follow the clock of this computer, or a clock that is so many times faster.
 class WallClock {
  public:
   // A virtual machine with a larger delay, because the computer was busy or asleep, does not catch up.
   static constexpr Seconds most_late{0.2};
 
+  explicit WallClock(double speed) : speed_(speed) {}
+
   // Returns how far the clock is ahead of `time`.
   Seconds ahead_of(Seconds time) {
     const auto now = std::chrono::steady_clock::now();
-    const Seconds ahead = Seconds(std::chrono::duration<double>(now - start_).count()) - (time - from_);
-    if (ahead <= most_late) return ahead;
+    const Seconds ahead = Seconds(std::chrono::duration<double>(now - start_).count() * speed_) - (time - from_);
+    if (ahead <= most_late * speed_) return ahead;
     start_ = now;
     from_ = time;
     return Seconds(0);
   }
 
  private:
+  double speed_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Seconds from_{0};
 };
@@ -45,6 +48,7 @@ struct ServedMachine {
   MachineSession& session;
   bool has_board = false;                    // not in this process: its time is that of this computer
   std::function<void()> keep_place = [] {};  // saves the position for the next command
+  double speed = 1;                          // of the time of a virtual machine
 };
 
 class ServeDaemon {

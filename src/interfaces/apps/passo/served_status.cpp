@@ -17,26 +17,28 @@ constexpr unsigned usual_mqtt_port = 1883;
 
 // Where the broker is, and the login. Empty, with a message and `code`.
 std::optional<MqttOptions> mqtt_options(const ServeArguments& arguments, int& code) {
-  auto address = read_address(arguments.mqtt);
-  if (!address && arguments.mqtt.find(':') == std::string::npos) address = HostAndPort{arguments.mqtt, usual_mqtt_port};
+  auto address = read_address(arguments.mqtt.broker);
+  if (!address && arguments.mqtt.broker.find(':') == std::string::npos)
+    address = HostAndPort{arguments.mqtt.broker, usual_mqtt_port};
   if (!address || address->port == 0 || address->host.empty()) {
-    code = fail(exit_bad_program, "--mqtt: expected HOST or HOST:PORT, e.g. 127.0.0.1:1883, not " + arguments.mqtt);
+    code =
+        fail(exit_bad_program, "--mqtt: expected HOST or HOST:PORT, e.g. 127.0.0.1:1883, not " + arguments.mqtt.broker);
     return {};
   }
   MqttOptions place{
-      .host = address->host, .port = address->port, .topic = arguments.mqtt_topic, .user = {}, .password = {}};
+      .host = address->host, .port = address->port, .topic = arguments.mqtt.topic, .user = {}, .password = {}};
   if (place.topic.empty() || place.topic.find_first_of("#+") != std::string::npos || place.topic.back() == '/') {
     code =
         fail(exit_bad_program, "--mqtt-topic: expected a topic without # and +, e.g. shop/router, not " + place.topic);
     return {};
   }
-  if (arguments.mqtt_login.empty()) return place;
-  std::ifstream file(arguments.mqtt_login);
+  if (arguments.mqtt.login.empty()) return place;
+  std::ifstream file(arguments.mqtt.login);
   std::string line;
   std::getline(file, line);
   const std::size_t colon = line.find(':');
   if (colon == std::string::npos || colon == 0) {
-    code = fail(exit_bad_program, "--mqtt-login " + arguments.mqtt_login +
+    code = fail(exit_bad_program, "--mqtt-login " + arguments.mqtt.login +
                                       ": expected a file whose first line is USER:PASSWORD [serve.bad-login]");
     return {};
   }

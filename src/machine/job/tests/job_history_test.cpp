@@ -32,6 +32,41 @@ class JobHistoryTest : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("passo-history-" + std::to_string(getpid()));
 };
 
+TEST_F(JobHistoryTest, adds_an_attempt_once) {
+  {
+    const auto history = open();
+    const auto added = history->add_attempt("a-1", "a.ngc", "linuxcnc", "M2\n", 10);
+    EXPECT_TRUE(added.is_new);
+    EXPECT_EQ(added.job, 1);
+  }
+  const auto history = open();
+  const auto again = history->add_attempt("a-1", "a.ngc", "linuxcnc", "M2\n", 20);
+  EXPECT_FALSE(again.is_new || again.other_program);
+  EXPECT_EQ(again.job, 1);
+  EXPECT_TRUE(history->add_attempt("a-1", "a.ngc", "grbl", "M2\n", 20).other_program);
+  EXPECT_TRUE(history->add_attempt("a-1", "a.ngc", "linuxcnc", "M2\n\n", 20).other_program);
+  EXPECT_TRUE(history->add_attempt("a-2", "a.ngc", "linuxcnc", "M2\n", 20).is_new);
+  EXPECT_EQ(history->queue().size(), 2U);
+  EXPECT_EQ(history->queue()[1].attempt, "a-2");
+  EXPECT_EQ(history->find_attempt("a-1")->queued_at, 10);
+  EXPECT_FALSE(history->find_attempt("a-3"));
+  history->add("b.ngc", "linuxcnc", "M2\n", 30);
+  EXPECT_EQ(history->queue()[2].attempt, "");
+  // The program is deleted at the end, but not what it was.
+  history->begin(1, 40);
+  history->end(1, HistoryState::done, "", 50);
+  EXPECT_TRUE(history->add_attempt("a-1", "a.ngc", "linuxcnc", "M30\n", 60).other_program);
+  EXPECT_EQ(history->find_attempt("a-1")->state, HistoryState::done);
+}
+
+TEST_F(JobHistoryTest, has_no_attempt_without_a_place_in_the_queue) {
+  const auto history = open();
+  for (std::size_t i = 0; i < JobHistory::most_queued; ++i) history->add("a.ngc", "linuxcnc", "M2\n", 10);
+  EXPECT_FALSE(history->add_attempt("a-1", "a.ngc", "linuxcnc", "M2\n", 20).job);
+  ASSERT_TRUE(history->remove(1));
+  EXPECT_TRUE(history->add_attempt("a-1", "a.ngc", "linuxcnc", "M2\n", 30).is_new);
+}
+
 TEST_F(JobHistoryTest, keeps_where_a_job_has_waited) {
   const HistoryWait tool{.at = 21, .code = "M6", .line = 12, .tool = 0, .words = "6 mm\ndrill"};
   const HistoryWait stop{.at = 22, .code = "M0", .line = 13, .tool = {}, .words = ""};

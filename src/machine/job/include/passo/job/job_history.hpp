@@ -46,6 +46,7 @@ struct HistoryStill {
 
 struct HistoryJob {
   std::int64_t id = 0;
+  std::string attempt;  // the id that a client has given it; empty: none
   std::string name;
   std::string dialect;
   std::uint64_t bytes = 0;  // size of the program
@@ -90,6 +91,17 @@ class JobHistory {
   // Adds a job that starts immediately. Empty: it cannot be written.
   std::optional<std::int64_t> add_running(std::string_view name, std::string_view dialect, std::string_view program,
                                           double now);
+  // The same with an id of the client's choice, 1 to 64 characters. If there is a job with this id already, whatever
+  // has become of it, that job is returned: a client that got no answer may repeat its request. `other_program`: with
+  // another program.
+  struct Attempt {
+    std::optional<std::int64_t> job;  // empty: see add()
+    bool is_new = false;
+    bool other_program = false;
+  };
+  Attempt add_attempt(std::string_view attempt, std::string_view name, std::string_view dialect,
+                      std::string_view program, double now);
+  std::optional<HistoryJob> find_attempt(std::string_view attempt) const;
   std::optional<HistoryJob> find(std::int64_t id) const;
   // Returns a job's program. Empty: there is no such job, or its program was deleted when it ended.
   std::optional<std::string> program_of(std::int64_t id) const;
