@@ -104,7 +104,7 @@ TEST_F(SpindleWords, a_program_for_a_laser_is_warned_of_with_its_places) {
   EXPECT_EQ(lines.code, 0);
   EXPECT_TRUE(contains(lines.err, "p.ngc:3:1: warning: S changes in 4 feeds, as in")) << lines.err;
   EXPECT_TRUE(contains(lines.err, "= and 3 more, lines 4, 6, 7\n")) << lines.err;
-  EXPECT_TRUE(contains(lines.err, "Passo has no laser mode")) << lines.err;
+  EXPECT_TRUE(contains(lines.err, "without [laser] in the machine file")) << lines.err;
   EXPECT_TRUE(contains(lines.err, "[path.laser]")) << lines.err;
   const Outcome backwards = check("G21 G91 F4000\nM4 S100\nG1 X1\nG1 X1 S50\nM5\nM2\n", mill);
   EXPECT_TRUE(contains(backwards.err, "S changes, or M4 is on in 2 feeds, as in")) << backwards.err;

@@ -154,11 +154,15 @@ class DrivenProgram {
                          .spindle_run_up = machine.spindle.run_up,
                          .counts_per_turn = machine.spindle.counts_per_turn,
                          .guards_by_probe = machine.probe.guards && on_.answers_probes,
-                         .waits_for_operator = on_.waits_for_operator};
+                         .waits_for_operator = on_.waits_for_operator,
+                         .kept_in_stops = kept_in_stops(machine)};
     if (machine.tool_change) options.coolant_wait = collet_wait(*machine.tool_change);
     if (options.guards_by_probe) options.live = live_commitment;
     if (board_.is_remote() && !board_.session().error() && !unsuited_) options.tails.emplace();
-    if (on_.resume_at) options.begin_at = on_.resume_at->place;
+    if (on_.resume_at) {
+      options.begin_at = on_.resume_at->place;
+      options.switches = static_cast<std::uint8_t>(on_.resume_at->switches & options.kept_in_stops);
+    }
     options.lead_in = lead_in();
     return options;
   }

@@ -28,6 +28,8 @@ struct Kind {
   std::vector<MotorPins> motors;
   std::map<BoardInput, Pin> switches;
   Pin spindle_direction = {};
+  Pin mist = {};
+  Pin flood = {};
   bool has_encoder = false;
 };
 
@@ -46,6 +48,8 @@ Kind kind_of(bool is_mega, const Map& pins, DriveMode drive = {}) {
                          {input_hold, pins.feed_hold},
                          {input_start, pins.cycle_start}},
             .spindle_direction = pins.spindle_direction,
+            .mist = pins.mist,
+            .flood = pins.flood,
             .has_encoder = pins.encoder.exists()};
   for (MotorPins& motor : kind.motors) motor.drive = drive;
   return kind;
@@ -87,6 +91,11 @@ class AvrBoard final : public ProcessBoard {
       motors_.push_back(motor);
     }
     spindle_turns_back_ = numbers.bit_of(kind.spindle_direction);
+    watch_output(spindle_reverse, spindle_turns_back_);
+    if (windings_ == 0) {  // otherwise there are more pins than the emulator watches
+      watch_output(mist_on, numbers.bit_of(kind.mist));
+      watch_output(flood_on, numbers.bit_of(kind.flood));
+    }
     for (const auto& [which, pin] : kind.switches) switches_.emplace_back(which, numbers.bit_of(pin));
     words_ = {std::move(emulator), kind.mcu, std::move(program), numbers.text()};
     start_emulator();

@@ -35,6 +35,9 @@ class PicoBoard final : public ProcessBoard {
  public:
   PicoBoard(std::unique_ptr<EmulatedPico> pico, const PicoPins& pins)
       : ProcessBoard(clock_rate, pins.motors), pins_(pins) {
+    watch_output(spindle_reverse, gpio_bit(pins.spindle_direction));
+    watch_output(mist_on, gpio_bit(pins.mist));
+    watch_output(flood_on, gpio_bit(pins.flood));
     start(std::move(pico), std::uint32_t{pins.steps_of(0xff)} << pins.first);
   }
   void wire(const PinSetup& wiring) override {

@@ -14,6 +14,7 @@
 #include "passo/emulator/emulated_board.hpp"
 #include "passo/emulator/emulator_process.hpp"
 #include "passo/plant/ideal_plant.hpp"
+#include "passo/wire/board_segment.hpp"
 
 namespace passo {
 
@@ -54,6 +55,11 @@ class ProcessBoard : public EmulatedBoard {
     stepping_ = stepping;
     run_until(1, {});
   }
+  // `pin`: 0 if the board has no such output.
+  void watch_output(OutputSwitch which, std::uint32_t pin) {
+    outputs_.emplace_back(which, pin);
+    switched_ |= pin;
+  }
   EmulatorProcess& chip() { return *chip_; }
   const EmulatorProcess& chip() const { return *chip_; }
   Plant& plant() { return *plant_; }
@@ -84,11 +90,19 @@ class ProcessBoard : public EmulatedBoard {
     for (const PinChange& change : chip_->changes()) {
       const std::uint32_t before = std::exchange(levels_, change.levels);
       if (((before ^ change.levels) & stepping_) != 0) follow(change, before);
+      if (((before ^ change.levels) & switched_) != 0 && on_outputs) on_outputs(change.cycle, switched_outputs());
     }
     const double rpm = commanded_rpm();
     if (rpm != rpm_) plant_->command_spindle(elapsed(), rpm_ = rpm);
     update_inputs();
     said_.insert(said_.end(), chip_->said().begin(), chip_->said().end());
+  }
+  std::uint8_t switched_outputs() const {
+    unsigned switches = 0;
+    for (const auto& [which, pin] : outputs_) {
+      if (is_high(pin)) switches |= which;
+    }
+    return static_cast<std::uint8_t>(switches);
   }
   void follow(const PinChange& change, std::uint32_t before) {
     pulses_ = {};
@@ -105,6 +119,8 @@ class ProcessBoard : public EmulatedBoard {
   double clock_rate_;
   std::unique_ptr<EmulatorProcess> chip_;
   std::uint32_t stepping_ = 0;  // the pins that output steps
+  std::vector<std::pair<OutputSwitch, std::uint32_t>> outputs_;
+  std::uint32_t switched_ = 0;  // their pins
   std::uint32_t levels_ = 0;
   IdealPlant own_plant_;
   Plant* plant_ = &own_plant_;

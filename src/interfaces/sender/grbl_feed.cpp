@@ -191,6 +191,7 @@ GrblProgramPath::GrblProgramPath(ProgramReader program, const MachineDescription
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics, answers_),
       until_error_(builder_, diagnostics) {
+  path_options_.outputs = {};  // Grbl itself sets a laser's power, and has no outputs that switch in motion
   operations_.watch([this](const Operation& operation) { messages_.watch(operation, interpreter_.tools()); });
 }
 

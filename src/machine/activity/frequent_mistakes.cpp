@@ -43,7 +43,8 @@ bool is_nearly_circle(const operation::ArcFeed& arc, const Point& from) {
 FrequentMistakes::FrequentMistakes(const MachineDescription& machine, LengthUnits units, std::string file,
                                    Diagnostics& diagnostics)
     : OperationWatcher(std::move(file), diagnostics),
-      has_spindle_(machine.tool.highest_rpm > 0),
+      has_laser_(machine.motion_outputs.laser.has_value()),
+      has_spindle_(machine.tool.highest_rpm > 0 && !has_laser_),
       knows_units_(units == LengthUnits::inch) {}
 
 void FrequentMistakes::watch(const Operation& operation, const ToolTrack& track) {
@@ -68,7 +69,7 @@ void FrequentMistakes::watch(const Operation& operation, const ToolTrack& track)
   if (const auto* speed = std::get_if<SetSpindleSpeed>(&what)) {
     speed_ = speed->revolutions_per_minute;
     if (speed_ > 0) turned_at_zero_.reset();
-    if (speed_ > 0 && !has_spindle_) idle_speed(operation);
+    if (speed_ > 0 && !has_spindle_ && !has_laser_) idle_speed(operation);
   } else if (is_any_of<SetLengthUnits>(operation) && operation.source.line > 0) {
     knows_units_ = true;  // line 0: the interpreter says its own units before the program begins
   }

@@ -28,7 +28,7 @@ LowRapids::LowRapids(const MachineDescription& machine, bool zero_is_known, std:
                                         return std::ranges::find(machine.axes, axis, &AxisDescription::axis) !=
                                                machine.axes.end();
                                       })),
-      has_spindle_(machine.tool.highest_rpm > 0),
+      has_spindle_(machine.tool.highest_rpm > 0 && !machine.motion_outputs.laser),
       zero_is_known_(zero_is_known) {}
 
 void LowRapids::watch(const Operation& operation, const ToolTrack& track) {

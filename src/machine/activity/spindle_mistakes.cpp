@@ -14,12 +14,13 @@ namespace passo {
 SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
     : OperationWatcher(std::move(file), diagnostics),
       may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
-      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()) {}
+      is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()),
+      has_laser_(machine.motion_outputs.laser.has_value()) {}
 
 void SpindleMistakes::watch(const Operation& operation, const ToolTrack& track) {
   using namespace passo::operation;
   if (const auto* set = std::get_if<SetFeedOverride>(&operation.what)) taps_ = !set->on;
-  if (taps_) return;
+  if (taps_ || has_laser_) return;
   if (const auto* turned = std::get_if<TurnSpindle>(&operation.what)) return turn(operation, turned->direction);
   if (const auto* speed = std::get_if<SetSpindleSpeed>(&operation.what)) {
     return set_speed(operation, speed->revolutions_per_minute);
@@ -68,14 +69,15 @@ void SpindleMistakes::feed(const Operation& operation) {
   any_backwards_ |= backwards;
   ++places_;
   if (laser_) return laser_->add_line(operation.source.line);
-  laser_ = warning(operation, "path.laser", {}, "a program for a spindle");
+  laser_ = warning(operation, "path.laser", {}, "a program for a spindle, or [laser] in the machine file");
 }
 
 void SpindleMistakes::finish() {
   if (laser_) {
     const std::string_view what = !any_backwards_ ? "S changes" : !any_changes_ ? "M4 is on" : "S changes, or M4 is on";
     laser_->message = fmt::format(
-        "{} in {}, as in a laser program; Passo has no laser mode: the beam would stay on in rapids and at stops, and "
+        "{} in {}, as in a laser program; without [laser] in the machine file the beam would stay on in rapids and at "
+        "stops, and "
         "motion stops at each change of S",
         what, counted(places_, "feed"));
     diagnostics_.add_certain(*std::exchange(laser_, std::nullopt));

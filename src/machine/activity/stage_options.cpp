@@ -8,8 +8,39 @@
 #include <vector>
 
 #include "passo/path/backlash_compensator.hpp"
+#include "passo/wire/board_segment.hpp"
 
 namespace passo {
+
+namespace {
+
+std::uint8_t bit_of(const DigitalOutputDescription& output) {
+  switch (output.pin) {
+    case DigitalOutputDescription::Pin::flood: return OutputSwitch::flood_on;
+    case DigitalOutputDescription::Pin::mist: return OutputSwitch::mist_on;
+    case DigitalOutputDescription::Pin::direction: return OutputSwitch::spindle_reverse;
+  }
+  return 0;
+}
+
+MotionOutputOptions motion_output_options(const MotionOutputsDescription& machine) {
+  MotionOutputOptions options;
+  for (std::size_t i = 0; i < machine.digital.size(); ++i) {
+    if (machine.digital[i]) options.digital[i] = bit_of(*machine.digital[i]);
+  }
+  if (machine.laser) options.laser = {.maximum_s = machine.laser->maximum_s, .minimum = machine.laser->minimum};
+  return options;
+}
+
+}  // namespace
+
+std::uint8_t kept_in_stops(const MachineDescription& machine) {
+  unsigned kept = 0;
+  for (const auto& output : machine.motion_outputs.digital) {
+    if (output && output->stays_on) kept |= bit_of(*output);
+  }
+  return static_cast<std::uint8_t>(kept);
+}
 
 PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start) {
   PathOptions options;
@@ -26,6 +57,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   options.threads_hold_speed = machine.spindle.counts_per_turn == 0;
   if (machine.park.at_end != ParkDescription::AtEnd::stay) options.end_height = machine.top_of_travel();
   if (machine.park.at_end == ParkDescription::AtEnd::park) options.park = machine.park.place;
+  options.outputs = motion_output_options(machine.motion_outputs);
   options.file = program;
   options.start = start;
   return options;

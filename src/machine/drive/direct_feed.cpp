@@ -102,9 +102,14 @@ Feed::Progress DirectFeed::advance() {
   if (!stages_.items.next(item_)) {
     ended_ = true;
   } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
+    if (stages_.outputs.go_on()) pass_on_outputs();
     waiting_.emplace_back(*segment);
+  } else if (const auto* outputs = std::get_if<PathOutputs>(&item_)) {
+    stages_.outputs.apply(*outputs);
+    pass_on_outputs();
   } else {
     action_ = std::get<Action>(item_);
+    if (action_->kind == Action::Kind::feed_hold && stages_.outputs.halt()) pass_on_outputs();
     if (is_for_outputs(*action_, options_.waits_for_operator)) {
       stages_.outputs.apply(*std::exchange(action_, std::nullopt));
       pass_on_outputs();

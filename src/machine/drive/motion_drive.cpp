@@ -39,6 +39,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
                   .coolant_wait = options.coolant_wait}),
       holds_(pipeline_.planner()),
       waits_at_optional_(options.waits_at_optional) {
+  outputs_.keep_in_stops(options.kept_in_stops);
+  outputs_.apply(PathOutputs{.switches = options.switches});
   pipeline_.path_items().watch([this](const PathItem& item) { watch(item); });
   pipeline_.motion().watch([this](const MotionItem& item) { watch(item); });
   if (options.guards_by_probe) probe_.guard_other_moves();

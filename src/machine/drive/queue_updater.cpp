@@ -57,6 +57,7 @@ QueueUpdater::Progress QueueUpdater::advance() {
   }
   if (stages_.link.outputs_timed_out() && ledger_.under_way() == nullptr && !(pulled_.ends() && pulled_.empty())) {
     rewind();
+    stages_.outputs.forget_told();
     return Progress::outputs_off;
   }
   if (!on_tail_ && !brakes_) {
@@ -198,8 +199,13 @@ void QueueUpdater::pull() {
     } else if (!stages_.items.next(item_)) {
       pulled_.record_end();
     } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
+      if (stages_.outputs.go_on()) add(stages_.outputs.tell());
       add(*segment);
+    } else if (const auto* outputs = std::get_if<PathOutputs>(&item_)) {
+      stages_.outputs.apply(*outputs);
+      add(stages_.outputs.tell());
     } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
+      if (stages_.outputs.halt()) add(stages_.outputs.tell());
       pulled_.record_hold();
     } else if (is_for_outputs(action, waits_for_operator_)) {
       stages_.outputs.apply(action);

@@ -40,8 +40,19 @@ StopRamp StopRampPlanner::brake(const PathPosition& given, bool in_few_items) {
   StepGenerator& rested = *(tail.rest.generator = std::make_unique<StepGenerator>(braking, steps_));
   rested.assume(stages_.generator);
   rested.be_exact_to(in_few_items ? options_.tail_in_few_places : options_.tail);
-  while (rested.next(item_)) tail.items.emplace_back(std::get<BoardSegment>(item_));
+  while (rested.next(item_)) add_item(tail);
+  if (tail.rest.outputs.halt()) tail.items.emplace_back(tail.rest.outputs.tell());
   return tail;
+}
+
+// The outputs change along the stop ramp as on the rest of the path, so that the path has no gap where it goes on.
+void StopRampPlanner::add_item(StopRamp& tail) const {
+  if (const auto* outputs = std::get_if<PathOutputs>(&item_)) {
+    tail.rest.outputs.apply(*outputs);
+    tail.items.emplace_back(tail.rest.outputs.tell());
+  } else {
+    tail.items.emplace_back(std::get<BoardSegment>(item_));
+  }
 }
 
 // The copy of the generator has no motion to read.

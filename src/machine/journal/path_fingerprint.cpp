@@ -18,6 +18,11 @@ void PathFingerprint::add(const Segment& segment) {
     of_all_.add(value);
   }
   of_all_.add(std::uint64_t{segment.rapid} + (static_cast<std::uint64_t>(segment.mode) << 8U));
+  // Journals of programs without such outputs stay valid.
+  if (segment.outputs == PathOutputs{}) return;
+  of_all_.add(segment.outputs.power);
+  of_all_.add(std::uint64_t{segment.outputs.switches.value_or(0)} +
+              (std::uint64_t{segment.outputs.follows_speed} << 8U));
 }
 
 void PathFingerprint::add(const Action& action) {

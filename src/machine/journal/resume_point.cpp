@@ -49,6 +49,7 @@ class Passed {
       point_.point = segment->curve.end();
       point_.downs = segment->downs;
       point_.work_zero = segment->work_zero;
+      point_.switches = segment->outputs.switches.value_or(point_.switches);
       waits_ = false;
       return;
     }
@@ -63,6 +64,7 @@ class Passed {
       point_.spindle_wait += action.dwell;
     }
     point_.outputs = action.outputs;
+    point_.switches = action.switches.value_or(point_.switches);
     if (changes_tool(action)) point_.tool = action.tool;
     if (is_program_stop(action)) ++point_.stops;
   }

@@ -199,6 +199,21 @@ std::string describe_hooks(const ProgramHooks& hooks) {
                      lines(hooks.at_start), lines(hooks.at_end));
 }
 
+std::string describe_motion_outputs(const MotionOutputsDescription& outputs) {
+  constexpr const char* pins[] = {"flood", "mist", "spindle direction"};
+  std::string text;
+  for (std::size_t i = 0; i < outputs.digital.size(); ++i) {
+    if (!outputs.digital[i]) continue;
+    text +=
+        fmt::format("output {}        {}, {} in stops\n", i, pins[static_cast<std::size_t>(outputs.digital[i]->pin)],
+                    outputs.digital[i]->stays_on ? "kept" : "off");
+  }
+  if (!outputs.laser) return text;
+  text += fmt::format("laser           full power at S{:g}", outputs.laser->maximum_s);
+  if (outputs.laser->minimum > 0) text += fmt::format(", at least {:g} %", outputs.laser->minimum * 100);
+  return text + "\n";
+}
+
 std::string describe_park(const ParkDescription& park) {
   if (!park.place && park.at_end == ParkDescription::AtEnd::stay) return "";
   std::string line = "park            ";
@@ -221,6 +236,7 @@ std::string describe(const MachineDescription& machine) {
                      sensible_number(board.highest_event_rate.value()), board.step_pulse.value() * 1e6);
   out += describe_tool(machine.tool);
   out += describe_spindle(machine.spindle);
+  out += describe_motion_outputs(machine.motion_outputs);
   out += describe_pins(machine.pins);
   out += describe_homing(machine);
   if (machine.tool_change) out += describe_tool_change(*machine.tool_change);

@@ -14,6 +14,7 @@
 #include "homing_reader.hpp"
 #include "hooks_reader.hpp"
 #include "machine_file_sentences.hpp"
+#include "motion_outputs_reader.hpp"
 #include "park_reader.hpp"
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
@@ -121,6 +122,8 @@ MachineDescription MachineReader::read() {
   const TomlEntry* camera = top.table("camera", "a table [camera]", Need::optional);
   const TomlEntry* handwheel = top.table("handwheel", "a table [handwheel]", Need::optional);
   const TomlEntry* axes = top.table("axis", machine_file_says::axis_table.text, Need::required);
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  machine_.motion_outputs = read_motion_outputs(top, reporter_, end);
   finish(top);
   if (board != nullptr) read_board(*board);
   if (tool != nullptr) read_tool(*tool);
@@ -133,7 +136,6 @@ MachineDescription MachineReader::read() {
   if (machine_.is_core_xy && axes != nullptr) check_kinematics(top.place_of(kinematics_key));
   if (park != nullptr) read_park_of(*park);
   read_homing(homing);
-  const auto end = [this](TableReader& inner) { finish(inner); };
   if (hooks != nullptr) read_hooks_of(*hooks);
   if (camera != nullptr) check_camera(*camera, reporter_, end);
   if (handwheel != nullptr) machine_.handwheel = read_handwheel(*handwheel, machine_.axes, reporter_, end);

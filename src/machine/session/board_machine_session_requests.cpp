@@ -94,7 +94,8 @@ DriveOptions BoardMachineSession::drive_options() const {
                        .not_before = enabled_at_ + machine_.pins.enable_wait,
                        .spindle_wait = machine_.silence.spindle_wait,
                        .spindle_run_up = machine_.spindle.run_up,
-                       .waits_at_optional = stops_.optional_stop};
+                       .waits_at_optional = stops_.optional_stop,
+                       .kept_in_stops = kept_in_stops(machine_)};
   if (machine_.tool_change) options.coolant_wait = collet_wait(*machine_.tool_change);
   if (options_.over_a_line) options.tails.emplace();
   return options;
@@ -131,6 +132,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Start& start) {
   if (!start.live && !options.guards_by_probe) options.live = endless_commitment;
   if (start.from) {
     options.begin_at = start.from->place;
+    options.switches = static_cast<std::uint8_t>(start.from->switches & options.kept_in_stops);
     work->stops_before = start.from->stops;
   }
   options.lead_in = std::move(start.lead_in);

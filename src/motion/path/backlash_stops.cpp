@@ -176,6 +176,7 @@ void BacklashStops::take_up(const Point& at, AxisSet turned, PathItem& item) {
   segment.pitch = segment.reverse_at = Mm(0);
   segment.downs = downs_;
   segment.takes_up_backlash = true;
+  segment.outputs.power = 0;
   item = segment;
 }
 

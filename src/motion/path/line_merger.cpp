@@ -38,7 +38,7 @@ bool is_line(const PathItem& item) {
 
 bool are_played_alike(const Segment& before, const Segment& after) {
   return before.speed == after.speed && before.rapid == after.rapid && before.heeds == after.heeds &&
-         before.lock == after.lock && before.pitch == after.pitch;
+         before.lock == after.lock && before.pitch == after.pitch && before.outputs == after.outputs;
 }
 
 bool are_alike(const Segment& before, const Segment& after) {

@@ -18,7 +18,8 @@
 
 namespace passo {
 
-// Whether two segments have the same speed, the same enabled overrides and holds, and the same spindle synchronisation.
+// Whether two segments have the same speed, the same enabled overrides and holds, the same spindle synchronisation, and
+// the same outputs.
 bool are_played_alike(const Segment& before, const Segment& after);
 // Whether only the curve changes from a segment to the next, and the path is continuous between them.
 bool are_alike(const Segment& before, const Segment& after);

@@ -80,9 +80,9 @@ bool PathBuilder::next(PathItem& item) {
   if (!has_item && !options_.open_ended) switch_off();
   // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
   // there is no item in hand.
-  const bool switches = outputs() != handed_on_;
-  if (switches) in_step_ = false;
-  if (switches) run_up_left_ = run_up_after(handed_on_);
+  const bool switches = must_switch(has_item, item);
+  if (outputs() != handed_on_) in_step_ = false;
+  if (outputs() != handed_on_) run_up_left_ = run_up_after(handed_on_);
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
   if (!switches && !awaits_index && !awaits_speed) return has_item;
@@ -90,8 +90,15 @@ bool PathBuilder::next(PathItem& item) {
   if (awaits_index) held_.emplace_front(outputs_action(Action::Kind::await_index));
   if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(run_up_left_, Seconds(0))));
   if (switches) held_.emplace_front(outputs_action());
+  if (switches) in_motion_.hand_on();
   handed_on_ = outputs();
   return next(item);
+}
+
+// A change of the digital outputs needs a stop only where no motion follows that switches them.
+bool PathBuilder::must_switch(bool has_item, const PathItem& item) const {
+  if (outputs() != handed_on_) return true;
+  return in_motion_.is_news() && !(has_item && std::holds_alternative<Segment>(item));
 }
 
 // Some operations stand for several operations. These come before the next operation of the program.
@@ -105,6 +112,7 @@ bool PathBuilder::next_operation() {
 void PathBuilder::switch_off() {
   if (outputs() != OutputState{}) outputs_source_ = operation_.source;
   commanded_ = OutputState{};
+  in_motion_.switch_off();
 }
 
 bool PathBuilder::add(const Operation& operation, PathItem& item) {
@@ -144,18 +152,22 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
           [&](const operation::OrientSpindle&) { return lacks(TorqueShortage::orientation), false; },
           [&](const operation::AwaitSpindle&) { return false; },  // already reported with OrientSpindle
-          [&](const operation::SetDigitalOutput&) { return lacks(TorqueShortage::outputs), false; },
-          [&](const operation::SetAnalogOutput&) { return lacks(TorqueShortage::outputs), false; },
+          [&](const operation::SetDigitalOutput& set) { return set_digital(set); },
+          [&](const operation::SetAnalogOutput& set) { return set_analog(set); },
           [&](const operation::UserCode&) { return lacks(TorqueShortage::user_codes), false; },
           [&](const operation::ReadInput& input) {
             lacks(TorqueShortage::inputs);
             return input.timeout > Seconds(0) && act(Action::Kind::dwell, input.timeout);
           },
           [&](const operation::SetSpindleSpeed& speed) {
+            if (options_.outputs.laser) return set_power(speed.revolutions_per_minute);
             set_spindle_speed(speed.revolutions_per_minute);
             return set_output(commanded_.revolutions_per_minute, commanded_.revolutions_per_minute);
           },
-          [&](const operation::TurnSpindle& turn) { return set_output(commanded_.spindle, turn.direction); },
+          [&](const operation::TurnSpindle& turn) {
+            if (!options_.outputs.laser) return set_output(commanded_.spindle, turn.direction);
+            return in_motion_.turn_laser(turn.direction), false;
+          },
           [&](const operation::SetMist& mist) { return set_output(commanded_.mist, mist.on); },
           [&](const operation::SetFlood& flood) { return set_output(commanded_.flood, flood.on); },
           [&](const operation::Dwell& dwell) { return act(Action::Kind::dwell, dwell.time); },
@@ -202,6 +214,7 @@ bool PathBuilder::next_probe_step(PathItem& item) {
     const bool refused = answers_.probe() != nullptr && answers_.probe()->refused;
     if (!refused && add_line(probe_end_, false, item)) {
       std::get<Segment>(item).mode = PathMode::exact_stop;
+      std::get<Segment>(item).outputs.power = 0;
       return true;
     }
   }
@@ -393,6 +406,7 @@ bool PathBuilder::add_curve(const Curve& curve, bool rapid, PathItem& item, cons
                  .heeds = heeds(),
                  .lock = rapid ? SpindleLock::none : lock(),
                  .pitch = pitch(),
+                 .outputs = in_motion_.begin_segment(!rapid, options_.outputs.has_digital()),
                  .source = operation_.source};
   return true;
 }
@@ -458,7 +472,10 @@ Mm PathBuilder::pitch() const {
 }
 
 Action PathBuilder::outputs_action(Action::Kind kind, Seconds dwell) const {
-  return {.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = 0, .heeds = heeds(), .source = outputs_source_};
+  Action action{
+      .kind = kind, .dwell = dwell, .outputs = outputs(), .tool = 0, .heeds = heeds(), .source = outputs_source_};
+  if (options_.outputs.has_digital()) action.switches = in_motion_.at_rest();
+  return action;
 }
 
 void PathBuilder::report(Severity severity, std::string code, FindingWords message, FindingWords expected,

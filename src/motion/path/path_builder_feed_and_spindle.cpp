@@ -122,18 +122,43 @@ MmPerSecond PathBuilder::feed_with_spindle(double mm_per_revolution) {
 void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
   const double limit = options_.spindle_limit;
   commanded_.revolutions_per_minute = limit > 0 ? std::min(revolutions_per_minute, limit) : revolutions_per_minute;
-  if (!(limit > 0 && revolutions_per_minute > limit) || revolutions_per_minute == refused_spindle_speed_) return;
-  refused_spindle_speed_ = revolutions_per_minute;
+  if (!(limit > 0 && revolutions_per_minute > limit) || revolutions_per_minute == refused_.spindle_speed) return;
+  refused_.spindle_speed = revolutions_per_minute;
   const std::string most = fmt::format("{:.0f}", limit);
   report(Severity::warning, "path.spindle-too-fast",
          path_says::spindle_too_fast.with({{"asked", fmt::format("{:.0f}", revolutions_per_minute)}, {"most", most}}),
          path_says::speed_up_to.with({{"most", most}}));
 }
 
+// The power of the laser for an S.
+bool PathBuilder::set_power(double s) {
+  const LaserOptions& laser = *options_.outputs.laser;
+  in_motion_.set_power(s > 0 ? std::clamp(s / laser.maximum_s, laser.minimum, 1.0) : 0);
+  if (s <= laser.maximum_s || s == refused_.spindle_speed) return false;
+  refused_.spindle_speed = s;
+  report(Severity::warning, "path.laser-too-strong", fmt::format("S{:g} is more than the laser's full power", s),
+         fmt::format("S up to {:g}, maximum_s of [laser] in the machine file", laser.maximum_s));
+  return false;
+}
+
+bool PathBuilder::set_digital(const operation::SetDigitalOutput& set) {
+  const std::uint8_t bit = options_.outputs.bit_of(set.output);
+  if (bit == 0) return lacks(TorqueShortage::outputs), false;
+  in_motion_.set_digital(bit, set.on, set.with_motion);
+  outputs_source_ = operation_.source;
+  return false;
+}
+
+// With a laser, the analog output 0 is its power, in the unit of S.
+bool PathBuilder::set_analog(const operation::SetAnalogOutput& set) {
+  if (!options_.outputs.laser || set.output != 0) return lacks(TorqueShortage::outputs), false;
+  return set_power(set.value);
+}
+
 // The planner would slow down a feed that is too fast for an axis, and a thread would then get another pitch.
 void PathBuilder::check_thread(const Curve& curve, MmPerSecond speed) {
   const double rpm = outputs().revolutions_per_minute;
-  if (rpm == 0 || speed == refused_feed_) return;
+  if (rpm == 0 || speed == refused_.feed) return;
   const Point slopes = curve.steepest();
   Axis slowest = Axis::x;
   double times = 1;  // what is asked of the slowest axis, as a multiple of what it can do
@@ -144,7 +169,7 @@ void PathBuilder::check_thread(const Curve& curve, MmPerSecond speed) {
     slowest = axis;
   }
   if (times == 1) return;
-  refused_feed_ = speed;
+  refused_.feed = speed;
   const bool inches = units_ == LengthUnits::inch;
   const double length = inches ? mm_per_inch : 1;
   const double pitch = speed.value() * seconds_per_minute / rpm / length;

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "lanes.hpp"
 
@@ -32,10 +34,12 @@ class EventBuffer {
                 from.begin() + static_cast<std::ptrdiff_t>(end),
                 to.begin() + static_cast<std::ptrdiff_t>(other.first_));
     };
-    copy(other.time_, time_, other.last_);
-    for (unsigned m = 0; m < max_motors; ++m) copy(other.place_[m], place_[m], other.last_ + 1);
+    const std::size_t end = other.last_ + other.hidden_;
+    copy(other.time_, time_, end);
+    for (unsigned m = 0; m < max_motors; ++m) copy(other.place_[m], place_[m], end + 1);
     first_ = other.first_;
     last_ = other.last_;
+    hidden_ = other.hidden_;
     return *this;
   }
 
@@ -63,6 +67,14 @@ class EventBuffer {
     last_ += count;
   }
   void drop(std::size_t events) { first_ += events; }
+  // Takes the events after the last one that makes a step out of the buffer, until show_hidden(). Add no events
+  // meanwhile.
+  void hide_events_without_steps(unsigned motors) {
+    const std::size_t end = last_;
+    while (last_ > first_ && !makes_step(last_, motors)) --last_;
+    hidden_ = end - last_;
+  }
+  void show_hidden() { last_ += std::exchange(hidden_, 0); }
   // Empties the buffer. `before` are the positions at the event before the first.
   void restart(const std::array<double, max_motors>& before) {
     first_ = last_ = 0;
@@ -73,6 +85,13 @@ class EventBuffer {
   static constexpr std::size_t capacity = 4096;  // twice the number that a segment needs, so that events are rarely
                                                  // moved
 
+  // Of the event before index `end`.
+  bool makes_step(std::size_t end, unsigned motors) const {
+    for (unsigned m = 0; m < motors; ++m) {
+      if (std::floor(place_[m][end] / whole_step) != std::floor(place_[m][end - 1] / whole_step)) return true;
+    }
+    return false;
+  }
   void make_room() {
     std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),
               time_.begin());
@@ -88,6 +107,7 @@ class EventBuffer {
   std::array<std::array<double, capacity + 1>, max_motors> place_;  // one more: the event before the first
   std::size_t first_ = 0;
   std::size_t last_ = 0;
+  std::size_t hidden_ = 0;  // events after the last one
 };
 
 }  // namespace passo

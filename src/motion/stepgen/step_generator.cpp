@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "board_model.hpp"
 #include "event_stream.hpp"
+#include "power_parts.hpp"
 #include "segment_fitter.hpp"
 
 #include "passo/base/ensure.hpp"
@@ -45,11 +47,11 @@ class StepGenerator::Implementation {
     std::tie(motion_, longest_wait_, exactness_) = own;
     be_exact_to(exactness_);
     finished_ = false;
-    if (stream_.in_move()) stream_.move_lives_in(std::get<PlannedMove>(motion_item_));
+    if (stream_.in_move()) stream_.move_lives_in(parts_.part_of(std::get<PlannedMove>(motion_item_)));
   }
 
   bool ends_at_rest() const { return rests_; }
-  bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !stream_.in_move(); }
+  bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !switches_ && !stream_.in_move(); }
 
   bool waits_at_rest() const { return rest_ && !play_; }
 
@@ -66,6 +68,12 @@ class StepGenerator::Implementation {
     for (;;) {
       if (play_ && fit(item)) return true;
       play_ = false;
+      if (std::exchange(switches_, false)) {
+        events_.show_hidden();
+        play_ = !events_.empty();
+        item = outputs_;
+        return true;
+      }
       if (rest_) {
         if (come_to_rest(item)) return true;
         rest_ = false;
@@ -149,15 +157,13 @@ class StepGenerator::Implementation {
   // Pulls motion until there are events to play, a rest to come to, or an action to pass on. Returns false at the end.
   bool go_on() {
     if (!stream_.in_move()) {
-      if (!motion_->next(motion_item_)) return finish();
+      const bool has_part = next_part();
+      if (!has_part && !motion_->next(motion_item_)) return finish();
       if (const auto* action = std::get_if<Action>(&motion_item_)) {
         apply(*action);
         return true;
       }
-      const auto& move = std::get<PlannedMove>(motion_item_);
-      ensure(move.phase_count > 0 && move.from() <= move.to);  // as Planner hands it on
-      stream_.start_move(move);
-      rests_ = false;
+      if (start_move(has_part)) return true;
     }
     switch (stream_.fill(events_, fitter_.longest() + 1)) {
       case EventStream::Stop::full: more_ = play_ = true; break;
@@ -170,6 +176,7 @@ class StepGenerator::Implementation {
         play_ = enough();
         break;
       case EventStream::Stop::rest:
+        switch_laser_off();
         stream_.end_stretch();
         more_ = false;
         play_ = rest_ = rests_ = true;
@@ -178,7 +185,41 @@ class StepGenerator::Implementation {
     return true;
   }
 
+  // Starts the next part, or the move just pulled. Returns true if the outputs change there.
+  bool start_move(bool has_part) {
+    const auto& whole = std::get<PlannedMove>(motion_item_);
+    if (!has_part) {
+      ensure(whole.phase_count > 0 && whole.from() <= whole.to);  // as Planner hands it on
+      parts_.begin(whole, exactness_.power_levels);
+    }
+    const PlannedMove& move = parts_.part_of(whole);
+    stream_.start_move(move);
+    rests_ = false;
+    return change_outputs(move.segment.outputs);
+  }
+
+  bool next_part() {
+    const auto* const whole = std::get_if<PlannedMove>(&motion_item_);
+    return whole != nullptr && parts_.next(*whole, exactness_.power_levels);
+  }
+
+  // All events so far are played first. The stretch goes on after the change.
+  bool change_outputs(const PathOutputs& wanted) {
+    const PathOutputs outputs{.power = wanted.power, .switches = wanted.switches ? wanted.switches : outputs_.switches};
+    if (outputs == outputs_) return false;
+    outputs_ = outputs;
+    more_ = false;
+    play_ = switches_ = true;
+    return true;
+  }
+
+  // With the last step, and not with the last event: the last part of a step takes some milliseconds.
+  void switch_laser_off() {
+    if (change_outputs({})) events_.hide_events_without_steps(motors_);
+  }
+
   void apply(const Action& action) {
+    change_outputs({.switches = action.switches});
     stream_.end_stretch();
     stream_.wait(action.dwell);
     more_ = false;
@@ -189,6 +230,7 @@ class StepGenerator::Implementation {
   bool finish() {
     if (finished_) return false;
     finished_ = true;
+    switch_laser_off();
     stream_.end_stretch();
     more_ = false;
     play_ = rest_ = rests_ = true;
@@ -213,6 +255,9 @@ class StepGenerator::Implementation {
   bool rests_ = true;  // all motion pulled so far ends at rest
   bool finished_ = false;
   std::optional<Action> action_;  // to be passed on after the rest
+  PathOutputs outputs_;           // of the motion pulled so far
+  bool switches_ = false;         // outputs_ follow the events
+  PowerParts parts_;              // of the move, where the power follows the speed
 };
 
 StepGenerator::StepGenerator(Source<MotionItem>& motion, const StepOptions& options)

@@ -34,6 +34,10 @@ class EmulatedBoard : public BoardPort {
   // Called for each of these steps, in the order of the pins, with the cycle of the edge.
   std::function<void(std::uint64_t cycle, std::size_t motor, bool down)> on_step;
 
+  // Called when a pin of mist, flood or the spindle's direction changes, with the cycle of the edge and the pins that
+  // are high, as bits of OutputSwitch.
+  std::function<void(std::uint64_t cycle, std::uint8_t switches)> on_outputs;
+
   // Connects a plant; call it before the first run(). The plant must outlive the board's last run(). Until then the
   // board has an ideal plant of its own, with only motors and a spindle. Each step goes to the plant. The plant sets
   // the pins of the switches and of the encoder, where the board has such pins. Of the spindle's outputs, the plant

@@ -97,7 +97,10 @@ inline constexpr int64_t whole_tick = 65536;
 struct BoardOutputs {
   uint8_t switches = 0;  // bits: OutputSwitch
   uint16_t spindle_rpm = 0;
+  friend constexpr bool operator==(const BoardOutputs&, const BoardOutputs&) = default;
 };
+// The speed at which the PWM of the boards is always on.
+inline constexpr uint16_t full_duty_rpm = 24'000;
 enum OutputSwitch : uint8_t { spindle_on = 1, spindle_reverse = 2, mist_on = 4, flood_on = 8 };
 
 }  // namespace passo

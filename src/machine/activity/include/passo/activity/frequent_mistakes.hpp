@@ -35,6 +35,7 @@ class FrequentMistakes : OperationWatcher {
   void select(const Operation& operation, std::int32_t tool);
   void turn_spindle(const Operation& operation, SpindleDirection direction);
 
+  bool has_laser_;
   bool has_spindle_;
   bool knows_units_;
   SpindleDirection spindle_ = SpindleDirection::off;

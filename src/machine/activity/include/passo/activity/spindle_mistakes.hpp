@@ -1,8 +1,8 @@
 // SpindleMistakes: warns of a cut that may begin before the spindle has reached its speed, and of a program that seems
 // to be made for a laser.
 //
-// Passo has no laser mode. The beam of such a program would stay on in rapids and during stops. A machine without Y is
-// a lathe, for which there is no laser warning: there M4 is usual, and S may change between cuts.
+// Without [laser] in the machine file, the beam of such a program would stay on in rapids and during stops. A machine
+// without Y is a lathe, for which there is no laser warning: there M4 is usual, and S may change between cuts.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,7 @@ class SpindleMistakes : OperationWatcher {
 
   bool may_be_early_;  // the spindle has a speed, and the machine file does not give its run-up time
   bool is_lathe_;
+  bool has_laser_;
 
   SpindleDirection direction_ = SpindleDirection::off;
   double speed_ = 0;       // S

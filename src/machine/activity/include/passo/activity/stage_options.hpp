@@ -23,6 +23,8 @@ bool has_jerk_limit(const MachineDescription& machine);
 
 // `start`: the machine position at the start.
 PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start = {});
+// The digital outputs, as bits of OutputSwitch, that stay on in holds and stop ramps.
+std::uint8_t kept_in_stops(const MachineDescription& machine);
 Smoothness smoothness(const MachineDescription& machine);
 // The fraction of each tolerance that smoothing may use. The rest is for backlash that is taken up in motion.
 double smoothing_share(const MachineDescription& machine);

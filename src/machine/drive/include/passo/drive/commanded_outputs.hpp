@@ -1,6 +1,7 @@
 // CommandedOutputs: the outputs as commanded by the program, with the operator's overrides.
 #pragma once
 
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 
@@ -23,6 +24,22 @@ class CommandedOutputs {
     told_.reset();
   }
   void order(const OutputState& outputs) { ordered_ = outputs; }
+  // Applies the outputs that the path switches in motion.
+  void apply(const PathOutputs& outputs) {
+    in_motion_.power = outputs.power;
+    if (outputs.switches) in_motion_.switches = outputs.switches;
+  }
+  // The digital outputs (bits of OutputSwitch) that stay as they are when motion stops inside the path.
+  void keep_in_stops(std::uint8_t switches) { kept_ = switches; }
+  // The motion stops inside the path, by a hold or a stop ramp: until go_on() the laser is off, and so are the digital
+  // outputs that are not kept. Both functions return true if the board must be told.
+  [[nodiscard]] bool halt() { return set_halted(true); }
+  [[nodiscard]] bool go_on() { return halted_ && set_halted(false); }
+  // The board has switched its outputs off by itself.
+  void forget_told() {
+    told_.reset();
+    halted_ = true;
+  }
   // Sets whether the program enables the spindle override from here on (M48, M49, M51).
   void enable_override(bool heeds) { override_enabled_ = heeds; }
   bool override_enabled() const { return override_enabled_; }
@@ -48,11 +65,9 @@ class CommandedOutputs {
     return outputs;
   }
 
-  // Returns true if the spindle is commanded on, and the board's last command is different.
+  // Returns true if the spindle or the laser is commanded on, and the board's last command is different.
   bool is_news() const {
-    const BoardOutputs wanted = for_board();
-    const bool same = told_ && told_->switches == wanted.switches && told_->spindle_rpm == wanted.spindle_rpm;
-    return in_force().spindle != SpindleDirection::off && !same;
+    return (in_force().spindle != SpindleDirection::off || laser_power() > 0) && told_ != for_board();
   }
   // The difference of the spindle speed from the board's commanded speed, rpm.
   double change_of_speed() const { return told_ ? std::abs(for_board().spindle_rpm - told_->spindle_rpm) : 0; }
@@ -64,7 +79,10 @@ class CommandedOutputs {
     bool on = false;
     bool ordered = false;  // as commanded by the program at that time
   };
-  BoardOutputs for_board() const { return board_outputs(in_force(), override_enabled_ ? override_ : 1); }
+  BoardOutputs for_board() const;
+  bool set_halted(bool halted);
+  double laser_power() const { return halted_ || all_stand_ || spindle_stands_ ? 0 : in_motion_.power; }
+  double spindle_factor() const { return override_enabled_ ? override_ : 1; }
 
   OutputState ordered_;
   bool override_enabled_ = true;
@@ -73,6 +91,9 @@ class CommandedOutputs {
   std::optional<Switched> flood_;
   bool spindle_stands_ = false;
   bool all_stand_ = false;
+  PathOutputs in_motion_;
+  std::uint8_t kept_ = 0;
+  bool halted_ = false;
   std::optional<BoardOutputs> told_;
 };
 

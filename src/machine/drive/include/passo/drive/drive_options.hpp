@@ -1,6 +1,7 @@
 // DriveOptions: the options of a drive, in addition to its path.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct DriveOptions {
   bool guards_by_probe = false;     // a probe contact outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
   bool waits_at_optional = true;    // also at M1, if it waits for the operator at all
+  std::uint8_t kept_in_stops = 0;   // bits of OutputSwitch: digital outputs that stay on in holds and stop ramps
+  std::uint8_t switches = 0;        // the digital outputs that are on at the start of the path
   bool stops_at_lines = false;      // holds after each line of the program
   bool may_stop_at_lines = false;   // stop_at_lines() may be called later
 };

@@ -20,11 +20,19 @@ struct StopRampOptions {
   // many items, which a small board also processes slowly (decision 0108).
   std::size_t places_for_gentle_tails = 200;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
-  Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
+  Exactness motion_in_few_places{
+      .one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all, .power_levels = 16};
   // A segment whose timing is off by a whole interval may decelerate twice as hard at its start as at its end.
-  Exactness tail{.one_in = 4, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all, .ends_in_time = false};
-  Exactness tail_in_few_places{
-      .one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all, .ends_in_time = false};
+  Exactness tail{.one_in = 4,
+                 .least_rate = Hertz(0),
+                 .longest_segment = longest_segment_of_all,
+                 .ends_in_time = false,
+                 .power_levels = 8};
+  Exactness tail_in_few_places{.one_in = 1,
+                               .least_rate = Hertz(0),
+                               .longest_segment = longest_segment_of_all,
+                               .ends_in_time = false,
+                               .power_levels = 4};
 };
 
 }  // namespace passo

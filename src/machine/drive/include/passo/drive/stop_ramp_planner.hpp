@@ -42,6 +42,8 @@ class StopRampPlanner {
   StopRamp at_rest(const PathPosition& given);
 
  private:
+  void add_item(StopRamp& tail) const;
+
   FeedStages stages_;
   StepOptions steps_;
   StopRampOptions options_;

@@ -31,6 +31,7 @@ struct ResumePoint {
   AxisSet downs;                                 // the axes whose backlash is taken up for motion in the negative
                                                  // direction
   OutputState outputs;                           // the outputs at that point
+  std::uint8_t switches = 0;                     // the digital outputs that the path has switched in motion
   // How long the program itself waited after switching the spindle.
   Seconds spindle_wait{0};
   bool in_thread = false;  // the path there is locked to the spindle's angle, so it cannot be entered there

@@ -184,6 +184,29 @@ struct PinsDescription {
   Seconds enable_wait{0};        // from the drivers' enable to motion
 };
 
+// A digital output of M62 to M65: the board's pin, which may also have another use.
+struct DigitalOutputDescription {
+  enum class Pin : std::uint8_t { flood, mist, direction };
+
+  Pin pin = Pin::flood;
+  bool stays_on = false;  // in holds and stop ramps
+};
+
+// A laser at the output of the spindle's speed.
+struct LaserDescription {
+  double maximum_s = 1000;
+  double minimum = 0;  // the least power of an S above 0, as a fraction of full power
+};
+
+inline constexpr std::size_t most_digital_outputs_of_board = 3;
+
+// The outputs that a program switches in motion.
+struct MotionOutputsDescription {
+  // By the number of M62 to M65. Empty: there is no such output.
+  std::array<std::optional<DigitalOutputDescription>, most_digital_outputs_of_board> digital = {};
+  std::optional<LaserDescription> laser = {};
+};
+
 // Where the tool is parked, and what it does at the end of a program (M2, M30).
 struct ParkDescription {
   enum class AtEnd : std::uint8_t { stay, rise, park };
@@ -205,6 +228,7 @@ struct MachineDescription {
   SilenceDescription silence;
   PinsDescription pins;
   ParkDescription park;
+  MotionOutputsDescription motion_outputs;
   std::vector<AxisDescription> axes;   // in the order of the board's motors
   std::vector<Axis> homing = {};       // the axes that are homed, in the order of homing
   std::vector<int> homing_turns = {};  // group of each of them: axes with the same number seek their switches together

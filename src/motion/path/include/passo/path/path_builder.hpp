@@ -26,6 +26,7 @@
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/machine_results.hpp"
 #include "passo/path/hand_tool_change.hpp"
+#include "passo/path/motion_outputs.hpp"
 #include "passo/path/outside_travel.hpp"
 #include "passo/path/segment.hpp"
 
@@ -61,7 +62,8 @@ struct PathOptions {
   // The rapids at M2 and M30: Z to this machine position, then X and Y to the park position. Empty: none.
   std::optional<double> end_height = {};
   std::optional<Point> park = {};
-  std::string file;  // names the program in diagnostics
+  MotionOutputOptions outputs = {};  // the outputs that are switched in motion
+  std::string file;                  // names the program in diagnostics
 };
 
 // The code of the error that a move leaves the travel of an axis.
@@ -85,9 +87,13 @@ struct PathMemory {
   OutputState commanded_;  // keeps the commanded spindle speed even while the spindle is stopped
   OutputState handed_on_;
   OperationSource outputs_source_;
-  double refused_spindle_speed_ = 0;
-  MmPerSecond refused_feed_{0};  // the last synchronized feed that exceeded the velocity of an axis
-  Seconds run_up_left_{0};       // the time until the spindle has reached its speed
+  MotionOutputs in_motion_;  // outputs that change without a stop
+  struct Refused {
+    double spindle_speed = 0;
+    MmPerSecond feed{0};  // the last synchronized feed that exceeded the velocity of an axis
+  };
+  Refused refused_;
+  Seconds run_up_left_{0};  // the time until the spindle has reached its speed
 
   OutsideTravel outside_;
   AxisSet missing_;
@@ -113,7 +119,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
     position_ = machine;
     outside_ = {};
     missing_ = AxisSet();
-    refused_feed_ = MmPerSecond(0);
+    refused_.feed = MmPerSecond(0);
   }
   // Saves the state after the operations so far, and restores it, as if the later ones had not come. Call it when
   // next() has returned false.
@@ -152,6 +158,10 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   MmPerSecond feed_along(const Curve& curve, const SurfaceScale& surface);
   MmPerSecond feed_with_spindle(double mm_per_revolution);
   void set_spindle_speed(double revolutions_per_minute);
+  bool set_power(double s);
+  bool set_digital(const operation::SetDigitalOutput& set);
+  bool set_analog(const operation::SetAnalogOutput& set);
+  bool must_switch(bool has_item, const PathItem& item) const;
   void set_path_mode(const operation::SetPathMode& mode);
   void set_merge_tolerance(Mm given);
   enum class TorqueShortage : std::uint8_t { orientation, outputs, inputs, user_codes };

@@ -38,6 +38,15 @@ struct MotorLead {
   MotorLead part(double from, double to, double length) const;
 };
 
+// The outputs that the path switches in motion, without a stop.
+struct PathOutputs {
+  double power = 0;  // of the laser, as a fraction of its full power
+  // The digital outputs that are on, as bits of the board's outputs. Empty: they stay as they are.
+  std::optional<std::uint8_t> switches = {};
+  bool follows_speed = false;  // `power` is that at the programmed speed; it changes in proportion to the speed
+  friend bool operator==(const PathOutputs&, const PathOutputs&) = default;
+};
+
 struct Segment {
   Curve curve;
   MmPerSecond speed{0};  // programmed, along s; infinite for a rapid, which only the axes' limits restrict
@@ -64,6 +73,7 @@ struct Segment {
   // Set: the axis takes up its backlash while the path continues. The motors move along the curve, and the path of the
   // tool is the curve minus this lead.
   std::optional<MotorLead> lead{};
+  PathOutputs outputs{};  // during the segment
   OperationSource source{};
 
   Point tool_at(Mm s) const;
@@ -109,6 +119,8 @@ struct Action {
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after the action
+  // The digital outputs that the path switches in motion, from this stop on. The laser is off in every stop.
+  std::optional<std::uint8_t> switches = {};
   std::int32_t tool = 0;
   bool by_machine = false;   // a tool change that waits for nobody
   bool probe_toward = true;  // for a probe move: until the probe is triggered, otherwise until it is open

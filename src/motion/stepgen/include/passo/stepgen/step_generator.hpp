@@ -51,8 +51,8 @@ struct StepOptions {
 };
 
 // The items that are sent to the board, in order. The segments before an Action end in a stop. A dwell becomes segments
-// without steps.
-using BoardItem = std::variant<BoardSegment, Action>;
+// without steps. PathOutputs come where they change: after the last event before their position on the path.
+using BoardItem = std::variant<BoardSegment, Action, PathOutputs>;
 
 // The accuracy of event times. With less accurate times, motion close to a stop point needs far fewer segments. Every
 // step is still made, at the same position.
@@ -67,6 +67,8 @@ struct Exactness {
   int longest_segment = 255;
   // Whether motion that ends in a stop ends at its exact time. If not, it ends with the last step.
   bool ends_in_time = true;
+  // Where a laser's power follows the speed: the number of its values from standstill to the programmed speed.
+  int power_levels = 32;
   friend bool operator==(const Exactness&, const Exactness&) = default;
 };
 inline constexpr int longest_segment_of_all = 2047;
