@@ -181,7 +181,12 @@ void MachineReader::read_probe(const TomlEntry& entry) {
 void MachineReader::read_spindle(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "spindle", entry.place, reporter_);
   machine_.spindle = passo::read_spindle(reader);
+  const TomlEntry* const bus = reader.table("modbus", "a table [spindle.modbus]", Need::optional);
   finish(reader);
+  if (bus == nullptr) return;
+  TableReader inner(std::get<TomlTable>(bus->value.content), "spindle.modbus", bus->place, reporter_);
+  machine_.spindle.modbus = read_spindle_bus(inner, machine_.tool.highest_rpm);
+  finish(inner);
 }
 
 void MachineReader::read_silence(const TomlEntry& entry) {
