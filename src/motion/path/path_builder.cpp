@@ -83,12 +83,15 @@ bool PathBuilder::next(PathItem& item) {
   const bool switches = outputs() != handed_on_;
   if (switches) in_step_ = false;
   if (switches) run_up_left_ = run_up_after(handed_on_);
+  if (switches && options_.awaits_spindle_speed) speed_is_new_ = outputs().spindle != SpindleDirection::off;
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
-  if (!switches && !awaits_index && !awaits_speed) return has_item;
+  const bool awaits_run_up = has_item && must_await_run_up(item);
+  if (!switches && !awaits_index && !awaits_speed && !awaits_run_up) return has_item;
   if (has_item) held_.push_back(item);
   if (awaits_index) held_.emplace_front(outputs_action(Action::Kind::await_index));
-  if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(run_up_left_, Seconds(0))));
+  if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::await_speed));
+  if (awaits_run_up) held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(run_up_left_, Seconds(0))));
   if (switches) held_.emplace_front(outputs_action());
   handed_on_ = outputs();
   return next(item);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "path_sentences.hpp"
 #include <fmt/format.h>
@@ -51,13 +52,19 @@ Seconds PathBuilder::run_up_after(const OutputState& before) const {
 }
 
 // A dwell of the program counts as part of the wait.
-bool PathBuilder::must_await_speed(const PathItem& item) {
+bool PathBuilder::must_await_run_up(const PathItem& item) {
   if (run_up_left_ == Seconds(0)) return false;
   const auto* action = std::get_if<Action>(&item);
   if (action != nullptr && action->kind == Action::Kind::dwell) {
     run_up_left_ = std::max(run_up_left_ - action->dwell, Seconds(0));
   }
   return action == nullptr || action->kind == Action::Kind::probe_begin;
+}
+
+bool PathBuilder::must_await_speed(const PathItem& item) {
+  const auto* action = std::get_if<Action>(&item);
+  const bool moves = action == nullptr || action->kind == Action::Kind::probe_begin;
+  return moves && std::exchange(speed_is_new_, false);
 }
 
 // A thread directly after another thread stays in step, and need not wait for the index.

@@ -11,6 +11,8 @@
 
 namespace passo {
 
+class HostSpindle;
+
 struct DriveOptions {
   // For a board on a link. The board's queue always ends in a stop, and after an interruption of the link, the drive
   // continues from there. Empty: items go to the board directly.
@@ -30,6 +32,7 @@ struct DriveOptions {
   bool waits_at_optional = true;    // also at M1, if it waits for the operator at all
   bool stops_at_lines = false;      // holds after each line of the program
   bool may_stop_at_lines = false;   // stop_at_lines() may be called later
+  const HostSpindle* spindle = nullptr;  // whose speed motion waits for; null: the board's
 };
 
 }  // namespace passo
