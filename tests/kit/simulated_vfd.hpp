@@ -33,7 +33,7 @@ class SimulatedVfd {
     if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) throw std::runtime_error("no pseudo-terminal");
     device_ = ptsname(master_);
     // The other end stays open, so that the terminal outlives each program that uses it.
-    slave_ = open(device_.c_str(), O_RDWR | O_NOCTTY);
+    slave_ = ::open(device_.c_str(), O_RDWR | O_NOCTTY);
     termios raw{};
     tcgetattr(slave_, &raw);
     cfmakeraw(&raw);
@@ -43,8 +43,8 @@ class SimulatedVfd {
   ~SimulatedVfd() {
     ends_ = true;
     thread_.join();
-    close(slave_);
-    close(master_);
+    ::close(slave_);
+    ::close(master_);
   }
   SimulatedVfd(const SimulatedVfd&) = delete;
   SimulatedVfd& operator=(const SimulatedVfd&) = delete;
@@ -94,13 +94,13 @@ class SimulatedVfd {
     auto before = std::chrono::steady_clock::now();
     while (!ends_) {
       pollfd ready{.fd = master_, .events = POLLIN, .revents = 0};
-      const bool any = poll(&ready, 1, 2) > 0;
+      const bool any = ::poll(&ready, 1, 2) > 0;
       const auto now = std::chrono::steady_clock::now();
       turn(std::chrono::duration<double>(now - before).count());
       before = now;
       if (!any) continue;
       std::uint8_t bytes[64];
-      const ssize_t got = read(master_, bytes, sizeof bytes);
+      const ssize_t got = ::read(master_, bytes, sizeof bytes);
       if (got <= 0) {
         usleep(2000);
         continue;
@@ -141,9 +141,9 @@ class SimulatedVfd {
     reply.push_back(static_cast<std::uint8_t>(reply_sum >> 8U));
     usleep(static_cast<useconds_t>(delay_ms * 1000));
     // In two parts, as a USB adapter passes them on.
-    static_cast<void>(!write(master_, reply.data(), 2));
+    static_cast<void>(!::write(master_, reply.data(), 2));
     usleep(1000);
-    static_cast<void>(!write(master_, reply.data() + 2, reply.size() - 2));
+    static_cast<void>(!::write(master_, reply.data() + 2, reply.size() - 2));
   }
 
   static bool take(std::atomic<int>& number) { return number > 0 && number-- > 0; }

@@ -183,10 +183,8 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
   machine_.spindle = passo::read_spindle(reader);
   const TomlEntry* const bus = reader.table("modbus", "a table [spindle.modbus]", Need::optional);
   finish(reader);
-  if (bus == nullptr) return;
-  TableReader inner(std::get<TomlTable>(bus->value.content), "spindle.modbus", bus->place, reporter_);
-  machine_.spindle.modbus = read_spindle_bus(inner, machine_.tool.highest_rpm);
-  finish(inner);
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  if (bus != nullptr) machine_.spindle.modbus = read_spindle_bus(*bus, machine_.tool.highest_rpm, reporter_, end);
 }
 
 void MachineReader::read_silence(const TomlEntry& entry) {

@@ -77,29 +77,32 @@ SpindleDescription read_spindle(TableReader& reader) {
   return spindle;
 }
 
-std::shared_ptr<const SpindleBusDescription> read_spindle_bus(TableReader& reader, double highest_rpm) {
+std::shared_ptr<const SpindleBusDescription> read_spindle_bus(const TomlEntry& entry, double highest_rpm,
+                                                              const TomlReporter& reporter,
+                                                              const std::function<void(TableReader&)>& finish) {
+  TableReader table(std::get<TomlTable>(entry.value.content), "spindle.modbus", entry.place, reporter);
   auto bus = std::make_shared<SpindleBusDescription>();
   bus->highest_rpm = highest_rpm;
-  if (auto drive = reader.text(bus_drive_key, "huanyang", Need::required)) bus->drive = std::move(*drive);
+  if (auto drive = table.text(bus_drive_key, "huanyang", Need::required)) bus->drive = std::move(*drive);
   if (!bus->drive.empty() && bus->drive != "huanyang" && bus->drive != "h100" && !bus->has_table_file()) {
-    reader.error(bus_code, bus_drive_key,
-                 fmt::format("{} = \"{}\"", reader.full_name(bus_drive_key), bus->drive.substr(0, 40)),
-                 "\"huanyang\", \"h100\", or a table file of another drive, e.g. \"my-drive.toml\"");
+    table.error(bus_code, bus_drive_key,
+                fmt::format("{} = \"{}\"", table.full_name(bus_drive_key), bus->drive.substr(0, 40)),
+                "\"huanyang\", \"h100\", or a table file of another drive, e.g. \"my-drive.toml\"");
   }
-  if (auto device = reader.text("device", "/dev/serial/by-id/usb-FTDI_FT232R-if00-port0", Need::required)) {
+  if (auto device = table.text("device", "/dev/serial/by-id/usb-FTDI_FT232R-if00-port0", Need::required)) {
     bus->device = std::move(*device);
   }
-  read_baud(reader, *bus);
-  read_parity(reader, *bus);
-  read_poles(reader, *bus);
-  if (const auto bits = reader.whole_number(bus_stop_bits_key, Need::optional))
-    bus->stop_bits = static_cast<int>(*bits);
-  if (const auto address = reader.whole_number(bus_address_key, Need::optional))
+  read_baud(table, *bus);
+  read_parity(table, *bus);
+  read_poles(table, *bus);
+  if (const auto bits = table.whole_number(bus_stop_bits_key, Need::optional)) bus->stop_bits = static_cast<int>(*bits);
+  if (const auto address = table.whole_number(bus_address_key, Need::optional))
     bus->address = static_cast<int>(*address);
-  bus->lowest_rpm = reader.number(bus_lowest_rpm_key, Need::optional).value_or(bus->lowest_rpm);
-  bus->rated_current = reader.number(bus_rated_current_key, Need::optional).value_or(bus->rated_current);
-  if (const auto percent = reader.number(bus_tolerance_key, Need::optional)) bus->tolerance = *percent / 100;
-  if (const auto time = reader.number(bus_reach_key, Need::optional)) bus->reach = Seconds(*time);
+  bus->lowest_rpm = table.number(bus_lowest_rpm_key, Need::optional).value_or(bus->lowest_rpm);
+  bus->rated_current = table.number(bus_rated_current_key, Need::optional).value_or(bus->rated_current);
+  if (const auto percent = table.number(bus_tolerance_key, Need::optional)) bus->tolerance = *percent / 100;
+  if (const auto time = table.number(bus_reach_key, Need::optional)) bus->reach = Seconds(*time);
+  finish(table);
   return bus;
 }
 

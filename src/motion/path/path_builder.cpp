@@ -82,8 +82,8 @@ bool PathBuilder::next(PathItem& item) {
   // there is no item in hand.
   const bool switches = outputs() != handed_on_;
   if (switches) in_step_ = false;
-  if (switches) run_up_left_ = run_up_after(handed_on_);
-  if (switches && options_.awaits_spindle_speed) speed_is_new_ = outputs().spindle != SpindleDirection::off;
+  if (switches) speed_wait_.run_up_left = run_up_after(handed_on_);
+  if (switches && options_.awaits_spindle_speed) speed_wait_.is_new = outputs().spindle != SpindleDirection::off;
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
   const bool awaits_run_up = has_item && must_await_run_up(item);
@@ -91,7 +91,8 @@ bool PathBuilder::next(PathItem& item) {
   if (has_item) held_.push_back(item);
   if (awaits_index) held_.emplace_front(outputs_action(Action::Kind::await_index));
   if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::await_speed));
-  if (awaits_run_up) held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(run_up_left_, Seconds(0))));
+  if (awaits_run_up)
+    held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(speed_wait_.run_up_left, Seconds(0))));
   if (switches) held_.emplace_front(outputs_action());
   handed_on_ = outputs();
   return next(item);

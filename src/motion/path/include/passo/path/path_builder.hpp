@@ -89,8 +89,11 @@ struct PathMemory {
   OperationSource outputs_source_;
   double refused_spindle_speed_ = 0;
   MmPerSecond refused_feed_{0};  // the last synchronized feed that exceeded the velocity of an axis
-  Seconds run_up_left_{0};       // the time until the spindle has reached its speed
-  bool speed_is_new_ = false;    // with awaits_spindle_speed: no motion has come since the speed changed
+  struct SpeedWait {
+    Seconds run_up_left{0};  // the time until the spindle has reached its speed
+    bool is_new = false;     // with awaits_spindle_speed: no motion has come since the speed changed
+  };
+  SpeedWait speed_wait_;
 
   OutsideTravel outside_;
   AxisSet missing_;
