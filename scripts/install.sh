@@ -31,6 +31,7 @@ build_packages=(
   libsqlite3-dev             # jobs and history of passo serve
   libboost-dev               # HTTP and WebSocket of passo serve
   libmosquitto-dev           # status of passo serve for an MQTT broker
+  libmodbus-dev              # spindle drives on RS-485
   libpolyclipping-dev        # unions and offsets of copper in passo cam
   libfreetype-dev libharfbuzz-dev libfontconfig-dev  # letters in passo cam engrave
   libexpat1-dev              # SVG drawings in passo cam

@@ -62,6 +62,7 @@ inline std::string name_of(const Action& action) {
     case Action::Kind::feed_hold: return "feed hold";
     case Action::Kind::probe_begin: return action.probe_toward ? "probe until touched" : "probe until free";
     case Action::Kind::probe_end: return "probe move ends";
+    case Action::Kind::await_speed: return "await the spindle's speed";
     case Action::Kind::await_index: return "await the spindle's index";
     case Action::Kind::await_line: return "await a line";
     case Action::Kind::tap_turns: return "tap and spindle turn round";

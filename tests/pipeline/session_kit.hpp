@@ -29,6 +29,7 @@ struct SessionOn {
   KnownPosition start = {.place = Point(), .trust = Trust::commanded};
   Point stands_at = {};  // in truth
   std::vector<Touchable> touchables = {};
+  HostSpindle* spindle = nullptr;
 };
 
 // A router that is homed in seconds.
@@ -188,7 +189,8 @@ class SessionRun {
     return {.over_a_line = true,
             .care = {.answer_within = Seconds(0.05), .patience = Seconds(2)},
             .greeting = {.session = 1},
-            .start = on_.start};
+            .start = on_.start,
+            .spindle = on_.spindle};
   }
   void collect() {
     for (MachineChange& change : session_.take_changes()) {

@@ -87,9 +87,20 @@ export interface Status {
   owner: { kind: 'nobody' | 'sender' | 'client'; name: string; taken: number };
   pendant?: Pendant | null; // null: none has been connected
   camera?: CameraState | null; // null: there is none
+  spindle_drive?: SpindleDrive | null; // null: the board switches the spindle
   job: Job | null;
   // The lines of the console: the modes in force, and where the tool is by them.
   mdi: { codes: string[]; feed: number; speed: number; tool: number; place: Place; streams: boolean; trouble: string; trouble_sentence: Sentence };
+}
+
+// The drive of a spindle on RS-485, as it reports.
+export interface SpindleDrive {
+  answers: boolean;
+  at_speed: boolean;
+  speed: number; // rpm
+  current: number | null; // A
+  load: number | null; // a fraction of the rated load
+  fault: Sentence | null;
 }
 
 export interface MachineAxis {

@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import { say } from '../core/language';
 import { whyUnable } from '../machine/abilities';
 import { moveAs, whyNot } from '../machine/actions';
-import type { Status } from '../machine/api';
+import type { SpindleDrive, Status } from '../machine/api';
 import { status } from '../machine/connection';
 import { Button } from './button';
 
@@ -79,6 +79,28 @@ function Stop({ name, on }: { name: keyof Status['stops']; on: boolean }) {
   );
 }
 
+// What the spindle's drive reports: its true speed, current and load.
+function MeasuredSpindle({ drive }: { drive: SpindleDrive }) {
+  if (!drive.answers) return <span class="spindle-measured silent">{say('run.spindle.silent')}</span>;
+  return (
+    <span class="spindle-measured">
+      <span class="dim">{say('run.spindle.measured')}</span> <span class="figure">{Math.round(drive.speed)}</span> {say('run.rpm')}
+      {drive.current !== null && (
+        <span>
+          {' · '}
+          <span class="figure">{drive.current.toFixed(1)}</span> A
+        </span>
+      )}
+      {drive.load !== null && (
+        <span>
+          {' · '}
+          <span class="dim">{say('run.spindle.load')}</span> <span class="figure">{Math.round(drive.load * 100)}</span> %
+        </span>
+      )}
+    </span>
+  );
+}
+
 export function Overrides() {
   const now = status.value;
   if (now === null) return null;
@@ -100,6 +122,7 @@ export function Overrides() {
             </span>
           )}
         </span>
+        {now.spindle_drive && <MeasuredSpindle drive={now.spindle_drive} />}
         <Button pressed={outputs.flood} why={whyOutputs} onClick={() => moveAs('/outputs', { flood: !outputs.flood })}>
           {say('run.flood')}
         </Button>

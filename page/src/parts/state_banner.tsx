@@ -73,10 +73,12 @@ export function OwnerBanner() {
   );
 }
 
-// A machine file that does not suit the board. An alarm and a fault are told by the state.
+// A machine file that does not suit the board, or a spindle whose drive has failed. An alarm and a fault are told by the state.
 export function FileBanner() {
   const now = status.value;
-  if (now === null || now.trouble === '' || now.trouble_sentence?.code !== 'grbl.other-machine') return null;
+  if (now === null || now.trouble === '') return null;
+  const code = now.trouble_sentence?.code ?? '';
+  if (code !== 'grbl.other-machine' && !code.startsWith('spindle.')) return null;
   return (
     <div class="owner" role="alert">
       <Reported words={now.trouble} sentence={now.trouble_sentence} />

@@ -174,6 +174,16 @@ Json as_json(const MachineDescription& machine, const MachineStatus& status) {
   return json;
 }
 
+Json as_json(const HostSpindleStatus& spindle) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(); };
+  return {{"answers", spindle.answers},
+          {"at_speed", spindle.at_speed},
+          {"speed", rounded(spindle.revolutions_per_minute)},
+          {"current", number(spindle.current)},
+          {"load", number(spindle.load)},
+          {"fault", spindle.has_failed() ? as_json(spindle.fault) : Json()}};
+}
+
 Json as_json(const MachineControl& owner) {
   static constexpr const char* kinds[] = {"nobody", "sender", "client"};
   return {{"kind", kinds[static_cast<std::size_t>(owner.kind())]}, {"name", owner.name()}, {"taken", owner.number()}};

@@ -16,6 +16,7 @@
 #include "passo/api/mdi_lines.hpp"
 #include "passo/api/pendant_status.hpp"
 #include "passo/api/program_store.hpp"
+#include "passo/drive/host_spindle.hpp"
 #include "passo/job/job_history.hpp"
 #include "passo/job/kept_job.hpp"
 
@@ -42,6 +43,7 @@ double rounded(double value);
 
 Json as_json(const MachineDescription& machine, const Point& place);
 Json as_json(const MachineDescription& machine, const MachineStatus& status);
+Json as_json(const HostSpindleStatus& spindle);
 Json as_json(const MachineControl& owner);
 // Null: no pendant has been connected yet.
 Json as_json(const PendantStatus& pendant);

@@ -255,6 +255,8 @@ std::string MachineApi::status_text() const {
   json["work_rotation"] = frame.rotation_degrees();
   json["owner"] = as_json(shared_.owner);
   json["pendant"] = pendant_ != nullptr ? as_json(*pendant_) : Json();
+  const HostSpindle* const spindle = shared_.session.spindle();
+  json["spindle_drive"] = spindle != nullptr ? as_json(spindle->status()) : Json();
   json["camera"] = shared_.camera ? as_json(shared_.camera->pictures->status()) : Json();
   json["job"] = as_json(jobs_.job());
   std::string unkept_words;

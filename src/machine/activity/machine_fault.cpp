@@ -20,6 +20,7 @@ constexpr MachineFaultRow rows[] = {
     {program_waits, "run.waits",
      "{program} waits at {wait}, but there is no terminal to ask the operator: run it in a terminal, or add --yes when "
      "everything is prepared, with --resume to continue from here [run.waits]"},
+    {spindle_failed, "run.spindle", "{why}: the program was stopped"},
     {board_stopped, "board.stopped", "{trouble}", GrblAlarm::hard_limit},
     {board_drivers_off, "board.drivers-off", "{trouble}", GrblAlarm::hard_limit},
     {board_slipped, "board.slipped", "{trouble}", GrblAlarm::hard_limit},

@@ -13,7 +13,7 @@ namespace passo {
 
 SpindleMistakes::SpindleMistakes(const MachineDescription& machine, std::string file, Diagnostics& diagnostics)
     : OperationWatcher(std::move(file), diagnostics),
-      may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given),
+      may_be_early_(machine.tool.highest_rpm > 0 && !machine.spindle.run_up_is_given && !machine.spindle.modbus),
       is_lathe_(std::ranges::find(machine.axes, Axis::y, &AxisDescription::axis) == machine.axes.end()),
       has_laser_(machine.motion_outputs.laser.has_value()) {}
 

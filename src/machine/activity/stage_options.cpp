@@ -54,6 +54,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   options.turn_tolerance = machine.has_rotary_axis() ? machine.path_tolerance_deg : 0;
   options.spindle_limit = machine.tool.highest_rpm;
   options.spindle_run_up = machine.spindle.run_up;
+  options.awaits_spindle_speed = machine.spindle.modbus != nullptr;
   options.threads_hold_speed = machine.spindle.counts_per_turn == 0;
   if (machine.park.at_end != ParkDescription::AtEnd::stay) options.end_height = machine.top_of_travel();
   if (machine.park.at_end == ParkDescription::AtEnd::park) options.park = machine.park.place;

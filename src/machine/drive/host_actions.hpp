@@ -12,6 +12,7 @@ constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {
     case Kind::probe_begin:
     case Kind::probe_end:
     case Kind::await_index:
+    case Kind::await_speed:
     case Kind::await_line:
     case Kind::tap_turns:
     case Kind::feed_hold: return false;

@@ -32,7 +32,7 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       probe_(board_, answers, steps.kinematics),
       spindle_({.planner = pipeline_.planner(), .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
                steps.clock.tick_rate),
-      switching_({.order = outputs_, .feed = *feed_, .link = board_, .script = script_},
+      switching_({.order = outputs_, .feed = *feed_, .link = board_, .script = script_, .spindle = options.spindle},
                  {.not_before = options.not_before,
                   .spindle_wait = options.spindle_wait,
                   .spindle_run_up = options.spindle_run_up,
@@ -114,7 +114,7 @@ void MotionDrive::wait(Seconds most) {
 
 // When the drive must look again even without news.
 Seconds MotionDrive::due() const {
-  const Seconds next = std::max(awaits_index_ ? spindle_.next_poll() : Seconds(0), switching_.pause_end());
+  const Seconds next = std::max(awaited_ == Awaited::index ? spindle_.next_poll() : Seconds(0), switching_.pause_end());
   return next - now() > hardly_any ? next : Seconds(std::numeric_limits<double>::infinity());
 }
 
@@ -141,6 +141,7 @@ MotionDrive::Progress MotionDrive::handle(Feed::Progress turn) {
     case Feed::Progress::outputs_off:
       ++output_timeouts_;
       switching_.switch_on_again();
+      await_speed();
       break;
     case Feed::Progress::ended: return end();
   }
@@ -153,6 +154,7 @@ void MotionDrive::act(const Action& action) {
     case Action::Kind::probe_begin: return begin_probe(action);
     case Action::Kind::probe_end: return end_probe(action);
     case Action::Kind::await_index: return await_index(action);
+    case Action::Kind::await_speed: return await_speed();
     case Action::Kind::tap_turns: return reverse_tap(action);
     case Action::Kind::await_line: return await_line();
     default: return wait_for_operator(action);
@@ -186,13 +188,30 @@ void MotionDrive::end_probe(const Action& action) {
 
 void MotionDrive::await_index(const Action& action) {
   if (!spindle_.exists()) return switching_.hold_speed(action);
-  awaits_index_ = true;
+  awaited_ = Awaited::index;
   spindle_.begin_await(action.outputs.revolutions_per_minute);
   script_.until([this] { return spindle_.await_index(); });
   script_.then([this] {
-    awaits_index_ = false;
+    awaited_ = Awaited::nothing;
     if (!spindle_.trouble()) return;
     holds_.set(HoldReason::stop);
+    stop_in_hold();
+  });
+}
+
+// A spindle that fails before it has reached its speed holds the machine, even where the program does not enable holds.
+void MotionDrive::await_speed() {
+  const HostSpindle* const spindle = switching_.host_spindle();
+  if (spindle == nullptr) return;
+  script_.then([this] { awaited_ = Awaited::speed; });
+  script_.until([spindle] {
+    const HostSpindleStatus status = spindle->status();
+    return status.at_speed || status.has_failed();
+  });
+  script_.then([this, spindle] {
+    awaited_ = Awaited::nothing;
+    if (!spindle->status().has_failed()) return;
+    holds_.set(HoldReason::operator_hold);
     stop_in_hold();
   });
 }
@@ -294,7 +313,14 @@ void MotionDrive::resume(HoldReason reason) {
   if (state_ == State::ended || stopped() || !holds_.has(reason)) return;
   holds_.change(reason, false);
   if (holds_.any_of(asked_holds)) return;
-  if (state_ == State::held) switching_.let_go();
+  leave_hold();
+}
+
+void MotionDrive::leave_hold() {
+  if (state_ == State::held) {
+    switching_.let_go();
+    await_speed();
+  }
   state_ = State::running;
 }
 
@@ -310,9 +336,7 @@ void MotionDrive::set_adaptive_feed(double factor) {
 
 // A machine that rested for a feed of zero goes on by itself.
 void MotionDrive::change_feed() {
-  if (state_ != State::held || holds_.any_of(asked_holds)) return;
-  switching_.let_go();
-  state_ = State::running;
+  if (state_ == State::held && !holds_.any_of(asked_holds)) leave_hold();
 }
 
 void MotionDrive::set_spindle_override(double factor) {
@@ -351,9 +375,9 @@ void MotionDrive::stop() {
   if (state_ == State::ended || stopped()) return;
   holds_.change(HoldReason::stop, true);
   feed_->cut_dwell();
-  if (std::exchange(awaits_index_, false))
+  if (std::exchange(awaited_, Awaited::nothing) != Awaited::nothing) {
     script_.clear();
-  else if (state_ != State::held) {
+  } else if (state_ != State::held) {
     state_ = State::holding;
     return;
   }
@@ -362,6 +386,7 @@ void MotionDrive::stop() {
 
 void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
   switching_.switch_on(outputs, spindle_wait);
+  await_speed();
 }
 
 std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder) {

@@ -211,6 +211,7 @@ class LeadIn {
          {"wait", fmt::format("{:g}", wait.value())}});
     act(Action::Kind::outputs, spindle, Seconds(0));
     act(Action::Kind::dwell, spindle, wait);
+    if (machine_.spindle.modbus) act(Action::Kind::await_speed, spindle, Seconds(0));
   }
 
   const MachineDescription& machine_;

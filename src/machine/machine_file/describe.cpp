@@ -4,6 +4,7 @@
 #include "passo/base/sensible_number.hpp"
 #include "passo/interpreter/tool_change_plan.hpp"
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/machine_file/spindle_bus_description.hpp"
 
 namespace passo {
 namespace {
@@ -149,6 +150,13 @@ std::string describe_tool(const ToolDescription& tool) {
   return line + "\n";
 }
 
+std::string describe_spindle_bus(const SpindleBusDescription& bus) {
+  static constexpr char parities[] = {'N', 'E', 'O'};
+  return fmt::format("spindle         {} by Modbus at {}, address {}, {} baud 8{}{}{}\n", bus.drive, bus.device,
+                     bus.address, bus.baud, parities[static_cast<std::size_t>(bus.parity)], bus.stop_bits,
+                     bus.drive == "huanyang" ? "; it has no time-out: it runs on if this computer fails" : "");
+}
+
 std::string describe_spindle(const SpindleDescription& spindle) {
   if (spindle.counts_per_turn == 0) {
     return spindle.run_up > Seconds(0) ? fmt::format("spindle         {:g} s to 1000 rpm\n", spindle.run_up.value())
@@ -236,6 +244,7 @@ std::string describe(const MachineDescription& machine) {
                      sensible_number(board.highest_event_rate.value()), board.step_pulse.value() * 1e6);
   out += describe_tool(machine.tool);
   out += describe_spindle(machine.spindle);
+  if (machine.spindle.modbus) out += describe_spindle_bus(*machine.spindle.modbus);
   out += describe_motion_outputs(machine.motion_outputs);
   out += describe_pins(machine.pins);
   out += describe_homing(machine);

@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/machine_file/spindle_bus_description.hpp"
 #include "passo/toml/fit_for_parser.hpp"
 
 namespace passo {
@@ -50,7 +52,13 @@ std::optional<std::string> machine_file_text(const std::string& path, Diagnostic
 std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics, MachineUse use) {
   const auto text = machine_file_text(path, diagnostics);
   if (!text) return std::nullopt;
-  return parse_machine(*text, path, diagnostics, use);
+  auto machine = parse_machine(*text, path, diagnostics, use);
+  if (machine && machine->spindle.modbus) {
+    auto bus = std::make_shared<SpindleBusDescription>(*machine->spindle.modbus);
+    if (bus->has_table_file()) bus->drive = (std::filesystem::path(path).parent_path() / bus->drive).string();
+    machine->spindle.modbus = std::move(bus);
+  }
+  return machine;
 }
 
 std::optional<MachineDescription> parse_machine(std::string_view text, const std::string& file,

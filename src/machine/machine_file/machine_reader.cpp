@@ -183,7 +183,10 @@ void MachineReader::read_probe(const TomlEntry& entry) {
 void MachineReader::read_spindle(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "spindle", entry.place, reporter_);
   machine_.spindle = passo::read_spindle(reader);
+  const TomlEntry* const bus = reader.table("modbus", "a table [spindle.modbus]", Need::optional);
   finish(reader);
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  if (bus != nullptr) machine_.spindle.modbus = read_spindle_bus(*bus, machine_.tool.highest_rpm, reporter_, end);
 }
 
 void MachineReader::read_silence(const TomlEntry& entry) {

@@ -78,6 +78,7 @@ void BoardMachineSession::poll(Seconds most) {
     board_.poll(std::isinf(most.value()) ? Seconds(0) : most);
   }
   check_board();
+  poll_spindle();
   poll_panel();
   poll_place();
 }
@@ -271,7 +272,7 @@ void BoardMachineSession::poll_panel() {
   }
   if (pressed.hold) work_->drive->hold(HoldReason::operator_hold);
   if (pressed.door) work_->drive->hold(HoldReason::door);
-  if (pressed.start) {
+  if (pressed.start && !refuse_spindle()) {
     work_->drive->resume(HoldReason::operator_hold);
     work_->drive->resume(HoldReason::door);
     work_->drive->resume(HoldReason::line_end);
@@ -333,6 +334,11 @@ MachineStatus BoardMachineSession::status() const {
   status.stops = stops_;
   status.trouble = trouble_.error;
   status.trouble_sentence = trouble_.sentence;
+  if (options_.spindle != nullptr) {
+    const HostSpindleStatus spindle = options_.spindle->status();
+    status.version += spindle.version;
+    if (trouble_.sentence.text.empty()) status.trouble_sentence = spindle.fault;
+  }
   if (!busy() || !work_->drive) return status;
   const MotionDrive& drive = *work_->drive;
   status.holds = drive.holds();

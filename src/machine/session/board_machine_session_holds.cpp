@@ -1,4 +1,7 @@
 // BoardMachineSession: why a program rests, and what a person changes meanwhile.
+#include <string>
+#include <utility>
+
 #include "work.hpp"
 
 namespace passo {
@@ -45,6 +48,29 @@ void BoardMachineSession::update_holds() {
 void BoardMachineSession::update_door() {
   const bool rests = work_->drive->state() == MotionDrive::State::held;
   if (rests && work_->rest.take_stop_of_outputs()) work_->drive->stop_outputs();
+}
+
+// A spindle that this computer controls turns only for a program. If it fails, the program is held, and the outputs are
+// off as behind an open door.
+void BoardMachineSession::poll_spindle() {
+  HostSpindle* const spindle = options_.spindle;
+  if (spindle == nullptr) return;
+  const bool may_turn = busy() && work_->is_program() && work_->drive;
+  if (!may_turn) spindle->order({});
+  if (!spindle->take_new_fault() || !may_turn) return;
+  work_->drive->hold(HoldReason::operator_hold);
+  work_->rest.hold(true);
+  update_holds();
+}
+
+std::optional<Refusal> BoardMachineSession::refuse_spindle() const {
+  HostSpindle* const spindle = options_.spindle;
+  if (spindle == nullptr || spindle->clear_fault()) return {};
+  const HostSpindleStatus status = spindle->status();
+  if (!status.has_failed()) return Refusal{RefusalReason::spindle_failed, {{"why", "its drive does not answer"}}};
+  SentenceArguments arguments{{"why", status.fault.text}, {"why.code", status.fault.code}};
+  for (const auto& [name, value] : status.fault.arguments) arguments.emplace_back("why.arguments." + name, value);
+  return Refusal{RefusalReason::spindle_failed, std::move(arguments)};
 }
 
 void BoardMachineSession::report_tails() {

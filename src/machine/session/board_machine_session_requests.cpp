@@ -95,7 +95,8 @@ DriveOptions BoardMachineSession::drive_options() const {
                        .spindle_wait = machine_.silence.spindle_wait,
                        .spindle_run_up = machine_.spindle.run_up,
                        .waits_at_optional = stops_.optional_stop,
-                       .kept_in_stops = kept_in_stops(machine_)};
+                       .kept_in_stops = kept_in_stops(machine_),
+                       .spindle = options_.spindle};
   if (machine_.tool_change) options.coolant_wait = collet_wait(*machine_.tool_change);
   if (options_.over_a_line) options.tails.emplace();
   return options;
@@ -106,6 +107,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Start& start) {
   if (auto refused = closed_limit()) return Failure{*refused};
   // A journal knows where its job was broken off.
   if (auto refused = lost_place(); refused && !start.from) return Failure{*refused};
+  if (auto refused = refuse_spindle()) return Failure{*refused};
   auto work = std::make_unique<Work>();
   if (start.from && start.lead_in.empty()) start.stands = start.from->point;
   const bool is_on_path = start.from && start.stands;
@@ -153,6 +155,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Stream& stream)
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit(); refused && !stream.program->jogs()) return Failure{*refused};
   if (auto refused = lost_place(); refused && !stream.program->jogs()) return Failure{*refused};
+  if (auto refused = refuse_spindle(); refused && !stream.program->jogs()) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->lines = stream.program;
   work->activity = std::make_unique<StreamedProgramRun>(*stream.program, machine_);
@@ -210,6 +213,11 @@ void BoardMachineSession::put_on_drive(Work& work, const DriveOptions& options, 
     if (watchers.motion) ledger->watch_motion(watchers.motion);
     if (watchers.executed) ledger->watch_executed(watchers.executed);
     if (watchers.rests) ledger->watch_rests(watchers.rests);
+    if (HostSpindle* const spindle = options_.spindle; spindle != nullptr && work.is_program()) {
+      ledger->watch_executed([spindle](const LinkItem& item) {
+        if (const auto* outputs = std::get_if<BoardOutputs>(&item)) spindle->order(SpindleOrder::of(*outputs));
+      });
+    }
   }
   if (work.is_program() && overrides_ != Overrides()) put_overrides_on(drive);
 }
@@ -306,6 +314,7 @@ BoardMachineSession::Answer BoardMachineSession::handle(request::Resume&) {
     return refusal(RefusalReason::no_program_held);
   }
   if (panel_->door_is_open()) return refusal(RefusalReason::door_open);
+  if (auto refused = refuse_spindle()) return Failure{*refused};
   work_->rest.resume();
   drive.resume(HoldReason::operator_hold);
   drive.resume(HoldReason::door);

@@ -55,6 +55,7 @@ constexpr RefusalRow all_refusals[] = {
      "the limit switch of {axes} is closed: jog off it, or home the machine, first"},
     {switch_closed_there, RefusalCode::limit_closed, "machine.limit-closed.there",
      "the limit switch of {axis} is closed at that end: move the other way"},
+    {spindle_failed, RefusalCode::not_ready, "machine.not-ready.spindle", "the spindle is not ready: {why}"},
     {unknown_so_home, RefusalCode::place_unknown, "run.place-unknown",
      "the machine position is unknown: home it first"},
     {unknown_so_jog, RefusalCode::place_unknown, "run.place-unknown.no-homing",

@@ -81,14 +81,20 @@ bool PathBuilder::next(PathItem& item) {
   // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
   // there is no item in hand.
   const bool switches = must_switch(has_item, item);
-  if (outputs() != handed_on_) in_step_ = false;
-  if (outputs() != handed_on_) run_up_left_ = run_up_after(handed_on_);
+  if (outputs() != handed_on_) {
+    in_step_ = false;
+    speed_wait_.run_up_left = run_up_after(handed_on_);
+    if (options_.awaits_spindle_speed) speed_wait_.is_new = outputs().spindle != SpindleDirection::off;
+  }
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
-  if (!switches && !awaits_index && !awaits_speed) return has_item;
+  const bool awaits_run_up = has_item && must_await_run_up(item);
+  if (!switches && !awaits_index && !awaits_speed && !awaits_run_up) return has_item;
   if (has_item) held_.push_back(item);
   if (awaits_index) held_.emplace_front(outputs_action(Action::Kind::await_index));
-  if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(run_up_left_, Seconds(0))));
+  if (awaits_speed) held_.emplace_front(outputs_action(Action::Kind::await_speed));
+  if (awaits_run_up)
+    held_.emplace_front(outputs_action(Action::Kind::dwell, std::exchange(speed_wait_.run_up_left, Seconds(0))));
   if (switches) held_.emplace_front(outputs_action());
   if (switches) in_motion_.hand_on();
   handed_on_ = outputs();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "path_sentences.hpp"
 #include <fmt/format.h>
@@ -47,17 +48,23 @@ bool turns_only_rotary_axes(const Curve& curve) {
 // What is left of an earlier change of speed is added.
 Seconds PathBuilder::run_up_after(const OutputState& before) const {
   const bool is_off = outputs().spindle == SpindleDirection::off;
-  return (is_off ? Seconds(0) : run_up_left_) + run_up_time(before, outputs(), options_.spindle_run_up);
+  return (is_off ? Seconds(0) : speed_wait_.run_up_left) + run_up_time(before, outputs(), options_.spindle_run_up);
 }
 
 // A dwell of the program counts as part of the wait.
-bool PathBuilder::must_await_speed(const PathItem& item) {
-  if (run_up_left_ == Seconds(0)) return false;
+bool PathBuilder::must_await_run_up(const PathItem& item) {
+  if (speed_wait_.run_up_left == Seconds(0)) return false;
   const auto* action = std::get_if<Action>(&item);
   if (action != nullptr && action->kind == Action::Kind::dwell) {
-    run_up_left_ = std::max(run_up_left_ - action->dwell, Seconds(0));
+    speed_wait_.run_up_left = std::max(speed_wait_.run_up_left - action->dwell, Seconds(0));
   }
   return action == nullptr || action->kind == Action::Kind::probe_begin;
+}
+
+bool PathBuilder::must_await_speed(const PathItem& item) {
+  const auto* action = std::get_if<Action>(&item);
+  const bool moves = action == nullptr || action->kind == Action::Kind::probe_begin;
+  return moves && std::exchange(speed_wait_.is_new, false);
 }
 
 // A thread directly after another thread stays in step, and need not wait for the index.

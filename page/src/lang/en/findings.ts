@@ -113,6 +113,15 @@ export const findings = {
   'expected.instead-of-m47': 'M99 in the main program, which restarts it',
   // What the machine cannot do
   'run.tool-change-unplaced': 'M6 goes to machine coordinates, and the machine was not homed: home it, or confirm its position',
+  // The drive of a spindle on RS-485
+  'spindle.no-answer': 'the spindle’s drive at {device}, address {address}, does not answer',
+  'spindle.bad-answer': 'the replies of the spindle’s drive at {device} are damaged: {why}',
+  'spindle.port': 'the serial port {device} of the spindle’s drive failed: {why}',
+  'spindle.refused': 'the spindle’s drive refuses commands (Modbus exception {number})',
+  'spindle.drive-fault': 'the spindle’s drive reports fault {number}: {text}',
+  'spindle.not-reached': 'the spindle did not reach {wanted} rpm in {time} s: its drive reports {rpm} rpm',
+  'spindle.slowed': 'the spindle slowed down from {wanted} to {rpm} rpm: its drive shows the reason',
+  'spindle.no-reverse': 'the spindle’s drive has no command for reverse (M4)',
   'travel.exceeded.high': '{axis} would reach {reached} (work {work}), {far} beyond its travel’s end at {end}',
   'travel.exceeded.low': '{axis} would reach {reached} (work {work}), {far} below its travel’s end at {end}',
   'expected.within-travel': '{axis} within {low} to {high}, machine coordinates',

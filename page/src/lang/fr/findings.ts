@@ -114,6 +114,15 @@ export const findings: Same<typeof en> = {
   'expected.instead-of-m47': 'M99 dans le programme principal, qui le relance',
   // What the machine cannot do
   'run.tool-change-unplaced': 'M6 va à des coordonnées machine, et la prise d’origine n’a pas été faite : faites-la, ou confirmez la position',
+  // Le variateur d’une broche sur RS-485
+  'spindle.no-answer': 'le variateur de la broche sur {device}, adresse {address}, ne répond pas',
+  'spindle.bad-answer': 'les réponses du variateur de la broche sur {device} sont altérées : {why}',
+  'spindle.port': 'le port série {device} du variateur de la broche est en panne : {why}',
+  'spindle.refused': 'le variateur de la broche refuse les commandes (exception Modbus {number})',
+  'spindle.drive-fault': 'le variateur de la broche signale le défaut {number} : {text}',
+  'spindle.not-reached': 'la broche n’a pas atteint {wanted} tr/min en {time} s : son variateur signale {rpm} tr/min',
+  'spindle.slowed': 'la broche a ralenti de {wanted} à {rpm} tr/min : son variateur affiche la raison',
+  'spindle.no-reverse': 'le variateur de la broche n’a pas de commande pour la rotation inverse (M4)',
   'travel.exceeded.high': '{axis} arriverait à {reached} (pièce {work}), {far} au-delà de sa limite de course à {end}',
   'travel.exceeded.low': '{axis} arriverait à {reached} (pièce {work}), {far} en dessous de sa limite de course à {end}',
   'expected.within-travel': '{axis} de {low} à {high}, coordonnées machine',

@@ -114,6 +114,15 @@ export const findings: Same<typeof en> = {
   'expected.instead-of-m47': 'M99 nel programma principale, che lo fa ripartire',
   // What the machine cannot do
   'run.tool-change-unplaced': 'M6 va a coordinate macchina, e l’homing non è stato eseguito: eseguilo, o conferma la posizione',
+  // L’inverter di un mandrino su RS-485
+  'spindle.no-answer': 'l’inverter del mandrino su {device}, indirizzo {address}, non risponde',
+  'spindle.bad-answer': 'le risposte dell’inverter del mandrino su {device} sono danneggiate: {why}',
+  'spindle.port': 'la porta seriale {device} dell’inverter del mandrino non funziona: {why}',
+  'spindle.refused': 'l’inverter del mandrino rifiuta i comandi (eccezione Modbus {number})',
+  'spindle.drive-fault': 'l’inverter del mandrino segnala il guasto {number}: {text}',
+  'spindle.not-reached': 'il mandrino non ha raggiunto {wanted} giri/min in {time} s: il suo inverter segnala {rpm} giri/min',
+  'spindle.slowed': 'il mandrino ha rallentato da {wanted} a {rpm} giri/min: il suo inverter mostra il motivo',
+  'spindle.no-reverse': 'l’inverter del mandrino non ha un comando per la rotazione inversa (M4)',
   'travel.exceeded.high': '{axis} arriverebbe a {reached} (pezzo {work}), {far} oltre la fine della corsa a {end}',
   'travel.exceeded.low': '{axis} arriverebbe a {reached} (pezzo {work}), {far} sotto la fine della corsa a {end}',
   'expected.within-travel': '{axis} da {low} a {high}, coordinate macchina',

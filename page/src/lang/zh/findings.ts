@@ -114,6 +114,15 @@ export const findings: Same<typeof en> = {
   'expected.instead-of-m47': '主程序中的 M99，用于从头重新执行',
   // What the machine cannot do
   'run.tool-change-unplaced': 'M6 会移动到机床坐标，而机床尚未回零：请先回零，或确认位置',
+  // RS-485 上的主轴变频器
+  'spindle.no-answer': '主轴变频器（{device}，地址 {address}）没有应答',
+  'spindle.bad-answer': '主轴变频器（{device}）的应答已损坏：{why}',
+  'spindle.port': '主轴变频器的串口 {device} 出现故障：{why}',
+  'spindle.refused': '主轴变频器拒绝命令（Modbus 异常 {number}）',
+  'spindle.drive-fault': '主轴变频器报告故障 {number}：{text}',
+  'spindle.not-reached': '主轴在 {time} 秒内未达到 {wanted} 转/分：变频器报告 {rpm} 转/分',
+  'spindle.slowed': '主轴转速从 {wanted} 降至 {rpm} 转/分：原因见变频器显示',
+  'spindle.no-reverse': '主轴变频器没有反转命令（M4）',
   'travel.exceeded.high': '{axis} 将到达 {reached}（工件 {work}），超出行程终点 {end} 达 {far}',
   'travel.exceeded.low': '{axis} 将到达 {reached}（工件 {work}），低于行程终点 {end} 达 {far}',
   'expected.within-travel': '{axis} 在 {low} 至 {high} 之间（机床坐标）',

@@ -145,6 +145,14 @@ std::string GrblMachineConnection::words() const {
   return fmt::format("{} {} on {}", board.firmware, board.version, board_);
 }
 
+bool leaves_spindle_to_grbl(const MachineDescription& machine) {
+  if (!machine.spindle.modbus) return true;
+  fail(exit_bad_machine,
+       "[spindle.modbus] is for Passo's boards: a board with Grbl controls the spindle itself. grblHAL and FluidNC "
+       "have settings for such drives [spindle.grbl]");
+  return false;
+}
+
 std::string place_words(const GrblSender& sender) {
   const auto place = sender.place();
   if (!place) return "an unknown position";

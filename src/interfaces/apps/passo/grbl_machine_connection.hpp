@@ -87,6 +87,9 @@ class GrblMachineConnection {
   bool stops_ = false;
 };
 
+// False, with a message: the machine file describes a spindle that this computer would control.
+bool leaves_spindle_to_grbl(const MachineDescription& machine);
+
 // Returns "X1.000 Y2.000 Z0.000", all axes of the board, machine coordinates; or that the position is unknown.
 std::string place_words(const GrblSender& sender);
 // Describes a fault: position in the program, cause and code.

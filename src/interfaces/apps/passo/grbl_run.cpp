@@ -204,6 +204,7 @@ bool suits_grbl(const RunArguments& arguments) {
 
 int run_on_grbl(const RunArguments& arguments, const MachineDescription& machine, ProgramReader program,
                 InterpreterOptions options, ScheduledChanges& changes) {
+  if (!leaves_spindle_to_grbl(machine)) return exit_bad_machine;
   int code = exit_done;
   brake_on_signals();
   const Seconds ahead(arguments.ahead.value_or(GrblSender::default_ahead.value()));

@@ -12,6 +12,7 @@
 #include "link_monitor.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
+#include "spindle_opening.hpp"
 #include "state_folder.hpp"
 #include <fmt/format.h>
 
@@ -114,6 +115,10 @@ std::unique_ptr<MachineConnection> MachineConnection::open(const MachineDescript
     opened->claim_.emplace(std::move(*claim));
     opened->stored_position_.emplace(state_file(state_folder(), wish.board, ".place"));
   }
+  if (outlives && wish.spindle != SpindleWish::none && machine.spindle.modbus) {
+    opened->spindle_ = open_spindle(*machine.spindle.modbus, wish.spindle, code);
+    if (!opened->spindle_) return nullptr;
+  }
   auto port = open_addressed(*address, opened->plant_.get(), pin_setup(machine));
   if (!port) {
     code = fail(exit_failed, port.error());
@@ -127,7 +132,8 @@ std::unique_ptr<MachineConnection> MachineConnection::open(const MachineDescript
                                                                           .greeting = {.session = 1},
                                                                           .tells_place = wish.tells_place,
                                                                           .start = {},
-                                                                          .needs_place = wish.needs_place});
+                                                                          .needs_place = wish.needs_place,
+                                                                          .spindle = opened->spindle_.get()});
   if (!opened->ask_first(wish.board, wish.may_move, code)) return nullptr;
   opened->stand_as_counted();
   return opened;

@@ -10,6 +10,7 @@
 
 #include "board_claim.hpp"
 #include "scheduled_changes.hpp"
+#include "spindle_opening.hpp"
 
 #include "passo/activity/touchable.hpp"
 #include "passo/job/job_end.hpp"
@@ -33,6 +34,7 @@ struct MachineWish {
   bool plant_apart = false;                    // something else than the virtual machine drives the plant: PortRun
   bool tells_place = false;                    // see SessionOptions
   bool needs_place = false;                    // see SessionOptions
+  SpindleWish spindle = SpindleWish::none;     // for [spindle.modbus]; only with a real board
   bool may_move = false;                       // another host may have left the board in motion
 };
 
@@ -112,6 +114,7 @@ class MachineConnection {
   VirtualMachine machine_;
   std::optional<VirtualLine> line_;
   std::unique_ptr<BoardPort> port_;
+  std::unique_ptr<ModbusSpindle> spindle_;
   bool plant_is_behind_ = true;
   std::unique_ptr<BoardMachineSession> session_;
   std::unique_ptr<BoardSession> shadow_;

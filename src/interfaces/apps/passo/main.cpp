@@ -26,6 +26,7 @@
 #include "program_input.hpp"
 #include "program_options.hpp"
 #include "simulate_options.hpp"
+#include "spindle_options.hpp"
 #include "study_options.hpp"
 #include "tools_options.hpp"
 #include <CLI/CLI.hpp>
@@ -63,6 +64,7 @@ constexpr const char* examples = R"(Examples:
   passo tools feeds tools.toml -t 3 --material plywood        calculate feeds and speeds of a cutter
   passo board list                                            list the boards on this computer's serial ports
   passo pendant watch                                         show what is done at a pendant (handwheel on USB)
+  passo spindle show -m router.toml                           show what a spindle's drive on RS-485 reports
   passo interpolate --compare --to 27,10                      compare how interpolation methods step along a line
   passo motor --help                                          calculate the torque of a stepper motor at each speed
   passo loop --compare --picture rules.svg                    compare PID rules for a motor with an encoder
@@ -115,6 +117,8 @@ const std::vector<Command>& all_commands() {
        options_of<MachineArguments, add_machine_options, machine>},
       {"board", "list, flash, query and monitor boards", add_board_help, board_commands()},
       {"pendant", "list pendants (handwheels on USB), and show what is done at one", nullptr, pendant_commands()},
+      {"spindle", "set up the drive (VFD) of a spindle on RS-485: show what it reports, run it, look for it", nullptr,
+       spindle_commands()},
       {"probe", "generate a probing program", options_of<ProbeArguments, add_probe_options, probe>},
       {"frame", "generate a program that moves around a job, to show where it lies",
        options_of<FrameArguments, add_frame_options, frame>},

@@ -9,6 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "passo/drive/host_spindle.hpp"
 #include "passo/link/await.hpp"
 
 namespace passo {
@@ -45,6 +46,9 @@ Seconds OperatorPrompt::poll(MachineSession& session) {
     asked_ = false;
     return endless;
   }
+  if (const HostSpindle* const spindle = session.spindle(); spindle != nullptr && spindle->status().has_failed()) {
+    return poll_failed_spindle(session, spindle->status().fault);
+  }
   const auto wait = session.status().waits_for;
   if (!wait) {
     asked_ = false;
@@ -58,6 +62,26 @@ Seconds OperatorPrompt::poll(MachineSession& session) {
     return endless;
   }
   if (hears_enter(*wait)) try_request(session, request::OperatorDone{});
+  return Seconds(0);
+}
+
+// The program is held, and the spindle is off. Enter clears the fault and continues, if its cause is gone.
+Seconds OperatorPrompt::poll_failed_spindle(MachineSession& session, const Sentence& fault) {
+  if (!asks_operator()) {
+    if (!fault_) {
+      fault_ = ActivityFault{MachineFault::spindle_failed, {{"why", fault.text}}};
+      try_request(session, request::Stop{});
+    }
+    return endless;
+  }
+  if (!std::exchange(asked_, true)) {
+    fmt::print(stderr, "{}{}: held, because {} [{}]. Press Enter to continue, Ctrl-C to end. ",
+               rewrites_lines(STDERR_FILENO) ? "\r\033[K" : "", program_, fault.text, fault.code);
+    std::fflush(stderr);
+  }
+  if (!enter_was_pressed(between_looks)) return Seconds(0);
+  asked_ = false;
+  if (const auto refused = session.request(request::Resume{}); !refused) note(describe(refused.error()));
   return Seconds(0);
 }
 

@@ -27,6 +27,7 @@ class OperatorPrompt {
   const std::optional<ActivityFault>& fault() const { return fault_; }
 
  private:
+  Seconds poll_failed_spindle(MachineSession& session, const Sentence& fault);
   // Returns true when Enter was pressed. Takes at most 50 ms.
   bool hears_enter(const OperatorWait& wait);
 

@@ -476,6 +476,7 @@ int run(const RunArguments& arguments) {
        .physics = arguments.motors.physics || (on_port && std::ranges::any_of(machine->axes, has_physics)),
        .disturbances = *disturbances,
        .plant_apart = on_port,
+       .spindle = SpindleWish::now,
        .may_move = arguments.resume},
       std::move(*program), std::move(*options), *changes);
 }

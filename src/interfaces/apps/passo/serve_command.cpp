@@ -229,6 +229,7 @@ int serve_machine(ServedThings things, ServeDaemon::Lines lines, ServiceNotice& 
 // A machine whose motion a Grbl board plans. It has no journal: its jobs continue at a line.
 int serve_grbl_board(const ServeArguments& arguments, const std::string& text, const MachineDescription& machine,
                      ServeDaemon::Lines lines, ServiceNotice& service) {
+  if (!leaves_spindle_to_grbl(machine)) return exit_bad_machine;
   int code = exit_done;
   brake_on_signals();
   const Seconds ahead(arguments.ahead.value_or(GrblSender::default_ahead.value()));
@@ -286,6 +287,7 @@ int serve(const ServeArguments& given) {
                                                .touchables = *things,
                                                .tells_place = true,
                                                .needs_place = true,
+                                               .spindle = SpindleWish::later,
                                                .may_move = keeps},
                                               code);
   if (!opened) return code;

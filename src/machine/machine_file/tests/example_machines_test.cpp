@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/machine_file/spindle_bus_description.hpp"
 
 namespace passo {
 namespace {
@@ -38,6 +39,15 @@ TEST(ExampleMachines, the_router_needs_640_microsteps_a_millimetre_at_100_mm_a_s
   EXPECT_EQ(machine.axes[0].highest_step_rate(), Hertz(64000));
   EXPECT_EQ(machine.axes[2].velocity, MmPerSecond(50));
   EXPECT_EQ(machine.board.highest_event_rate, Hertz(100e3));
+}
+
+TEST(ExampleMachines, the_router_with_a_drive_has_it_on_a_bus) {
+  const MachineDescription machine = example("router-vfd.toml");
+  ASSERT_TRUE(machine.spindle.modbus);
+  EXPECT_EQ(machine.spindle.modbus->drive, "h100");
+  EXPECT_EQ(machine.spindle.modbus->highest_rpm, 24000);
+  EXPECT_EQ(machine.spindle.modbus->lowest_rpm, 6000);
+  EXPECT_EQ(machine.spindle.modbus->rpm_per_hertz(), 60);
 }
 
 TEST(ExampleMachines, the_bench_has_the_limits_that_its_table_tells) {

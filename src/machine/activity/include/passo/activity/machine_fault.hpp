@@ -23,8 +23,9 @@ enum class MachineFault : std::uint8_t {
   probe_untouched,  // the move ended without a contact
   probe_guard,      // the probe was triggered outside a probe move
   // Programs
-  program_wrong,  // an error was found only during the run
-  program_waits,  // the program waits for an operator, but there is none
+  program_wrong,   // an error was found only during the run
+  program_waits,   // the program waits for an operator, but there is none
+  spindle_failed,  // {why}: the drive of a spindle that this computer controls
   // The board; {trouble} is the board's own error
   board_stopped,      // the board stopped its motors instantly
   board_drivers_off,  // the board switched the drivers off

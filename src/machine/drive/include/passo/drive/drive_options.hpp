@@ -12,6 +12,8 @@
 
 namespace passo {
 
+class HostSpindle;
+
 struct DriveOptions {
   // For a board on a link. The board's queue always ends in a stop, and after an interruption of the link, the drive
   // continues from there. Empty: items go to the board directly.
@@ -33,6 +35,7 @@ struct DriveOptions {
   std::uint8_t switches = 0;        // the digital outputs that are on at the start of the path
   bool stops_at_lines = false;      // holds after each line of the program
   bool may_stop_at_lines = false;   // stop_at_lines() may be called later
+  const HostSpindle* spindle = nullptr;  // whose speed motion waits for; null: the board's
 };
 
 }  // namespace passo

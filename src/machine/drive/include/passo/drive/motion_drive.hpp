@@ -138,6 +138,8 @@ class MotionDrive {
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void await_index(const Action& action);
+  void await_speed();
+  void leave_hold();
   void reverse_tap(const Action& action);
   void wait_for_operator(const Action& action);
   void await_line();
@@ -163,7 +165,8 @@ class MotionDrive {
   Script script_;  // the steps to do during a stop
   OutputSequencer switching_;
   int output_timeouts_ = 0;
-  bool awaits_index_ = false;
+  // What the script waits for that a stop need not wait for.
+  enum class Awaited : std::uint8_t { nothing, index, speed } awaited_ = Awaited::nothing;
 
   State state_ = State::running;
   PlannerHolds holds_;

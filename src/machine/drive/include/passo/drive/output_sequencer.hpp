@@ -5,6 +5,7 @@
 
 #include "passo/drive/commanded_outputs.hpp"
 #include "passo/drive/feed.hpp"
+#include "passo/drive/host_spindle.hpp"
 #include "passo/drive/script.hpp"
 #include "passo/link/link.hpp"
 
@@ -17,6 +18,7 @@ class OutputSequencer {
     Feed& feed;
     const Link& link;
     Script& script;
+    const HostSpindle* spindle = nullptr;
   };
   struct Times {
     Seconds not_before{0};      // the first pause ends at this time on the board's side
@@ -42,6 +44,8 @@ class OutputSequencer {
   void hold_speed(const Action& action);
 
   void await_pause_end();
+  // Null: the board's spindle.
+  const HostSpindle* host_spindle() const { return parts_.spindle; }
   Seconds pause_end() const { return pause_end_; }
 
  private:

@@ -28,6 +28,7 @@
 namespace passo {
 
 struct ToolChangePlan;
+struct SpindleBusDescription;
 
 inline constexpr std::size_t most_motors = 8;  // motors of one board; the same number as wire's max_motors
 
@@ -152,6 +153,8 @@ struct SpindleDescription {
   double droop = 0;   // speed drop under load, as a fraction
   double ripple = 0;  // amplitude of the speed variation, as a fraction
   Hertz ripple_rate{1};
+  // The variable-frequency drive (VFD) that this computer controls by Modbus; null: the board switches the spindle.
+  std::shared_ptr<const SpindleBusDescription> modbus = {};
 };
 
 // The silence of the host after which a stopped board switches its outputs off. Whole tenths of a second; 0: never.

@@ -37,6 +37,7 @@ struct SessionOptions {
   KnownPosition start = {};  // the position as known to the owner
   // Programs do not start while the position is lost or, on a machine that can home all axes, unknown.
   bool needs_place = false;
+  HostSpindle* spindle = nullptr;  // a spindle that this computer controls; only over a line. Outlives the session
 };
 
 class BoardMachineSession final : public MachineSession {
@@ -74,6 +75,7 @@ class BoardMachineSession final : public MachineSession {
   std::optional<Refusal> closed_limit() const override;
   std::optional<Refusal> lost_place() const override;
   MachineAbilities abilities() const override;
+  const HostSpindle* spindle() const override { return options_.spindle; }
   BoardMachineSession* as_board_session() override { return this; }
   const BoardMachineSession* as_board_session() const override { return this; }
 
@@ -150,6 +152,8 @@ class BoardMachineSession final : public MachineSession {
   void check_lease();
   void update_holds();
   void update_door();
+  void poll_spindle();
+  std::optional<Refusal> refuse_spindle() const;
   void end_overrides();
   void put_overrides_on(MotionDrive& drive) const;
   void report_tails();

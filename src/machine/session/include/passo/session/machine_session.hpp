@@ -26,6 +26,7 @@
 namespace passo {
 
 class BoardMachineSession;
+class HostSpindle;
 
 class MachineSession {
  public:
@@ -68,6 +69,8 @@ class MachineSession {
   // Returns the settings of a board that has its own; otherwise null.
   virtual NumberedSettings* numbered_settings() { return nullptr; }
   virtual const NumberedSettings* numbered_settings() const { return nullptr; }
+  // Returns the spindle that this computer controls itself; null: the board switches it.
+  virtual const HostSpindle* spindle() const { return nullptr; }
   // Returns the session if it has a board that executes our steps; otherwise null.
   virtual BoardMachineSession* as_board_session() { return nullptr; }
   virtual const BoardMachineSession* as_board_session() const { return nullptr; }

@@ -62,6 +62,7 @@ enum class RefusalReason : std::uint8_t {
   switch_closed,          // {number}
   switch_of_axes_closed,  // {axes}
   switch_closed_there,    // {axis}
+  spindle_failed,         // {why}
   unknown_so_home,
   unknown_so_jog,
 };

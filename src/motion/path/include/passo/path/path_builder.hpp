@@ -56,6 +56,8 @@ struct PathOptions {
   // The spindle's time from standstill to 1000 rpm. Motion waits for the spindle, and tapping leaves room to reverse
   // it.
   Seconds spindle_run_up{0};
+  // True: the spindle reports its speed, so motion waits for it (await_speed).
+  bool awaits_spindle_speed = false;
   // True: in threads the spindle runs at the programmed speed, regardless of its override. Without an encoder this is
   // necessary: the axes cannot follow the spindle, so another speed would cut another pitch.
   bool threads_hold_speed = false;
@@ -93,7 +95,11 @@ struct PathMemory {
     MmPerSecond feed{0};  // the last synchronized feed that exceeded the velocity of an axis
   };
   Refused refused_;
-  Seconds run_up_left_{0};  // the time until the spindle has reached its speed
+  struct SpeedWait {
+    Seconds run_up_left{0};  // the time until the spindle has reached its speed
+    bool is_new = false;     // with awaits_spindle_speed: no motion has come since the speed changed
+  };
+  SpeedWait speed_wait_;
 
   OutsideTravel outside_;
   AxisSet missing_;
@@ -173,6 +179,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   OutputState outputs() const;
   Action outputs_action(Action::Kind kind = Action::Kind::outputs, Seconds dwell = Seconds(0)) const;
   bool must_await_index(const PathItem& item);
+  bool must_await_run_up(const PathItem& item);
   bool must_await_speed(const PathItem& item);
   Seconds run_up_after(const OutputState& before) const;
 

@@ -113,8 +113,9 @@ struct Action {
     probe_begin,  // probe_begin, then the probe move, then probe_end
     probe_end,    // no stage reads further before the machine has stopped here
     await_index,
-    await_line,  // the next line has not arrived yet; no stage reads further before the machine has stopped here
-    tap_turns,   // after tapping down; no stage reads further before the spindle reverses
+    await_speed,  // motion continues when the spindle has reached its speed; only for a spindle that reports it
+    await_line,   // the next line has not arrived yet; no stage reads further before the machine has stopped here
+    tap_turns,    // after tapping down; no stage reads further before the spindle reverses
   };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
