@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "program_text.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
+#include "passo/cam/program_text.hpp"
 
 namespace passo {
 namespace {

@@ -227,7 +227,7 @@ std::vector<DrawnPoint> take_dots(Drawing& drawing) {
 }
 
 PlotPlan plan_plot(const EdgeLoops& lines, const PlotOptions& options) {
-  return PlotPlanner(options).plan(lines_of(lines, options.knife.count > 0));
+  return PlotPlanner(options).plan(lines_of(lines, options.inner_first || options.knife.count > 0));
 }
 
 }  // namespace passo

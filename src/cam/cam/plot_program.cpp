@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "program_text.hpp"
-
 #include "passo/cam/bulge.hpp"
+#include "passo/cam/program_text.hpp"
 
 namespace passo {
 namespace {

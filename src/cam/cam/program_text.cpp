@@ -1,4 +1,4 @@
-#include "program_text.hpp"
+#include "passo/cam/program_text.hpp"
 
 #include <algorithm>
 

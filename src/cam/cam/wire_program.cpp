@@ -1,10 +1,10 @@
 #include "passo/cam/wire_program.hpp"
 
 #include "arc_fit.hpp"
-#include "program_text.hpp"
 #include <fmt/format.h>
 
 #include "passo/cam/bulge.hpp"
+#include "passo/cam/program_text.hpp"
 
 namespace passo {
 namespace {

@@ -190,6 +190,19 @@ LevelPicture read_level_picture(const std::string& name, std::string_view bytes,
   return std::move(reading.picture);
 }
 
+LevelPicture read_picture_on_white(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
+  LevelPicture picture = read_level_picture(name, bytes, PixelLevel::luminance, diagnostics);
+  if (picture.columns == 0 || picture.kind.find("alpha") == std::string::npos) return picture;
+  const LevelPicture opaque = read_level_picture(name, bytes, PixelLevel::alpha, diagnostics);
+  if (opaque.levels.size() != picture.levels.size()) return picture;
+  // The luminance is darkened in proportion to the transparency.
+  constexpr int white = 65'535;
+  for (std::size_t i = 0; i < picture.levels.size(); ++i) {
+    picture.levels[i] = static_cast<std::uint16_t>(std::min(white, picture.levels[i] + white - opaque.levels[i]));
+  }
+  return picture;
+}
+
 std::string write_colour_picture(std::size_t columns, std::size_t rows, const std::vector<std::uint8_t>& colours) {
   PngWriting writing;
   const bool done = write_png(writing, columns, rows, colours.data());

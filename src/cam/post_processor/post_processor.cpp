@@ -54,7 +54,7 @@ class PostProcessor::Lines {
   void end();
   void move();
   void write_arc();
-  void write_part(const ProgrammedArc& arc, const ArcPart& part, bool carries_feed);
+  void write_part(const ProgrammedArc& arc, const ArcPart& part, bool is_first);
   void write_dwell(double seconds);
   void write_other();
   void write_operator_text(const OperatorText& text);
@@ -264,7 +264,7 @@ void PostProcessor::Lines::write_dwell(double seconds) {
   end_line();
 }
 
-void PostProcessor::Lines::write_part(const ProgrammedArc& arc, const ArcPart& part, bool carries_feed) {
+void PostProcessor::Lines::write_part(const ProgrammedArc& arc, const ArcPart& part, bool is_first) {
   constexpr std::string_view axes = "XYZ";
   const std::array<double, 3> from = at_;
   add_motion(part.is_arc ? (arc.counterclockwise ? 3 : 2) : 1);
@@ -279,8 +279,11 @@ void PostProcessor::Lines::write_part(const ProgrammedArc& arc, const ArcPart& p
       if (i == arc.first || i == arc.second) add_length(centres[i], arc.centre[i] - rounded(from[i]));
     }
   }
-  if (const ProgramWord* feed = words_.find('F'); feed != nullptr && carries_feed) {
+  if (const ProgramWord* feed = words_.find('F'); feed != nullptr && is_first) {
     add_length('F', is_inverse_time_ ? feed->value : feed->value * scale_);
+  }
+  if (const ProgramWord* power = words_.find('S'); power != nullptr && is_first) {
+    add_word('S', code_number(power->value));
   }
   end_line();
   at_ = part.to;

@@ -24,18 +24,14 @@ constexpr const char* outline_file = "picture.svg";
 constexpr int white = 65'535;
 
 // A picture with one bit for each pixel (PBM). A dark pixel is 1.
-std::string bitmap_of(const LevelPicture& picture, const std::vector<std::uint16_t>& alphas,
-                      const PictureTraceOptions& options) {
+std::string bitmap_of(const LevelPicture& picture, const PictureTraceOptions& options) {
   std::string bitmap = fmt::format("P4\n{} {}\n", picture.columns, picture.rows);
   const double threshold = options.threshold * white;
   const std::size_t bytes = (picture.columns + 7) / 8;
   for (std::size_t row = 0; row < picture.rows; ++row) {
     std::string bits(bytes, '\0');
     for (std::size_t column = 0; column < picture.columns; ++column) {
-      const std::size_t i = row * picture.columns + column;
-      // The reader darkens transparent pixels; here the background is white.
-      const int level = picture.levels[i] + (alphas.empty() ? 0 : white - alphas[i]);
-      const bool is_dark = (level < threshold) != options.invert;
+      const bool is_dark = (picture.levels[row * picture.columns + column] < threshold) != options.invert;
       if (is_dark) bits[column / 8] = static_cast<char>(bits[column / 8] | (0x80 >> (column % 8)));
     }
     bitmap += bits;
@@ -79,19 +75,14 @@ std::optional<std::string> PictureTracer::read_bitmap() {
     refuse("trace.no-picture", "this is no picture", "a picture (PNG, JPEG or TIFF); --trace is not for drawings");
     return std::nullopt;
   }
-  const LevelPicture picture = read_level_picture(path_, *bytes, PixelLevel::luminance, diagnostics_);
+  const LevelPicture picture = read_picture_on_white(path_, *bytes, diagnostics_);
   if (picture.columns == 0) return std::nullopt;
   if (picture.columns * picture.rows > most_traced_pixels) {
     refuse("trace.too-large", fmt::format("the picture has {} x {} pixels", picture.columns, picture.rows),
            fmt::format("at most {} million pixels", most_traced_pixels / (1024 * 1024)));
     return std::nullopt;
   }
-  std::vector<std::uint16_t> alphas;
-  if (picture.kind.find("alpha") != std::string::npos) {
-    alphas = read_level_picture(path_, *bytes, PixelLevel::alpha, diagnostics_).levels;
-    if (alphas.size() != picture.levels.size()) alphas.clear();
-  }
-  return bitmap_of(picture, alphas, options_);
+  return bitmap_of(picture, options_);
 }
 
 std::optional<std::string> PictureTracer::run_potrace(const std::string& bitmap) {

@@ -20,6 +20,7 @@ namespace passo {
 struct PlotOptions {
   Nanometres knife{};                      // distance from the axis to the blade's tip; 0: a pen
   double swivel_degrees = 20;              // at corners that turn by more, the blade swivels on an arc
+  bool inner_first = false;                // draws lines within a closed line before it; a knife always does
   Nanometres overcut{};                    // how far a closed line is cut beyond its start; only with a knife
   DrawnPoint park = {};                    // where the travels begin and end
   std::uint64_t route_steps = 20'000'000;  // maximum number of steps of shorten_route()

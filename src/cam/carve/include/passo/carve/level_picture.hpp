@@ -37,6 +37,9 @@ struct LevelPicture {
 LevelPicture read_level_picture(const std::string& name, std::string_view bytes, PixelLevel level,
                                 Diagnostics& diagnostics);
 
+// Reads the luminance; what is transparent lets a white background through.
+LevelPicture read_picture_on_white(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
 // Returns whether these are the first bytes of a supported picture format: PNG, JPEG or TIFF.
 bool is_level_picture(std::string_view bytes);
 

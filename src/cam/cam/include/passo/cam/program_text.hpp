@@ -1,4 +1,4 @@
-// ProgramText: writes G-code line by line, with lengths in the program's units. Private to cam/.
+// ProgramText: writes G-code line by line, with lengths in the program's units.
 #pragma once
 
 #include <cstdint>
