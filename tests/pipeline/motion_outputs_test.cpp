@@ -3,12 +3,12 @@
 #include "kit/motion_outputs.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "kit/in_full.hpp"
 #include "kit/journaled_host.hpp"
 #include "kit/line_run.hpp"
 #include "kit/line_trouble.hpp"
@@ -45,6 +45,10 @@ void run_direct(const OutputProgram& program, const MachineDescription& machine,
   run_to_end(job, diagnostics);
 }
 
+int trials(int usual) {
+  return static_cast<int>(test::number_of("PASSO_RUNS", static_cast<std::uint64_t>(usual)));
+}
+
 class OutputsInMotion : public testing::TestWithParam<std::string> {};
 
 TEST_P(OutputsInMotion, change_at_their_positions) {
@@ -52,7 +56,7 @@ TEST_P(OutputsInMotion, change_at_their_positions) {
   const double step = 1 / std::min(machine.axes[0].steps_per_unit, machine.axes[1].steps_per_unit);
   Random random;
   std::size_t changes = 0;
-  for (int trial = 0; trial < test::fewer(100, 10); ++trial) {
+  for (int trial = 0; trial < trials(4); ++trial) {
     SCOPED_TRACE(fmt::format("seed {}, trial {}", random.seed(), trial));
     const double tolerance = trial % 2 == 0 ? 0 : 0.02;
     const OutputProgram program = OutputProgramWriter(random, tolerance).write(60);
@@ -77,7 +81,7 @@ TEST_P(OutputsInMotion, survive_a_bad_link) {
   Random random;
   int faults = 0;
   int recoveries = 0;
-  for (int trial = 0; trial < test::fewer(500, 25); ++trial) {
+  for (int trial = 0; trial < trials(6); ++trial) {
     SCOPED_TRACE(fmt::format("seed {}, trial {}", random.seed(), trial));
     const OutputProgram program = OutputProgramWriter(random, trial % 2 == 0 ? 0 : 0.02).write(25);
     MotionOutputLog reference(machine);
