@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "path_sentences.hpp"
 #include "spline_pieces.hpp"
 #include "turn_scale.hpp"
 #include <fmt/format.h>
@@ -43,6 +44,10 @@ concept OfOthers =
               operation::SetToolNumber, operation::SetToolTableEntry, operation::PalletShuttle, operation::SetFeedMode,
               operation::Finish, operation::TurnProbe, operation::Comment, operation::Message, operation::Print,
               operation::Log, operation::Reset, operation::SetFeedReference>;
+
+bool has_other_speed(const OutputState& one, const OutputState& other) {
+  return one.spindle != other.spindle || one.revolutions_per_minute != other.revolutions_per_minute;
+}
 
 template <class... Handlers>
 struct Overloaded : Handlers... {
@@ -83,7 +88,14 @@ bool PathBuilder::next(PathItem& item) {
   const bool switches = outputs() != handed_on_;
   if (switches) in_step_ = false;
   if (switches) speed_wait_.run_up_left = run_up_after(handed_on_);
-  if (switches && options_.awaits_spindle_speed) speed_wait_.is_new = outputs().spindle != SpindleDirection::off;
+  if (switches && options_.awaits_spindle_speed) {
+    const bool is_off = outputs().spindle == SpindleDirection::off;
+    speed_wait_.is_new = !is_off && (speed_wait_.is_new || has_other_speed(handed_on_, outputs()));
+    // A tapping cycle (G84) permits no overrides.
+    const bool turns_back = !is_off && outputs().spindle == reversed(handed_on_.spindle);
+    if (turns_back && !heeds().feed_override)
+      report(Severity::error, "path.tap-on-bus", path_says::tap_on_bus, path_says::not_on_bus);
+  }
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
   const bool awaits_run_up = has_item && must_await_run_up(item);
