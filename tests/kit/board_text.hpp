@@ -54,6 +54,7 @@ inline std::string text_of(const Action& action) {
     case Action::Kind::feed_hold: return "feed hold\n";
     case Action::Kind::probe_begin: return action.probe_toward ? "probe until touched\n" : "probe until free\n";
     case Action::Kind::probe_end: return "probe move ends\n";
+    case Action::Kind::await_speed: return "await the spindle's speed\n";
     case Action::Kind::await_index: return "await the spindle's index\n";
     case Action::Kind::await_line: return "await a line\n";
     case Action::Kind::tap_turns: return "tap and spindle turn round\n";

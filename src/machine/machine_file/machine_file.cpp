@@ -2,7 +2,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -34,6 +33,13 @@ void file_error(Diagnostics& diagnostics, const char* code, const std::string& f
                    .text = {}});
 }
 
+// A path that a machine file names. std::filesystem would do it, but WebAssembly has none.
+std::string beside(const std::string& machine_file, const std::string& path) {
+  const std::size_t slash = machine_file.rfind('/');
+  const bool is_here = path.starts_with('/') || slash == std::string::npos;
+  return is_here ? path : machine_file.substr(0, slash + 1) + path;
+}
+
 }  // namespace
 
 std::optional<std::string> machine_file_text(const std::string& path, Diagnostics& diagnostics) {
@@ -55,7 +61,7 @@ std::optional<MachineDescription> load_machine_file(const std::string& path, Dia
   auto machine = parse_machine(*text, path, diagnostics, use);
   if (machine && machine->spindle.modbus) {
     auto bus = std::make_shared<SpindleBusDescription>(*machine->spindle.modbus);
-    if (bus->has_table_file()) bus->drive = (std::filesystem::path(path).parent_path() / bus->drive).string();
+    if (bus->has_table_file()) bus->drive = beside(path, bus->drive);
     machine->spindle.modbus = std::move(bus);
   }
   return machine;

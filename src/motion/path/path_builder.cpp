@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "path_sentences.hpp"
 #include "spline_pieces.hpp"
 #include "turn_scale.hpp"
 #include <fmt/format.h>
@@ -43,6 +44,10 @@ concept OfOthers =
               operation::SetToolTableEntry, operation::PalletShuttle, operation::SetFeedMode, operation::Finish,
               operation::TurnProbe, operation::Comment, operation::Message, operation::Print, operation::Log,
               operation::Reset, operation::SetFeedReference>;
+
+bool has_other_speed(const OutputState& one, const OutputState& other) {
+  return one.spindle != other.spindle || one.revolutions_per_minute != other.revolutions_per_minute;
+}
 
 template <class... Handlers>
 struct Overloaded : Handlers... {
@@ -84,7 +89,7 @@ bool PathBuilder::next(PathItem& item) {
   if (outputs() != handed_on_) {
     in_step_ = false;
     speed_wait_.run_up_left = run_up_after(handed_on_);
-    if (options_.awaits_spindle_speed) speed_wait_.is_new = outputs().spindle != SpindleDirection::off;
+    if (options_.awaits_spindle_speed) note_new_speed();
   }
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
@@ -102,6 +107,16 @@ bool PathBuilder::next(PathItem& item) {
 }
 
 // A change of the digital outputs needs a stop only where no motion follows that switches them.
+// For a spindle whose speed is awaited: what has changed since the last item.
+void PathBuilder::note_new_speed() {
+  const bool is_off = outputs().spindle == SpindleDirection::off;
+  speed_wait_.is_new = !is_off && (speed_wait_.is_new || has_other_speed(handed_on_, outputs()));
+  // A tapping cycle (G84) permits no overrides.
+  const bool turns_back = !is_off && outputs().spindle == reversed(handed_on_.spindle);
+  if (!turns_back || heeds().feed_override) return;
+  report(Severity::error, "path.tap-on-bus", path_says::tap_on_bus, path_says::not_on_bus);
+}
+
 bool PathBuilder::must_switch(bool has_item, const PathItem& item) const {
   if (outputs() != handed_on_) return true;
   return in_motion_.is_news() && !(has_item && std::holds_alternative<Segment>(item));

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "path_sentences.hpp"
+
 #include "passo/path/path_builder.hpp"
 
 namespace passo {
@@ -18,6 +20,10 @@ constexpr double more_turns = 2;
 // The tap goes down in step with the spindle, goes on until the spindle has reversed, and goes back in step to where
 // the tap began.
 bool PathBuilder::begin_tap(const operation::RigidTap& tap, PathItem& item) {
+  if (options_.awaits_spindle_speed) {
+    report(Severity::error, "path.tap-on-bus", path_says::tap_on_bus, path_says::not_on_bus);
+    return false;
+  }
   if (answers_.tap_reversal() == nullptr) return expand(tap), false;
   tap_start_ = position_;
   if (!add_line(tap.end, false, item)) return false;

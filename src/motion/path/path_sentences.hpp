@@ -21,6 +21,11 @@ inline constexpr SentenceRow no_feed{"path.no-feed", "a feed move without a feed
 inline constexpr SentenceRow feed_above_zero{"expected.feed-above-zero", "F above 0 in this block or an earlier one"};
 inline constexpr SentenceRow spindle_too_fast{
     "path.spindle-too-fast", "the program commands {asked} rpm, but the spindle's maximum of {most} rpm is used"};
+inline constexpr SentenceRow tap_on_bus{
+    "path.tap-on-bus",
+    "a spindle by Modbus reverses too slowly to tap: it would turn in the thread while the tool waits"};
+inline constexpr SentenceRow not_on_bus{"expected.not-on-bus",
+                                        "a thread mill, or a machine file without [spindle.modbus]"};
 inline constexpr SentenceRow speed_up_to{"expected.speed-up-to", "S up to {most}"};
 
 }  // namespace passo::path_says

@@ -131,6 +131,8 @@ export const findings = {
   'path.no-feed': 'a feed move without a feed rate',
   'expected.feed-above-zero': 'F above 0 in this block or an earlier one',
   'path.spindle-too-fast': 'the program commands {asked} rpm, but the spindle’s maximum of {most} rpm is used',
+  'path.tap-on-bus': 'a spindle by Modbus reverses too slowly to tap: it would turn in the thread while the tool waits',
+  'expected.not-on-bus': 'a thread mill, or a machine file without [spindle.modbus]',
   'expected.speed-up-to': 'S up to {most}',
   // Usual mistakes
   'path.no-units': 'the program moves before it sets its units; millimetres are assumed',

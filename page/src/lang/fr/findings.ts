@@ -132,6 +132,8 @@ export const findings: Same<typeof en> = {
   'path.no-feed': 'un déplacement d’usinage sans avance',
   'expected.feed-above-zero': 'F supérieur à 0 dans ce bloc ou un bloc précédent',
   'path.spindle-too-fast': 'le programme demande {asked} tr/min, mais la broche est limitée à {most} tr/min ; cette valeur est utilisée',
+  'path.tap-on-bus': 'une broche par Modbus s’inverse trop lentement pour tarauder : elle tournerait dans le filet pendant que l’outil attend',
+  'expected.not-on-bus': 'une fraise à fileter, ou un fichier machine sans [spindle.modbus]',
   'expected.speed-up-to': 'S jusqu’à {most}',
   // Usual mistakes
   'path.no-units': 'le premier déplacement vient avant le choix des unités ; les longueurs sont prises en millimètres',

@@ -132,6 +132,8 @@ export const findings: Same<typeof en> = {
   'path.no-feed': 'un movimento di lavoro senza avanzamento',
   'expected.feed-above-zero': 'F maggiore di 0 in questo blocco o in uno precedente',
   'path.spindle-too-fast': 'il programma chiede {asked} giri/min, ma il mandrino è limitato a {most} giri/min; viene usato questo valore',
+  'path.tap-on-bus': 'un mandrino via Modbus si inverte troppo lentamente per maschiare: girerebbe nel filetto mentre l’utensile aspetta',
+  'expected.not-on-bus': 'una fresa per filettare, o un file macchina senza [spindle.modbus]',
   'expected.speed-up-to': 'S fino a {most}',
   // Usual mistakes
   'path.no-units': 'il programma si muove prima di indicare le unità; le lunghezze sono considerate in millimetri',

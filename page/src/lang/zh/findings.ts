@@ -132,6 +132,8 @@ export const findings: Same<typeof en> = {
   'path.no-feed': '进给运动没有进给速度',
   'expected.feed-above-zero': '在本程序段或之前给出大于 0 的 F',
   'path.spindle-too-fast': '程序要求 {asked} r/min，但主轴最高 {most} r/min，按此值运行',
+  'path.tap-on-bus': 'Modbus 主轴换向太慢，无法攻丝：刀具等待时主轴会在螺纹中继续转动',
+  'expected.not-on-bus': '螺纹铣刀，或不含 [spindle.modbus] 的机床文件',
   'expected.speed-up-to': 'S 不超过 {most}',
   // Usual mistakes
   'path.no-units': '程序在声明单位之前就运动；长度按毫米处理',

@@ -109,6 +109,64 @@ TEST_F(SpindleTest, without_a_time_to_run_up_nothing_waits) {
   EXPECT_TRUE(waits().empty());
 }
 
+TEST_F(SpindleTest, a_spindle_that_reports_its_speed_is_waited_for_before_the_first_move_only) {
+  options_.spindle_run_up = Seconds(0);
+  options_.awaits_spindle_speed = true;
+  clockwise(6000);
+  add(operation::Dwell{Seconds(1)});
+  rapid(10);
+  rapid(20);
+  add(operation::SetFlood{true});
+  rapid(25);
+  speed(8000);
+  rapid(30);
+  turn(SpindleDirection::off);
+  rapid(40);
+  std::string path;
+  for (const PathItem& item : build()) {
+    const auto* action = std::get_if<Action>(&item);
+    if (action == nullptr) {
+      path += "move ";
+    } else if (action->kind == Action::Kind::await_speed) {
+      path += fmt::format("await {:.0f} ", action->outputs.revolutions_per_minute);
+    } else if (action->kind == Action::Kind::dwell) {
+      path += "dwell ";
+    }
+  }
+  EXPECT_EQ(path, "dwell await 6000 move move move await 8000 move move ");
+}
+
+TEST_F(SpindleTest, a_spindle_that_reports_its_speed_is_waited_for_after_its_run_up) {
+  options_.awaits_spindle_speed = true;
+  clockwise(2000);
+  rapid(10);
+  const std::vector<PathItem> items = build();
+  ASSERT_GE(items.size(), 4U);
+  EXPECT_EQ(std::get<Action>(items[1]).dwell, Seconds(1));
+  EXPECT_EQ(std::get<Action>(items[2]).kind, Action::Kind::await_speed);
+  EXPECT_TRUE(std::holds_alternative<Segment>(items[3]));
+}
+
+TEST_F(SpindleTest, a_spindle_on_a_bus_does_not_tap) {
+  options_.awaits_spindle_speed = true;
+  clockwise(600);
+  add(operation::StartSpeedFeedSync{.pitch = Mm(1.5)});
+  add(operation::RigidTap{xyz(0, 0, -10)});
+  add(operation::StopSpeedFeedSync{});
+  EXPECT_THAT(told(), HasSubstr("path.tap-on-bus"));
+}
+
+TEST_F(SpindleTest, a_spindle_on_a_bus_does_not_tap_with_a_floating_holder_either) {
+  options_.awaits_spindle_speed = true;
+  feed(10);
+  clockwise(600);
+  add(operation::SetFeedOverride{false});
+  go(0, 0, -10);
+  turn(SpindleDirection::counterclockwise);
+  go(0, 0, 0);
+  EXPECT_THAT(told(), HasSubstr("path.tap-on-bus"));
+}
+
 TEST_F(SpindleTest, a_thread_that_an_axis_cannot_follow_is_refused_with_what_can_be_had) {
   clockwise(6000);
   add(operation::StartSpeedFeedSync{.pitch = Mm(4)});
