@@ -46,6 +46,9 @@ class CamController : public passo::test::CommandLine {
         {"engrave --text 'Ab1!?' --font simplex --depth -0.2"},
         {"plot examples/parts/bracket.svg --servo 300 --knife 0.5", pen},
         {"wire examples/foam/naca2412.dat --chord 100 --axes XY --heat 200", pen},
+        {"laser examples/laser/key-tag.svg --score-color blue --kerf 0.2 --passes 2", pen},
+        {"laser examples/laser/ball.png --width 8mm --units inch", pen},
+        {"laser --grid 1x2 --cell 2mm --air flood --beam constant", pen},
         {"relief examples/reliefs/flower.png --width 20 --depth -3 --rough flat:3 --cutter ball:2 --pitch 0.2", relief,
          2},
         {"relief examples/reliefs/flower.png --width 20mm --depth -3mm --units inch --cutter ball:2 --pitch 0.2mm "

@@ -46,6 +46,8 @@ passo cam engrave --text 'Ah! Why?' --font simplex --for grbl -o 4.nc >/dev/null
 passo cam plot $E/parts/bracket.svg --servo 300 --knife 0.5 --for grbl -o 5.nc >/dev/null || exit
 passo cam wire $E/foam/naca2412.dat --chord 100 --axes XY --for grbl -o 6.nc >/dev/null || exit
 passo cam relief $E/reliefs/flower.png --width 6 --depth -2 --pitch 0.5 --for grbl -o 7.nc >/dev/null || exit
+passo cam laser $E/laser/key-tag.svg --score-color blue --kerf 0.2 --focus 5 --passes 2 --step 1 --for grbl -o 8.nc >/dev/null || exit
+passo cam laser $E/laser/ball.png --width 4 --line-distance 0.2 --air flood --for grbl -o 9.nc >/dev/null || exit
 mkfifo commands
 ./uno $P/grbl-1.1h-uno.elf "$PWD/tty" --speed 0 <commands >/dev/null &
 trap "kill $!" EXIT
@@ -54,7 +56,7 @@ until [ -e tty ]; do sleep 0.05; done
 exec 4<>tty
 until read -t 20 -u 4 answer && [[ $answer = Grbl* ]]; do :; done
 while read -t 1 -u 4 answer; do :; done
-{ echo '$C'; cat ?.nc; } >all.nc
+{ echo '$32=1'; echo '$C'; cat ?.nc; } >all.nc
 while IFS= read -r line; do
   printf '%s\n' "$line" >&4
   until read -t 20 -u 4 answer && [[ $answer = ok* || $answer = error* ]]; do :; done

@@ -41,14 +41,14 @@ inline std::vector<ControllerRules> controller_rules() {
       // linuxcnc.org, "G-Codes" and "M-Codes"; G64 without P would cut corners without a limit.
       {.name = "linuxcnc",
        .g = with({"43", "64", "81", "83", "91.1", "93", "98", "99"}),
-       .m = {"2", "3", "5", "6"},
+       .m = {"2", "3", "4", "5", "6", "8", "9"},
        .letters = "FGHIJKMPQRSTUVXYZ",
        .longest_line = 255},
       // gnea/grbl, doc/markdown/commands.md and interface.md: no cycles, no M6, no %; a line has at most
       // 80 characters. '!', '?' and '~' and all bytes from 0x80 are commands.
       {.name = "grbl",
        .g = with({"91.1", "93"}),
-       .m = {"0", "2", "3", "5"},
+       .m = {"0", "2", "3", "4", "5", "8", "9"},
        .letters = "FGIJKMPSTXYZ",
        .longest_line = 79,
        .bad_characters = "!?~%",
@@ -56,7 +56,7 @@ inline std::vector<ControllerRules> controller_rules() {
       // grblHAL/core, README: cycles and M6, which waits for a manual change.
       {.name = "grblhal",
        .g = with({"81", "83", "91.1", "93", "98", "99"}),
-       .m = {"2", "3", "5", "6"},
+       .m = {"2", "3", "4", "5", "6", "8", "9"},
        .letters = "FGIJKMPQRSTUVXYZ",
        .longest_line = 255,
        .bad_characters = "!?~",
@@ -64,7 +64,7 @@ inline std::vector<ControllerRules> controller_rules() {
       // Using Mach3Mill, chapter 10.
       {.name = "mach3",
        .g = with({"43", "64", "81", "83", "91.1", "93", "98", "99"}),
-       .m = {"3", "5", "6", "30"},
+       .m = {"3", "4", "5", "6", "8", "9", "30"},
        .letters = "FGHIJKMPQRSTXYZ",
        .longest_line = 255,
        .most_radius = 1000,
@@ -73,7 +73,7 @@ inline std::vector<ControllerRules> controller_rules() {
       // Series 0i-MF, B-64694EN: X10 would be 10 um; G4 P counts milliseconds.
       {.name = "fanuc-like",
        .g = with({"43", "81", "83", "98", "99"}),
-       .m = {"3", "5", "6", "30"},
+       .m = {"3", "4", "5", "6", "8", "9", "30"},
        .letters = "FGHIJKMNOPQRSTXYZ",
        .decimals = 3,
        .has_points = true,

@@ -192,6 +192,25 @@ Examples:
 
 All options: docs/manual/plotting.md.)";
 
+constexpr const char* laser_examples =
+    R"(Lengths: a number in the unit of --units, or with a unit of its own: 6mm, 0.3cm, 1/8in.
+
+Examples:
+  passo cam laser box.svg --kerf 0.15 --power 100 --feed 400 --passes 2 -p box.png -o box.ngc
+                                                           cuts half a kerf outside parts and inside holes, twice
+  passo cam laser sign.svg --score-color blue --score-power 15 --score-feed 2000 --feed 300 --for grbl -o sign.nc
+                                                           blue lines are scored, then all others are cut
+  passo cam laser photo.jpg --width 80 --feed 3000 --power 40 --least-power 8 --gamma 0.8 -p burned.png -o photo.ngc
+                                                           grey tones: the power follows the picture
+  passo cam laser photo.png --width 80 --mode dither --line-distance 0.12 --feed 4000 --power 30 -o photo.ngc
+                                                           dots of full power, by Floyd and Steinberg
+  passo cam laser logo.png --mode threshold --scan y --acceleration 2000 --max-s 255 -o logo.ngc
+  passo cam laser --grid 5x6 --grid-power 10,50 --grid-feed 1000,6000 -p grid.png -o grid.ngc
+                                                           a test grid: power from left to right, feed from top to bottom
+  passo cam laser plate.dxf --layer cut --focus 5 --passes 3 --step 1 --air flood -o plate.ngc
+
+The program needs a machine in laser mode. All options: docs/manual/laser.md.)";
+
 constexpr const char* wire_examples =
     R"(Lengths: a number in the unit of --units, or with a unit of its own: 6mm, 0.3cm, 1/8in.
 
@@ -270,6 +289,13 @@ constexpr std::array operations = {
                  .accepts = ".svg,.dxf,.hpgl,.plt",
                  .examples = plot_examples,
                  .options = options_with_defaults<CamPlotArguments>},
+    CamOperation{.name = "laser",
+                 .purpose = "cut and score drawings, or engrave pictures, with a laser",
+                 .accepts = ".svg,.dxf,.hpgl,.plt,.png,.jpg,.jpeg,.tif,.tiff",
+                 .examples = laser_examples,
+                 .options = options_with_defaults<CamLaserArguments>,
+                 .instead_of_files = "grid",
+                 .picture_ending = ".png"},
     CamOperation{.name = "wire",
                  .purpose = "cut foam with a hot wire along one profile, or along one for each end of the wire",
                  .accepts = ".svg,.dxf,.hpgl,.plt,.dat",

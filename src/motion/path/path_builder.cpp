@@ -89,7 +89,7 @@ bool PathBuilder::next(PathItem& item) {
   if (outputs() != handed_on_) {
     in_step_ = false;
     speed_wait_.run_up_left = run_up_after(handed_on_);
-    if (options_.awaits_spindle_speed) note_new_speed();
+    if (options_.awaits_spindle_speed) record_new_speed();
   }
   const bool awaits_index = has_item && must_await_index(item);
   const bool awaits_speed = has_item && must_await_speed(item);
@@ -106,9 +106,8 @@ bool PathBuilder::next(PathItem& item) {
   return next(item);
 }
 
-// A change of the digital outputs needs a stop only where no motion follows that switches them.
 // For a spindle whose speed is awaited: what has changed since the last item.
-void PathBuilder::note_new_speed() {
+void PathBuilder::record_new_speed() {
   const bool is_off = outputs().spindle == SpindleDirection::off;
   speed_wait_.is_new = !is_off && (speed_wait_.is_new || has_other_speed(handed_on_, outputs()));
   // A tapping cycle (G84) permits no overrides.
@@ -117,6 +116,7 @@ void PathBuilder::note_new_speed() {
   report(Severity::error, "path.tap-on-bus", path_says::tap_on_bus, path_says::not_on_bus);
 }
 
+// A change of the digital outputs needs a stop only where no motion follows that switches them.
 bool PathBuilder::must_switch(bool has_item, const PathItem& item) const {
   if (outputs() != handed_on_) return true;
   return in_motion_.is_news() && !(has_item && std::holds_alternative<Segment>(item));

@@ -53,6 +53,7 @@ int cam_pocket(const CamPocketArguments& arguments, const WorkProgress& progress
 int cam_engrave(const CamEngraveArguments& arguments, const WorkProgress& progress);
 int cam_thread(const CamThreadArguments& arguments, const WorkProgress& progress);
 int cam_plot(const CamPlotArguments& arguments, const WorkProgress& progress);
+int cam_laser(const CamLaserArguments& arguments, const WorkProgress& progress);
 int cam_wire(const CamWireArguments& arguments, const WorkProgress& progress);
 int cam_relief(const CamReliefArguments& arguments, const WorkProgress& progress);
 // Runs the operations of a job file.

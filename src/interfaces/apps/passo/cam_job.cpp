@@ -44,13 +44,13 @@ int write_picture(const std::string& path, const std::string& title, const MillS
   });
 }
 
-void refuse_wrong_colours(const std::vector<std::string>& colors, LengthArguments& lengths) {
+void refuse_wrong_colours(const std::vector<std::string>& colors, LengthArguments& lengths, const char* option) {
   const auto wrong = std::ranges::find_if_not(colors, [](const std::string& one) { return is_drawn_colour(one); });
   if (wrong == colors.end()) return;
   lengths.refuse(
-      fmt::format("--color: expected a colour, e.g. red, #f00 or rgb(255, 0, 0), or a number of the palette "
+      fmt::format("{}: expected a colour, e.g. red, #f00 or rgb(255, 0, 0), or a number of the palette "
                   "of DXF, found '{}'",
-                  *wrong));
+                  option, *wrong));
 }
 
 ZeroPlace zero_of(const std::string& zero, LengthArguments& lengths) {

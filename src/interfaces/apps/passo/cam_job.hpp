@@ -17,7 +17,8 @@
 
 namespace passo {
 
-void refuse_wrong_colours(const std::vector<std::string>& colors, LengthArguments& lengths);
+void refuse_wrong_colours(const std::vector<std::string>& colors, LengthArguments& lengths,
+                          const char* option = "--color");
 
 // `Arguments`: a struct with `scale`, `input` and `layers`.
 template <class Arguments>

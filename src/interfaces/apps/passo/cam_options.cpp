@@ -208,7 +208,7 @@ void add_tune_options(CLI::App& command, TuneArguments& arguments) {
 }
 
 std::span<const Command> cam_commands() {
-  static const std::array<Command, 13> commands{
+  static const std::array<Command, 14> commands{
       {{"show", "list and draw the layers of a circuit board",
         options_of<CamShowArguments, add_show_options, cam_show>},
        command_of("drill", remembered_of<&CamArguments::drill, cam_drill>),
@@ -221,6 +221,7 @@ std::span<const Command> cam_commands() {
        command_of("thread", with_tools<CamThreadArguments, cam_thread>),
        command_of("job", operation_of<CamJobArguments, cam_job_file>),
        command_of("plot", operation_of<CamPlotArguments, cam_plot>),
+       command_of("laser", operation_of<CamLaserArguments, cam_laser>),
        command_of("wire", operation_of<CamWireArguments, cam_wire>),
        command_of("relief", with_tools<CamReliefArguments, cam_relief>)}};
   return commands;

@@ -77,6 +77,13 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
   return part;
 }
 
+ProfileSide side_of(const std::string& side) {
+  return side == "outside"  ? ProfileSide::outside
+         : side == "inside" ? ProfileSide::inside
+         : side == "on"     ? ProfileSide::on
+                            : ProfileSide::part;
+}
+
 std::string size_words(const PartDrawing& part) {
   return fmt::format("drawn: X {:.6g} to {:.6g}, Y {:.6g} to {:.6g} mm\n", to_mm(part.least.x).value(),
                      to_mm(part.most.x).value(), to_mm(part.least.y).value(), to_mm(part.most.y).value());

@@ -29,6 +29,9 @@ std::optional<PartDrawing> part_of(Drawing drawing, const MillJob& job, Nanometr
 // Checks that what is drawn lies on the sheet of material. Reports an error "profile.off-sheet" about `file`.
 void check_sheet(const DrawnBox& sheet, const DrawnBox& box, const std::string& file, Diagnostics& findings);
 
+// Converts --side.
+ProfileSide side_of(const std::string& side);
+
 // Returns one line, e.g. "drawn: X 0 to 10, Y 0 to 5 mm".
 std::string size_words(const PartDrawing& part);
 

@@ -103,13 +103,6 @@ nlohmann::ordered_json lengths_json(const MillPlan& plan, DrawnPoint park) {
           {"rapids_mm", lengths.rapids_nm / nanometres_per_mm}};
 }
 
-ProfileSide side_of(const std::string& side) {
-  return side == "outside"  ? ProfileSide::outside
-         : side == "inside" ? ProfileSide::inside
-         : side == "on"     ? ProfileSide::on
-                            : ProfileSide::part;
-}
-
 // Whether depth and step give a number of layers that a program can have.
 void check_layers(Nanometres depth, Nanometres step, LengthArguments& lengths) {
   constexpr std::int64_t finest_step = 1'000;  // nm

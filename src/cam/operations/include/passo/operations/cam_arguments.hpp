@@ -276,6 +276,63 @@ struct CamPlotArguments : CamMillArguments {
 };
 std::vector<CamOption> cam_options_of(CamPlotArguments& arguments);
 
+// The beam of a laser.
+struct CamBeamArguments {
+  double power = 80;             // percent of the highest power
+  std::uint32_t max_s = 1000;    // S word of the highest power
+  std::string beam = "dynamic";  // M4; or constant, M3
+  std::uint32_t passes = 1;
+  std::string step;              // how much lower each pass is; empty: all have the same Z
+  std::string focus;             // Z; empty: the program has no Z
+  std::string air = "off";       // mist or flood
+  double acceleration = 1000;    // mm/s², for overscan and time
+  std::string rapid = "6000mm";  // for the time
+};
+
+// Drawings that a laser cuts or scores.
+struct CamLaserLineArguments {
+  std::string side = "part";  // outside, inside or on
+  std::string kerf = "0mm";
+  std::string lead;  // empty: none
+  std::vector<std::string> score_layers;
+  std::vector<std::string> score_colors;
+  double score_power = 20;  // percent
+  std::string score_feed;   // empty: as `feed`
+  std::string join = "0.1mm";
+};
+
+// Pictures that a laser engraves line by line.
+struct CamLaserPictureArguments {
+  std::string width = "100mm";
+  std::string line_distance = "0.1mm";
+  std::string mode = "grey";  // dither, ordered or threshold
+  double threshold = 50;      // percent of white
+  double gamma = 1;
+  double least_power = 0;  // percent
+  std::string scan = "x";  // or y
+  bool invert = false;
+  bool one_way = false;
+  std::string overscan;  // empty: as the feed requires
+};
+
+// A test grid of power and feed.
+struct CamLaserGridArguments {
+  std::string grid;  // COLUMNSxROWS; empty: none
+  std::string grid_power = "20,100";
+  std::string grid_feed = "500mm,3000mm";
+  std::string cell = "8mm";
+  bool grid_outlines = false;
+};
+
+struct CamLaserArguments : CamMillArguments,
+                           CamBeamArguments,
+                           CamLaserLineArguments,
+                           CamLaserPictureArguments,
+                           CamLaserGridArguments {
+  CamLaserArguments() { feed = "1000mm"; }
+};
+std::vector<CamOption> cam_options_of(CamLaserArguments& arguments);
+
 struct CamWireArguments : CamMillArguments {
   std::string axes;             // XY or XYUV; empty: as the profiles require
   std::string keep = "inside";  // outside or line

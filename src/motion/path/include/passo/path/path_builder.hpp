@@ -167,7 +167,7 @@ class PathBuilder final : public Source<PathItem>, private PathMemory {
   bool set_power(double s);
   bool set_digital(const operation::SetDigitalOutput& set);
   bool set_analog(const operation::SetAnalogOutput& set);
-  void note_new_speed();
+  void record_new_speed();
   bool must_switch(bool has_item, const PathItem& item) const;
   void set_path_mode(const operation::SetPathMode& mode);
   void set_merge_tolerance(Mm given);
