@@ -105,6 +105,40 @@ TEST_P(OutputsInMotion, survive_a_bad_link) {
 
 INSTANTIATE_TEST_SUITE_P(Board, OutputsInMotion, testing::Values("router", "uno"));
 
+// The energy of the beam: the sum of power times time, in seconds at full power.
+class EnergyLog final : public MachineObserver {
+ public:
+  explicit EnergyLog(double clock) : clock_(clock) {}
+  void on_steps(Ticks /*time*/, std::uint8_t /*stepped*/, std::uint8_t /*directions*/) override {}
+  void on_outputs(Ticks time, const BoardOutputs& outputs) override {
+    energy += power_ * static_cast<double>(time.count - since_) / clock_;
+    since_ = time.count;
+    power_ = (outputs.switches & 1U) != 0 ? outputs.spindle_rpm / 24'000.0 : 0;
+  }
+  double energy = 0;
+
+ private:
+  double clock_;
+  double power_ = 0;
+  std::int64_t since_ = 0;
+};
+
+// With M4 the energy is that of the programmed speed, however slow the corners are.
+TEST_P(OutputsInMotion, power_that_follows_the_speed_gives_the_same_energy_in_corners) {
+  const MachineDescription machine = laser_machine(GetParam());
+  std::string program = "G21 G90 G61 M4 S500 F1800\n";
+  for (int i = 1; i <= 30; ++i) program += fmt::format("G1 X{} Y{}\n", i / 2 * 2, (i + 1) / 2 * 2);
+  EnergyLog log(machine.board.clock.value());
+  Diagnostics diagnostics;
+  DrivenProgram job(ProgramReader::from_text("t", program + "M2\n"), machine, InterpreterOptions(), diagnostics,
+                    {.line = LineOptions{}});
+  job.machine().add_observer(log);
+  run_to_end(job, diagnostics);
+  const double wanted = 0.5 * 60 / 30;  // 60 mm at 30 mm/s
+  EXPECT_NEAR(log.energy, wanted, 0.01 * wanted);
+  std::printf("%.4f of %.4f\n", log.energy, wanted);
+}
+
 // Whether the beam is on, and since when the machine stands.
 class BeamWatch final : public MachineObserver {
  public:
