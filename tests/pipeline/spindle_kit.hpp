@@ -22,8 +22,8 @@ inline MachineDescription lathe(const SpindleDescription& spindle, bool jerk = f
   return lathe;
 }
 
-inline constexpr SpindleDescription ideal{.counts_per_turn = 4096};
-inline constexpr SpindleDescription rippling{
+inline const SpindleDescription ideal{.counts_per_turn = 4096};
+inline const SpindleDescription rippling{
     .counts_per_turn = 4096, .run_up = Seconds(0.5), .droop = 0.03, .ripple = 0.05, .ripple_rate = Hertz(2)};
 
 // Each step of Z in one direction, and the angle of the spindle, known to the machine and not to the controller, at
