@@ -40,7 +40,7 @@ TEST_F(Inputs, of_every_example_machine_let_a_plain_run_begin_on_every_board_tha
   const std::vector<ExampleBoards> examples = {
       {"bench", {}},        {"foam", {"mega"}},   {"first-machine", {"first_board"}},
       {"forty-eight", {}},  {"gantry", {"mega"}}, {"pantograph", {}},
-      {"pico", {"pico"}},   {"router", {}},       {"strong-router", {}},
+      {"pico", {"pico"}},   {"router", {}},       {"router-vfd", {}},   {"strong-router", {}},
       {"tool-changer", {}}, {"tool-rack", {}},    {"tool-setter", {}},
       {"touch-plate", {}},  {"uno", {"uno"}},     {"windings", {"uno_half_step"}}};
   std::size_t count = 0;

@@ -3,6 +3,7 @@
 #include "kit/motion_outputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -311,6 +312,20 @@ TEST_P(BeamInStops, no_change_of_power_costs_time) {
   }
   EXPECT_NEAR(times[0], times[1], GetParam() ? 0.05 : 0.0001);
   std::printf("%.4f s, and %.4f s without changes\n", times[0], times[1]);
+}
+
+// A change of power needs two items or more of the queue. Too many in a corner would leave a board of 42 places without
+// motion, so that it stops on the path.
+TEST(BeamOverALine, corners_with_m4_do_not_stop_a_board_with_a_short_queue) {
+  const MachineDescription machine = laser_machine("uno");
+  std::string program = "G21 G90 G64 P0.02 M4 S500 F1000\nG1 X50\nY20\nX0\nY0\nG2 X0 Y0 I5\n";
+  for (int i = 1; i <= 100; ++i) program += fmt::format("G1 X{:.3f} Y{:.3f}\n", 0.2 * i, 5 * std::sin(0.05 * i));
+  Diagnostics diagnostics;
+  DrivenProgram job(ProgramReader::from_text("t", program + "M2\n"), machine, InterpreterOptions(), diagnostics,
+                    {.line = LineOptions{}});
+  run_to_end(job, diagnostics);
+  EXPECT_EQ(job.drive().ledger()->recoveries(), 0);
+  EXPECT_EQ(job.drive().ledger()->slowdowns(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Line, BeamInStops, testing::Bool());
