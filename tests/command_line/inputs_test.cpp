@@ -37,12 +37,22 @@ struct ExampleBoards {
 };
 
 TEST_F(Inputs, of_every_example_machine_let_a_plain_run_begin_on_every_board_that_it_can_have) {
-  const std::vector<ExampleBoards> examples = {
-      {"bench", {}},        {"foam", {"mega"}},   {"first-machine", {"first_board"}},
-      {"forty-eight", {}},  {"gantry", {"mega"}}, {"pantograph", {}},
-      {"pico", {"pico"}},   {"router", {}},       {"router-vfd", {}},   {"strong-router", {}},
-      {"tool-changer", {}}, {"tool-rack", {}},    {"tool-setter", {}},
-      {"touch-plate", {}},  {"uno", {"uno"}},     {"windings", {"uno_half_step"}}};
+  const std::vector<ExampleBoards> examples = {{"bench", {}},
+                                               {"foam", {"mega"}},
+                                               {"first-machine", {"first_board"}},
+                                               {"forty-eight", {}},
+                                               {"gantry", {"mega"}},
+                                               {"pantograph", {}},
+                                               {"pico", {"pico"}},
+                                               {"router", {}},
+                                               {"router-vfd", {}},
+                                               {"strong-router", {}},
+                                               {"tool-changer", {}},
+                                               {"tool-rack", {}},
+                                               {"tool-setter", {}},
+                                               {"touch-plate", {}},
+                                               {"uno", {"uno"}},
+                                               {"windings", {"uno_half_step"}}};
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(source / "examples/machines")) {
     count += entry.path().extension() == ".toml" ? 1 : 0;

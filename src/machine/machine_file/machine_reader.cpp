@@ -70,7 +70,6 @@ class MachineReader {
   void look_at_work(const TomlEntry& entry) const;
   void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_park_of(const TomlEntry& entry);
-  void read_hooks_of(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -136,7 +135,7 @@ MachineDescription MachineReader::read() {
   if (machine_.is_core_xy && axes != nullptr) check_kinematics(top.place_of(kinematics_key));
   if (park != nullptr) read_park_of(*park);
   read_homing(homing);
-  if (hooks != nullptr) read_hooks_of(*hooks);
+  if (hooks != nullptr) machine_.hooks = read_hooks(*hooks, reporter_, end);
   if (camera != nullptr) check_camera(*camera, reporter_, end);
   if (handwheel != nullptr) machine_.handwheel = read_handwheel(*handwheel, machine_.axes, reporter_, end);
   if (tool_change != nullptr) machine_.tool_change = read_tool_change(*tool_change, machine_.axes, reporter_, end);
@@ -218,13 +217,6 @@ void MachineReader::read_pins(const TomlEntry* inputs, const TomlEntry* outputs)
 void MachineReader::read_park_of(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "park", entry.place, reporter_);
   machine_.park = read_park(reader, machine_.axes);
-  finish(reader);
-}
-
-void MachineReader::read_hooks_of(const TomlEntry& entry) {
-  const TomlTable& table = std::get<TomlTable>(entry.value.content);
-  TableReader reader(table, "hooks", entry.place, reporter_);
-  machine_.hooks = read_hooks(reader, table);
   finish(reader);
 }
 

@@ -45,10 +45,6 @@ concept OfOthers =
               operation::TurnProbe, operation::Comment, operation::Message, operation::Print, operation::Log,
               operation::Reset, operation::SetFeedReference>;
 
-bool has_other_speed(const OutputState& one, const OutputState& other) {
-  return one.spindle != other.spindle || one.revolutions_per_minute != other.revolutions_per_minute;
-}
-
 template <class... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;
@@ -104,22 +100,6 @@ bool PathBuilder::next(PathItem& item) {
   if (switches) in_motion_.hand_on();
   handed_on_ = outputs();
   return next(item);
-}
-
-// For a spindle whose speed is awaited: what has changed since the last item.
-void PathBuilder::record_new_speed() {
-  const bool is_off = outputs().spindle == SpindleDirection::off;
-  speed_wait_.is_new = !is_off && (speed_wait_.is_new || has_other_speed(handed_on_, outputs()));
-  // A tapping cycle (G84) permits no overrides.
-  const bool turns_back = !is_off && outputs().spindle == reversed(handed_on_.spindle);
-  if (!turns_back || heeds().feed_override) return;
-  report(Severity::error, "path.tap-on-bus", path_says::tap_on_bus, path_says::not_on_bus);
-}
-
-// A change of the digital outputs needs a stop only where no motion follows that switches them.
-bool PathBuilder::must_switch(bool has_item, const PathItem& item) const {
-  if (outputs() != handed_on_) return true;
-  return in_motion_.is_news() && !(has_item && std::holds_alternative<Segment>(item));
 }
 
 // Some operations stand for several operations. These come before the next operation of the program.

@@ -43,6 +43,10 @@ bool turns_only_rotary_axes(const Curve& curve) {
   return true;
 }
 
+bool has_other_speed(const OutputState& one, const OutputState& other) {
+  return one.spindle != other.spindle || one.revolutions_per_minute != other.revolutions_per_minute;
+}
+
 }  // namespace
 
 // What is left of an earlier change of speed is added.
@@ -189,6 +193,22 @@ void PathBuilder::check_thread(const Curve& curve, MmPerSecond speed) {
                      is_rotary(slowest) ? "degrees" : "mm", limit),
          fmt::format("S up to {:g}, or up to {:.{}f} {}/rev", rounded_down(rpm / times, rpm / times < 10 ? 2 : 0),
                      rounded_down(pitch / times, decimals), decimals, unit));
+}
+
+// A change of the digital outputs needs a stop only where no motion follows that switches them.
+bool PathBuilder::must_switch(bool has_item, const PathItem& item) const {
+  if (outputs() != handed_on_) return true;
+  return in_motion_.is_news() && !(has_item && std::holds_alternative<Segment>(item));
+}
+
+// For a spindle whose speed is awaited: what has changed since the last item.
+void PathBuilder::record_new_speed() {
+  const bool is_off = outputs().spindle == SpindleDirection::off;
+  speed_wait_.is_new = !is_off && (speed_wait_.is_new || has_other_speed(handed_on_, outputs()));
+  // A tapping cycle (G84) permits no overrides.
+  const bool turns_back = !is_off && outputs().spindle == reversed(handed_on_.spindle);
+  if (!turns_back || heeds().feed_override) return;
+  report(Severity::error, "path.tap-on-bus", path_says::tap_on_bus, path_says::not_on_bus);
 }
 
 }  // namespace passo

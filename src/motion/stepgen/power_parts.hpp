@@ -3,9 +3,9 @@
 // The power of a part is that of its mean speed. So each part gets the energy per millimetre of the programmed speed,
 // whatever the speed does inside the part.
 //
-// A change of power costs the link two items or more, so changes have a least distance in time (`longest_ramp` divided by
-// the number of levels). Where the speed changes sooner, the power stays, and the next parts get what is owed to the path
-// or what it got too much. A change of the programmed power is not delayed.
+// A change of power costs the link two items or more, so changes have a least distance in time (`longest_ramp` divided
+// by the number of levels). Where the speed changes sooner, the power stays, and the next parts get what is owed to the
+// path or what it got too much. A change of the programmed power is not delayed.
 #pragma once
 
 #include <algorithm>
