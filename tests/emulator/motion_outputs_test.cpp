@@ -20,7 +20,8 @@ namespace {
 struct BoardWithOutputs {
   test::BoardKind kind;
   const char* machine;
-  Seconds latest;  // from a step to the edge of an output that belongs to it
+  Seconds latest;         // from a step to the edge of an output that belongs to it
+  double steps_late = 0;  // at 19,200 steps/s: the Pico's main loop switches outputs, in its passes
 };
 
 std::ostream& operator<<(std::ostream& out, const BoardWithOutputs& board) {
@@ -125,7 +126,9 @@ TEST_P(EmulatedOutputs, change_with_the_step_to_which_they_belong) {
   double latest = 0;
   for (std::size_t i = 0; i < made.size(); ++i) {
     const auto due = static_cast<std::int64_t>((2 + static_cast<double>(i) * 0.25) * machine.axes[0].steps_per_unit);
-    EXPECT_NEAR(made[i].x * machine.axes[0].steps_per_unit, static_cast<double>(due), 1.01) << i;
+    const double late = made[i].x * machine.axes[0].steps_per_unit - static_cast<double>(due);
+    EXPECT_GE(late, -1.01) << i;
+    EXPECT_LE(late, 1.01 + GetParam().steps_late) << i;
     latest = std::max(latest, after_step_[i]);
   }
   std::printf("from a step to the edge of its output: %.1f us at most\n", latest * 1e6);
@@ -134,7 +137,7 @@ TEST_P(EmulatedOutputs, change_with_the_step_to_which_they_belong) {
 
 const auto every_board = testing::Values(BoardWithOutputs{test::uno, "uno", Seconds(5e-6)},
                                          BoardWithOutputs{test::mega, "uno", Seconds(5e-6)},
-                                         BoardWithOutputs{test::pico, "pico", Seconds(50e-6)});
+                                         BoardWithOutputs{test::pico, "pico", Seconds(60e-6), 4});
 INSTANTIATE_TEST_SUITE_P(Board, EmulatedOutputs, every_board, testing::PrintToStringParamName());
 INSTANTIATE_TEST_SUITE_P(Board, EmulatedOutputsInFull, every_board, testing::PrintToStringParamName());
 
