@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "kit/scratch_folder.hpp"
 #include <fmt/format.h>
@@ -33,8 +33,6 @@ class DatabaseServer {
     EXPECT_TRUE(connection && (*connection)->execute("CREATE DATABASE " + name));
     return url(name);
   }
-  // As `systemctl restart` does: connections end, what was committed stays.
-  void restart() { EXPECT_EQ(run("pg_ctl restart --mode=fast --wait --silent" + data_and_log()), 0); }
   // As a power failure does.
   void kill_and_start() {
     EXPECT_EQ(run("pg_ctl stop --mode=immediate --silent" + data_and_log()), 0);

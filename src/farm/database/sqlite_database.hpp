@@ -16,7 +16,6 @@ class SqliteDatabase final : public Database {
   using Database::execute;
   Rows execute(std::string_view statement, std::span<const Value> parameters) override;
   Done execute_all(const std::string& statements) override;
-  std::string_view engine() const override { return "SQLite"; }
   std::string_view identity_column() const override { return "INTEGER PRIMARY KEY AUTOINCREMENT"; }
   std::string_view lock_rows() const override { return ""; }
   std::string_view skip_locked() const override { return ""; }

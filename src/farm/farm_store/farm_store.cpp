@@ -100,10 +100,4 @@ FarmStore::Answer<Unit> FarmStore::cancel_job(std::int64_t id) {
   return refuse(known->empty() ? StoreRefusal::no_such_job : StoreRefusal::job_ended);
 }
 
-FarmStore::Answer<Unit> FarmStore::record(const std::string& who, const std::string& what, double now) {
-  const auto recorded = database_->execute("INSERT INTO audit (at, who, what) VALUES ($1, $2, $3)", {now, who, what});
-  if (!recorded) return Failure{store_error(recorded.error())};
-  return Unit{};
-}
-
 }  // namespace passo

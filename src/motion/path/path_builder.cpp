@@ -124,6 +124,10 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
         .kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .heeds = heeds(), .source = operation.source};
     return true;
   };
+  const auto change_tool = [&](std::int32_t tool, bool by_machine) {
+    act(Action::Kind::tool_change, Seconds(0), tool);
+    return std::get<Action>(item).by_machine = by_machine, true;
+  };
   const auto set_output = [&](auto& output, auto value) {
     output = value;
     outputs_source_ = operation.source;
@@ -172,14 +176,8 @@ bool PathBuilder::add(const Operation& operation, PathItem& item) {
           [&](const operation::SetMist& mist) { return set_output(commanded_.mist, mist.on); },
           [&](const operation::SetFlood& flood) { return set_output(commanded_.flood, flood.on); },
           [&](const operation::Dwell& dwell) { return act(Action::Kind::dwell, dwell.time); },
-          [&](const operation::ChangeTool& change) {
-            act(Action::Kind::tool_change, Seconds(0), change.tool);
-            return std::get<Action>(item).by_machine = change.by_machine, true;
-          },
-          [&](const operation::SetToolNumber& set) {
-            act(Action::Kind::tool_change, Seconds(0), set.tool);
-            return std::get<Action>(item).by_machine = true;  // the tool is in the spindle
-          },
+          [&](const operation::ChangeTool& change) { return change_tool(change.tool, change.by_machine); },
+          [&](const operation::SetToolNumber& set) { return change_tool(set.tool, true); },  // it is in the spindle
           [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop, Seconds(0), hand_.at_stop()); },
           [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
           [&](const operation::ProgramEnd&) {

@@ -65,10 +65,3 @@ CREATE TABLE attempts (
 CREATE INDEX attempts_by_job ON attempts (job, state);
 -- A machine makes one part at a time, whatever a program believes.
 CREATE UNIQUE INDEX open_attempt_of_machine ON attempts (machine) WHERE state < 3;
-
-CREATE TABLE audit (
-  id {identity},
-  at DOUBLE PRECISION NOT NULL,
-  who TEXT NOT NULL,
-  what TEXT NOT NULL
-);

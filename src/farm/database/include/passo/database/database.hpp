@@ -86,7 +86,6 @@ class Database {
   Done transact(const std::function<Done(Database&)>& work);
   static constexpr int most_tries = 20;
 
-  virtual std::string_view engine() const = 0;
   // The definition of a primary key that numbers the rows from 1, and never uses a number again.
   virtual std::string_view identity_column() const = 0;
   // The end of a SELECT that locks its rows until the end of the transaction; and of one that passes over rows that

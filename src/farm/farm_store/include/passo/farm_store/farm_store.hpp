@@ -164,8 +164,6 @@ class FarmStore {
   // Open attempts of machines that were last heard before `before` become unknown. Returns their number.
   Answer<std::int64_t> doubt_silent(double before);
 
-  Answer<Unit> record(const std::string& who, const std::string& what, double now);
-
  private:
   FarmStore(Database& database, std::string passo) : database_(&database), passo_(std::move(passo)) {}
 
